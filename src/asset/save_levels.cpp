@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "asset/file_format.hpp"
 #include "asset/gltf/write/levels.hpp"
-#include "asset/io/file_format.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "faqem/error.hpp"
 
@@ -73,8 +73,11 @@ std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size
 
 std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::path& file,
                                      Overwrite overwrite) {
-    if (detail::format_by_name(file) != detail::Format::gltf)
-        throw UnsupportedError(file.string(), "", "cannot hold levels: the name must end in .glb or .gltf");
+    const detail::FileFormat* format = detail::format_by_name(file);
+    if (!format || !format->write_levels)
+        throw UnsupportedError(file.string(), "",
+                               "cannot hold levels: the name must end in " +
+                                   detail::listed_extensions(detail::FormatUse::write_levels));
     check_levels(levels);
     const std::size_t parts = levels[0].asset.parts.size();
     detail::LeveledAsset leveled;
@@ -82,7 +85,7 @@ std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::p
     for (std::size_t p = 0; p < parts; ++p) leveled.coverage.push_back(coverage_of(levels, p));
     leveled.asset = std::move(levels[0].asset);
     for (std::size_t i = 1; i < levels.size(); ++i) append_level(leveled.asset, std::move(levels[i].asset));
-    return detail::write_gltf_levels(leveled, file, overwrite);
+    return format->write_levels(leveled, file, overwrite);
 }
 
 }  // namespace faqem

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "asset/file_format.hpp"
+#include "asset/io/file_names.hpp"
 #include "cli/output_file.hpp"
 
 namespace faqem::cli {
@@ -25,7 +27,7 @@ constexpr double low_quality = 34;
 constexpr double safety_factor = 0.98;
 
 bool is_image(const fs::path& file) {
-    const std::string extension = file.extension().string();
+    const std::string extension = detail::lower_case_extension(file);
     return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp";
 }
 
@@ -135,7 +137,7 @@ ModelBytes model_bytes(const Asset& asset, const fs::path& file) {
         if (!entry.is_regular_file()) continue;
         (is_image(entry.path()) ? result.images : result.geometry) += entry.file_size();
     }
-    if (file.extension() == ".glb") {
+    if (const detail::FileFormat* format = detail::format_by_name(file); format && format->holds_images) {
         for (const Image& image : asset.images) result.images += image.encoded.size();
         result.images = std::min(result.images, result.geometry);
         result.geometry -= result.images;

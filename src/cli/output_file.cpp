@@ -8,8 +8,9 @@
 #include <span>
 #include <string>
 
+#include "asset/file_format.hpp"
+#include "asset/io/file_names.hpp"
 #include "asset/io/recovery.hpp"
-#include "asset/io/side_files.hpp"
 #include "asset/io/temporary_file.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/protected_files.hpp"
@@ -37,8 +38,9 @@ void clean_folder_once(const fs::path& folder) {
 void check_output(const fs::path& file, Overwrite overwrite) {
     std::error_code error;
     check_unprotected(file);
-    if (lower_case_extension(file) == ".gltf")
-        check_unprotected(file.parent_path() / detail::buffer_file_name(file.stem().string()));
+    if (const detail::FileFormat* format = detail::format_by_name(file);
+        format && format->side_file.is_always_written)
+        check_unprotected(file.parent_path() / format->side_file.name(file.stem().string()));
     const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
     if (!fs::is_directory(folder, error))
         throw WriteError(file.string() + ": no such directory: " + folder.string());
@@ -62,18 +64,28 @@ void check_different(const fs::path& file, const fs::path& other) {
 }
 
 void check_extension(const fs::path& file, const std::vector<std::string_view>& extensions) {
-    const std::string extension = lower_case_extension(file);
+    const std::string extension = detail::lower_case_extension(file);
     if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
     std::string known;
     for (const std::string_view one : extensions) known += (known.empty() ? "" : ", ") + std::string(one);
     throw OptionError(file.string() + ": the file name must end in one of " + known);
 }
 
+std::string format_names(const std::string& separator) {
+    std::string names;
+    for (const std::string_view extension : detail::format_extensions(detail::FormatUse::write))
+        names += (names.empty() ? "" : separator) + std::string(extension.substr(1));
+    return names;
+}
+
+std::string default_format() {
+    return std::string(detail::format_extensions(detail::FormatUse::write).front().substr(1));
+}
+
 std::string extension_of_format(const std::string& format) {
-    for (const char* known : {"glb", "gltf", "obj", "ply", "stl"}) {
-        if (format == known) return "." + format;
-    }
-    throw OptionError("--format: unknown value '" + format + "' (known: glb, gltf, obj, ply, stl)");
+    const std::vector<std::string_view> known = detail::format_extensions(detail::FormatUse::write);
+    if (std::find(known.begin(), known.end(), "." + format) != known.end()) return "." + format;
+    throw OptionError("--format: unknown value '" + format + "' (known: " + format_names() + ")");
 }
 
 void make_folder(const fs::path& folder) {

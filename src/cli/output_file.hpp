@@ -9,14 +9,11 @@
 #include <system_error>
 #include <vector>
 
-#include "asset/io/file_format.hpp"
 #include "asset/io/file_set.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
-
-using detail::lower_case_extension;
 
 /// Checks that a file can be written: it is not protected (protect_input()), nor is the buffer of a .gltf
 /// file, its directory exists and is writable, it is not a directory, device or pipe, and it exists only if
@@ -35,6 +32,13 @@ void check_different(const std::filesystem::path& file, const std::filesystem::p
 /// \param extensions  in lower case, with the dot
 /// \throws OptionError  the extension is another one
 void check_extension(const std::filesystem::path& file, const std::vector<std::string_view>& extensions);
+
+/// Values of --format: the extensions of the formats that can be written, without the dot. The first is the default.
+/// \param separator  between them
+std::string format_names(const std::string& separator = ", ");
+
+/// The default value of --format.
+std::string default_format();
 
 /// Returns the file extension of a value of --format, for example `.glb` for `glb`.
 /// \throws OptionError  --format has no such value

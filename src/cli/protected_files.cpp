@@ -10,8 +10,7 @@
 #include <utility>
 
 #include "asset/io/file_set.hpp"
-#include "asset/io/side_files.hpp"
-#include "cli/referenced_files.hpp"
+#include "asset/model_files.hpp"
 #include "cli/side_file_owners.hpp"
 #include "faqem/error.hpp"
 
@@ -55,7 +54,7 @@ private:
     void read_inputs() {
         for (const fs::path& input : std::exchange(unread_inputs_, {})) {
             if (const std::optional<FileId> id = file_id(input)) inputs_.emplace(*id, input);
-            for (const fs::path& file : referenced_files(input, References::all))
+            for (const fs::path& file : detail::referenced_files(input, detail::References::all))
                 if (const std::optional<FileId> id = file_id(file)) users_.emplace(*id, input);
         }
     }

@@ -4,9 +4,8 @@
 #include <system_error>
 #include <vector>
 
-#include "asset/io/file_format.hpp"
-#include "asset/io/side_files.hpp"
-#include "cli/referenced_files.hpp"
+#include "asset/file_format.hpp"
+#include "asset/model_files.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -28,7 +27,7 @@ const fs::path* find_same(std::span<const fs::path> files, const fs::path& file)
 void check_owner(const fs::path& owner, std::span<const fs::path> files) {
     std::error_code error;
     if (!fs::is_regular_file(owner, error) || find_same(files, owner)) return;
-    for (const fs::path& needed : referenced_files(owner, References::all))
+    for (const fs::path& needed : detail::referenced_files(owner, detail::References::all))
         if (const fs::path* file = find_same(files, needed))
             throw WriteError(file->string() + ": is needed by " + owner.string() +
                              "; choose another output name");
@@ -38,16 +37,19 @@ void check_owner(const fs::path& owner, std::span<const fs::path> files) {
 
 void check_side_files_unshared(std::span<const fs::path> files) {
     for (const fs::path& model : files) {
-        const std::string extension = detail::lower_case_extension(model);
-        if (extension != ".gltf" && extension != ".obj") continue;
+        const detail::FileFormat* format = detail::format_by_name(model);
+        if (format == nullptr || !format->has_image_files) continue;
         const bool replaces_side_file = std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
             std::error_code error;
             return file != model && fs::exists(file, error);
         });
         if (!replaces_side_file) continue;
         const std::string stem = model.stem().string();
-        for (const std::string& name : {stem + ".gltf", stem + ".obj", detail::library_file_name(stem)})
-            check_owner(model.parent_path() / name, files);
+        for (const detail::FileFormat& other : detail::file_formats()) {
+            if (!other.has_image_files) continue;
+            check_owner(model.parent_path() / (stem + std::string(other.extension)), files);
+            if (other.side_file.name) check_owner(model.parent_path() / other.side_file.name(stem), files);
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <sstream>
 
-#include "cli/output_file.hpp"
+#include "asset/file_format.hpp"
 #include "cli/strict.hpp"
 #include "faqem/error.hpp"
 
@@ -22,25 +22,21 @@ Asset load_model(const std::filesystem::path& file, Strictness strictness) {
 BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
                                    const std::filesystem::path& out) {
     if (requested.kind != Bake::automatic) return requested;
-    const std::string extension = lower_case_extension(out);
+    const detail::FileFormat* format = detail::format_by_name(out);
+    if (!format) return requested;
     const auto no_part_has = [&](auto values) {
         return std::all_of(source.parts.begin(), source.parts.end(),
                            [&](const Part& p) { return (p.*values).empty(); });
     };
     const bool bare = source.materials.empty() && no_part_has(&Part::colors);
-    if (extension == ".stl") {
-        requested.kind = Bake::none;
-        // Flat normals need no map to the original. If the source has normals, save() warns that STL cannot
-        // store them.
+    requested.kind = bare ? format->bare_bake : format->bake;
+    // Flat normals need no map to the original. If the source has normals, save() warns that the format cannot store
+    // them.
+    if (!format->holds_normals)
         requested.normals = no_part_has(&Part::normals) ? Normals::none : Normals::flat;
-    }
-    if (extension == ".ply") requested.kind = bare ? Bake::none : Bake::vertex;
-    if (extension == ".obj" && bare) requested.kind = Bake::none;
-    if (requested.untouched != UntouchedParts::automatic) return requested;
-    // OBJ and PLY can store parts without materials as they are. Materials of glTF they cannot.
-    const bool is_obj_or_ply = extension == ".obj" || extension == ".ply";
-    if (is_obj_or_ply && source.materials.empty()) requested.untouched = UntouchedParts::kept;
-    if (is_obj_or_ply && source.source) requested.untouched = UntouchedParts::baked;
+    if (requested.untouched != UntouchedParts::automatic || !format->keeps_plain_parts) return requested;
+    if (source.materials.empty()) requested.untouched = UntouchedParts::kept;
+    if (source.source) requested.untouched = UntouchedParts::baked;
     return requested;
 }
 

@@ -67,6 +67,24 @@ TEST_CASE("simplify --max-bytes reduces faces and images and adds a warning to t
     CHECK(size.images == out.images[0].encoded.size());
 }
 
+TEST_CASE("--max-bytes counts images as such whatever the case of the extension") {
+    for (const std::string extension : {".glb", ".gltf", ".obj"}) {
+        std::string upper = extension;
+        for (char& c : upper)
+            if (c != '.') c = static_cast<char>(c - 'a' + 'A');
+        const auto lower_size = faqem::cli::model_bytes(noisy_sheet(10), "out" + extension);
+        const auto upper_size = faqem::cli::model_bytes(noisy_sheet(10), "OUT" + upper);
+        CHECK(upper_size.images == lower_size.images);
+        CHECK(upper_size.geometry == lower_size.geometry);
+        CHECK(upper_size.images > 100'000);
+    }
+    const Folder folder;
+    faqem::save(noisy_sheet(60), folder / "in.glb");
+    for (const std::string name : {"out.glb", "OUT.GLB"})
+        REQUIRE(run(folder, "simplify in.glb " + name + " --ratio 1 --max-bytes 60000").code == 0);
+    CHECK(read(folder / "OUT.GLB") == read(folder / "out.glb"));
+}
+
 TEST_CASE("simplify --max-bytes keeps an image format that was specified") {
     const Folder folder;
     faqem::save(noisy_sheet(20), folder / "in.glb");

@@ -53,8 +53,7 @@ FAQEM_EXPORT std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> tex
 /// Libraries that read_mtl() rejects are accepted.
 /// \param text  borrowed
 /// \param name  path of the library
-FAQEM_EXPORT std::vector<std::string> texture_statements(std::span<const std::uint8_t> text,
-                                                         const std::string& name);
+std::vector<std::string> texture_statements(std::span<const std::uint8_t> text, const std::string& name);
 
 /// Adds a material and its images to the asset. Images that the asset already has are shared. An image that
 /// is missing or outside the folder is a warning, and the material has no such texture.

@@ -8,7 +8,7 @@
 
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
-#include "asset/io/side_files.hpp"
+#include "asset/io/file_names.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/text/text_buffer.hpp"
 

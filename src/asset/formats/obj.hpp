@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "asset/io/reference_list.hpp"
 #include "faqem/asset.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -37,8 +37,16 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
 /// otherwise it is split after each `.mtl`.
 /// \param statement  without its keyword
 /// \param folder     folder of the OBJ file
-FAQEM_EXPORT std::vector<std::string> library_names(const std::string& statement,
-                                                    const std::filesystem::path& folder);
+std::vector<std::string> library_names(const std::string& statement, const std::filesystem::path& folder);
+
+/// Adds the libraries of an OBJ file, every texture statement of these, and other files that it names. Of the files,
+/// only libraries in the folder of the model or below it are read.
+/// \param model  path of a regular file, which may be larger than the memory
+void list_obj_references(const std::filesystem::path& model, ReferenceList& files);
+
+/// Adds the library itself and its textures.
+/// \param library  path of a regular file
+void list_library_references(const std::filesystem::path& library, ReferenceList& files);
 
 /// Writes an asset as NAME.obj, and as NAME.mtl and NAME_0.png ... if it has materials and images. The OBJ
 /// file is written last. The scene is flattened to world space. Positions are written in float precision if

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -109,15 +110,18 @@ PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string
     return header;
 }
 
-std::vector<std::string> ply_texture_files(std::span<const std::uint8_t> bytes, const std::string& file) {
-    std::vector<std::string> names;
-    for (TextScanner in(bytes, file, Continuation::no); in.skip_to_content(); in.next_line()) {
-        const std::string_view key = in.word();
+void list_ply_references(const std::filesystem::path& model, ReferenceList& files) {
+    std::vector<std::uint8_t> header(std::size_t{1} << 20);  // longer ones do not occur
+    std::ifstream in(model, std::ios::binary);
+    in.read(reinterpret_cast<char*>(header.data()), static_cast<std::streamsize>(header.size()));
+    header.resize(static_cast<std::size_t>(in.gcount()));
+    for (TextScanner text(header, model.string(), Continuation::no); text.skip_to_content();
+         text.next_line()) {
+        const std::string_view key = text.word();
         if (key == "end_header") break;
-        if ((key == "comment" || key == "obj_info") && in.accept_word("TextureFile"))
-            names.push_back(in.rest_of_line());
+        if ((key == "comment" || key == "obj_info") && text.accept_word("TextureFile"))
+            files.add(text.rest_of_line(), ReferenceSyntax::file_name, Readable::no);
     }
-    return names;
 }
 
 }  // namespace faqem::detail

@@ -4,11 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "faqem/export.hpp"
+#include "asset/io/reference_list.hpp"
 
 namespace faqem::detail {
 
@@ -46,10 +47,8 @@ struct PlyHeader {
 /// \throws InputError  with the line, if the header is invalid
 PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);
 
-/// Returns the file names of the comments `TextureFile` in the header of a PLY file, which may be damaged.
-/// \param bytes  the file, or as much of it as may be header, borrowed
-/// \param file   path of the file
-FAQEM_EXPORT std::vector<std::string> ply_texture_files(std::span<const std::uint8_t> bytes,
-                                                        const std::string& file);
+/// Adds the files of the comments `TextureFile` in the header, which load() does not read.
+/// \param model  path of a regular file, which may be damaged
+void list_ply_references(const std::filesystem::path& model, ReferenceList& files);
 
 }  // namespace faqem::detail

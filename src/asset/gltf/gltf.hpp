@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "asset/io/reference_list.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {
@@ -24,6 +25,10 @@ Asset read_gltf(const std::filesystem::path& file);
 /// \param bytes  borrowed
 /// \param file   path for messages; buffers and images are searched in its folder
 Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
+
+/// Adds every `uri` of the document, also of extensions and extras. Those of buffers and images may be read.
+/// \param model  path of a regular file, which may be damaged: the references before the damage
+void list_gltf_references(const std::filesystem::path& model, ReferenceList& files);
 
 /// Writes an asset as GLB or, if the name ends in .gltf, as JSON with NAME.bin and NAME_0.png ... in the same
 /// folder. The output is deterministic.

@@ -140,7 +140,7 @@ std::string journal_text(std::span<const JournalEntry> entries) {
             text += " " + std::to_string(entry.old_content->size) + " " + hash_text(entry.old_content->hash);
         else
             text += " - -";
-        text += " " + escaped_name(entry.name) + "\n";
+        text.append(" ").append(escaped_name(entry.name)).append("\n");  // g++ 12 warns falsely about " " +
     }
     return text + closing_line(text);
 }

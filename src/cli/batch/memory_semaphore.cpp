@@ -1,9 +1,8 @@
 #include "cli/batch/memory_semaphore.hpp"
 
 #include <algorithm>
-#include <string>
 
-#include "cli/output_file.hpp"
+#include "asset/file_format.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::cli {
@@ -12,10 +11,8 @@ namespace {
 
 /// Minimum number of bytes per face in a file, including half a vertex per face.
 double min_bytes_per_face(const std::filesystem::path& model) {
-    const std::string extension = lower_case_extension(model);
-    if (extension == ".stl") return 50;
-    if (extension == ".obj" || extension == ".off") return 28;
-    return 15;
+    const detail::FileFormat* format = detail::format_by_name(model);
+    return format ? format->min_bytes_per_face : 15;
 }
 
 /// Peak memory per face, bytes. Measured on meshes of 0.1 and 1 million faces with the history that baking

@@ -1,11 +1,9 @@
 #include "cli/batch/plan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <string_view>
 
-#include "cli/output_file.hpp"
+#include "asset/file_format.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -14,12 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> model_extensions = {".glb", ".gltf", ".obj",
-                                                              ".ply", ".stl",  ".off"};
-
 bool is_model_name(const fs::path& file) {
-    const std::string extension = lower_case_extension(file);
-    return std::find(model_extensions.begin(), model_extensions.end(), extension) != model_extensions.end();
+    const detail::FileFormat* format = detail::format_by_name(file);
+    return format && format->read;
 }
 
 /// Returns why a link leads to no file, or an empty string if the entry is no link or leads to one.

@@ -17,10 +17,10 @@ struct BatchFile {
     std::string problem;      ///< why the input cannot be read; empty: it can, as far as is known
 };
 
-/// Finds the .glb, .gltf, .obj, .ply, .stl and .off files (ignoring case) of a directory and its
-/// subdirectories, and assigns the paths of the results: the same relative path in the output directory, with
-/// another extension. Links to directories are not followed. A link to a file that does not exist is a model
-/// with a problem. The output directory is not searched.
+/// Finds the files of a directory and its subdirectories that have the extension of a readable format (ignoring
+/// case), and assigns the paths of the results: the same relative path in the output directory, with another
+/// extension. Links to directories are not followed. A link to a file that does not exist is a model with a problem.
+/// The output directory is not searched.
 /// \param folder      input directory
 /// \param out_folder  output directory; need not exist
 /// \param extension   of the results, with the dot

@@ -8,11 +8,12 @@
 #include <optional>
 #include <vector>
 
+#include "asset/model_files.hpp"
+#include "cli/file_stamp.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory/memory_estimate.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/output_file.hpp"
-#include "cli/referenced_files.hpp"
 #include "cli/simplify_model.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
@@ -118,7 +119,7 @@ Result process_within_memory(const BatchFile& file, const BatchContext& work, co
 Result try_process(const BatchFile& file, const BatchContext& work, detail::Stopwatch& watch) try {
     if (is_interrupted()) return cancelled_result();
     if (!file.problem.empty()) throw ReadError(file.in.string(), "", file.problem);
-    std::vector<fs::path> inputs = referenced_files(file.in, References::readable);
+    std::vector<fs::path> inputs = detail::referenced_files(file.in, detail::References::readable);
     inputs.insert(inputs.begin(), file.in);
     const BatchEntry entry = {modification_stamp(inputs), work.options_key, "", 0, 0};
     const std::optional<BatchEntry> before =

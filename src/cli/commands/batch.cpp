@@ -24,7 +24,7 @@ namespace faqem::cli {
 namespace {
 
 struct BatchArguments : SimplifyArguments {
-    std::string in, out, format = "glb";
+    std::string in, out, format = default_format();
     std::uint32_t jobs = 0;
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
     bool resume = false, force = false;

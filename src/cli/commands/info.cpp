@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "asset/file_format.hpp"
 #include "asset/scene/flatten.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
@@ -156,7 +157,7 @@ CommandInfo info_command() {
     return {"info",
             "Count and measure the contents of a file",
             {"faqem info model.glb --json"},
-            {positional("FILE", arguments->file, ".glb, .gltf, .obj, .ply, .stl or .off")},
+            {positional("FILE", arguments->file, detail::listed_extensions(detail::FormatUse::read))},
             {flag_option("--json", arguments->json, "Print JSON instead of text")},
             [arguments] {
                 const AssetInfo asset = examine(load(arguments->file));

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "asset/file_format.hpp"
 #include "bake/scene/level_coverage.hpp"
 #include "bake/scene/scene_size.hpp"
 #include "bake/scene/step_progress.hpp"
@@ -30,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct LodArguments : SimplifyArguments {
-    std::string in, out, history, format = "glb", textures = "each";
+    std::string in, out, history, format = default_format(), textures = "each";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     ViewSettings view_settings;
     bool without_original = false, one_file = false, force = false, quiet = false;
@@ -47,8 +48,9 @@ struct Outputs {
     explicit Outputs(const LodArguments& a) {
         const std::string extension = extension_of_format(a.format);
         const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string();
-        if (a.one_file && extension != ".glb" && extension != ".gltf")
-            throw OptionError("--one-file: --format must be glb or gltf");
+        if (a.one_file && !detail::format_by_name(stem + extension)->write_levels)
+            throw OptionError("--one-file: the extension of --format must be " +
+                              detail::listed_extensions(detail::FormatUse::write_levels));
         const std::size_t count = a.levels.size() + (a.without_original ? 0 : 1);
         for (std::size_t i = 0; i < count; ++i)
             models.push_back(stem + "_LOD" + (a.one_file ? "" : std::to_string(i)) + extension);
@@ -291,7 +293,9 @@ std::vector<OptionInfo> chain_options(LodArguments& a) {
         flag_option("--without-original", a.without_original,
                     "LOD0 is the first level instead of the original"),
         flag_option("--one-file", a.one_file,
-                    "All levels in NAME_LOD.glb (or .gltf), with the extension MSFT_lod"),
+                    "All levels in one file NAME_LOD (" +
+                        detail::listed_extensions(detail::FormatUse::write_levels) +
+                        "), with the extension MSFT_lod"),
         text_option("--textures", "each|shared", a.textures,
                     "New textures: each (one for every level; default), shared (one for all levels, baked "
                     "for the finest)"),
@@ -314,9 +318,10 @@ CommandInfo lod_command() {
                         "Create a chain of levels of detail with textures and measured errors",
                         {"faqem lod statue.glb out --levels 0.5,0.25,0.1,0.01",
                          "faqem lod scan.ply out --levels error:0.1%,error:2% --bake vertex --format ply"}};
-    command.positionals = {positional("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off"),
-                           positional("OUTDIR", arguments->out,
-                                      "Directory for NAME_LOD0 ... and NAME_LOD.json; created if necessary")};
+    command.positionals = {
+        positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read)),
+        positional("OUTDIR", arguments->out,
+                   "Directory for NAME_LOD0 ... and NAME_LOD.json; created if necessary")};
     command.options = chain_options(*arguments);
     add_options(command.options, table_options(detail::in_lod, arguments->options));
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));

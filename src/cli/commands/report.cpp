@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "asset/model_files.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/file_stamp.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/output_file.hpp"
 #include "cli/protected_files.hpp"
-#include "cli/referenced_files.hpp"
 #include "cli/report/error_surface.hpp"
 #include "cli/report/model_comparison.hpp"
 #include "cli/report/report_page.hpp"
@@ -38,7 +39,8 @@ struct ReportArguments {
 };
 
 ReportedModel describe_model(const FlattenedModel& model, const MeshInfo& info) {
-    std::vector<std::filesystem::path> files = referenced_files(model.file, References::readable);
+    std::vector<std::filesystem::path> files =
+        detail::referenced_files(model.file, detail::References::readable);
     files.emplace_back(model.file);
     return {model.file, total_file_size(files), info, model.asset.materials.size(),
             model.asset.images.size()};

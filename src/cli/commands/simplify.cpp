@@ -7,9 +7,12 @@
 #include <string>
 #include <string_view>
 
+#include "asset/file_format.hpp"
+#include "asset/model_files.hpp"
 #include "cli/byte_budget.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/file_stamp.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory/machine_memory.hpp"
 #include "cli/memory/memory_estimate.hpp"
@@ -20,7 +23,6 @@
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/protected_files.hpp"
-#include "cli/referenced_files.hpp"
 #include "cli/simplify_model.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
@@ -46,7 +48,7 @@ struct SimplifyCommandArguments : SimplifyArguments {
 
 /// Checks all output files before the work starts, which may take hours.
 void check_outputs(const SimplifyCommandArguments& arguments) {
-    check_extension(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
+    check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.in);
     std::vector<std::filesystem::path> taken;
     for (const std::string& file :
@@ -127,7 +129,7 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
 
 /// Total size of a model and the files that it refers to.
 std::uint64_t input_bytes(const std::filesystem::path& model) {
-    std::vector<std::filesystem::path> files = referenced_files(model, References::readable);
+    std::vector<std::filesystem::path> files = detail::referenced_files(model, detail::References::readable);
     files.push_back(model);
     return total_file_size(files);
 }
@@ -249,8 +251,9 @@ CommandInfo simplify_command() {
          "faqem simplify scan.ply simplified.ply --bake vertex --faces 20000 --report simplified.json",
          "faqem simplify part.stl simplified.stl --max-error 0.05",
          "faqem simplify model.glb web.glb --max-bytes 2MB"}};
-    command.positionals = {positional("IN", arguments->in, ".glb, .gltf, .obj, .ply, .stl or .off"),
-                           positional("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")};
+    command.positionals = {
+        positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read)),
+        positional("OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write))};
     command.options = table_options(detail::in_simplify, arguments->options);
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
     add_options(command.options, run_options(*arguments));

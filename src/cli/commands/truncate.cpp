@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/file_format.hpp"
 #include "asset/io/recovery.hpp"
 #include "bake/scene/parts_from_histories.hpp"
 #include "cli/commands/commands.hpp"
@@ -78,7 +79,7 @@ int run(const TruncateArguments& arguments) {
     const Options options = make_options(arguments.options);
     if (options.bake.kind == Bake::keep)
         throw OptionError("--bake keep: cannot be used, because a history does not contain UVs");
-    check_extension(arguments.out, {".glb", ".gltf", ".obj", ".ply", ".stl"});
+    check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.history);
     if (!arguments.source.empty()) protect_input(arguments.source);
     check_output(arguments.out, arguments.overwrite());
@@ -125,7 +126,7 @@ CommandInfo truncate_command() {
                         {"faqem truncate statue.history statue-5000.glb --faces 5000 --source statue.glb"}};
     command.positionals = {
         positional("HISTORY", arguments->history, "File written by simplify --history or lod --history"),
-        positional("OUT", arguments->out, ".glb, .gltf, .obj, .ply or .stl")};
+        positional("OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write))};
     OptionInfo faces = number_option("--faces", "N", arguments->faces, from_one(), "Maximum number of faces");
     faces.is_required = true;
     command.options = {faces, text_option("--source", "FILE", arguments->source,

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/memory/json_scan.hpp"
+#include "asset/gltf/json_scan.hpp"
 
 namespace faqem::cli {
 
@@ -18,7 +18,7 @@ constexpr double extra_value_bytes = 130, extra_object_bytes = 300, extra_member
 constexpr double extra_bytes_per_character = 4;
 
 /// Adds up the memory of all values.
-class JsonMemoryScan : public JsonScan {
+class JsonMemoryScan : public detail::JsonScan {
 public:
     explicit JsonMemoryScan(double allowed) : allowed_(allowed) {}
 
@@ -71,7 +71,7 @@ private:
 
 std::uint64_t estimated_json_memory(const std::filesystem::path& model, std::uint64_t allowed) {
     JsonMemoryScan scan(static_cast<double>(allowed));
-    scan_gltf(model, scan);
+    detail::scan_gltf(model, scan);
     return static_cast<std::uint64_t>(scan.bytes());
 }
 

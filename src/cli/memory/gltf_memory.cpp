@@ -8,8 +8,8 @@
 #include <system_error>
 #include <vector>
 
+#include "asset/gltf/json_scan.hpp"
 #include "asset/io/file.hpp"
-#include "cli/memory/json_scan.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -48,7 +48,7 @@ struct ViewSize {
 };
 
 /// First pass: memory of copies of images and of decompressed buffers, and the sizes of accessors.
-class DocumentScan : public JsonScan {
+class DocumentScan : public detail::JsonScan {
 public:
     explicit DocumentScan(const fs::path& folder) : folder_(folder) {}
 
@@ -134,7 +134,7 @@ private:
 };
 
 /// Second pass: memory of the decoded meshes.
-class MeshScan : public JsonScan {
+class MeshScan : public detail::JsonScan {
 public:
     MeshScan(const std::vector<AccessorSize>& accessors, double allowed)
         : accessors_(accessors), allowed_(allowed) {}
@@ -241,12 +241,12 @@ std::uint64_t estimated_decoding_memory(const fs::path& model, std::uint64_t sto
                                         std::uint64_t allowed) {
     const auto limit = static_cast<double>(allowed);
     DocumentScan document(model.parent_path());
-    scan_gltf(model, document);
+    detail::scan_gltf(model, document);
     document.remove_impossible_sizes(stored_bytes);
     double bytes = document.bytes();
     if (bytes <= limit) {
         MeshScan meshes(document.accessors, limit - bytes);
-        scan_gltf(model, meshes);
+        detail::scan_gltf(model, meshes);
         bytes += meshes.bytes();
     }
     return static_cast<std::uint64_t>(std::min(bytes, 1e19));

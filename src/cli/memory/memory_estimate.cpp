@@ -7,13 +7,13 @@
 #include <system_error>
 #include <vector>
 
+#include "asset/file_format.hpp"
 #include "asset/image/image_size.hpp"
-#include "asset/io/file_format.hpp"
+#include "asset/model_files.hpp"
 #include "bake/transfer/material_groups.hpp"
+#include "cli/file_stamp.hpp"
 #include "cli/memory/gltf_json_memory.hpp"
 #include "cli/memory/gltf_memory.hpp"
-#include "cli/output_file.hpp"
-#include "cli/referenced_files.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::cli {
@@ -98,14 +98,15 @@ std::uint64_t estimated_model_memory(const std::filesystem::path& model, std::ui
     std::error_code ignored;
     // The size of a pipe is unknown, and it must not be opened here.
     if (!std::filesystem::is_regular_file(model, ignored)) return 0;
+    const detail::FileFormat* format = detail::format_of_file(model);
     std::vector<std::filesystem::path> files;
-    if (lower_case_extension(model) != ".obj") files = referenced_files(model, References::readable);
+    if (format && !format->is_read_for_references)
+        files = detail::referenced_files(model, detail::References::readable);
     files.push_back(model);
     // Factor 5: the bytes, the arrays decoded from them, and the copies made while the arrays grow. The arrays
     // of glTF are counted below.
-    const bool is_gltf = detail::format_of_file(model) == detail::Format::gltf;
     const std::uint64_t stored_bytes = total_file_size(files);
-    if (!is_gltf) return 5 * stored_bytes;
+    if (!format || !format->is_gltf) return 5 * stored_bytes;
     std::uint64_t bytes = 3 * stored_bytes;
     if (bytes <= allowed) bytes += estimated_json_memory(model, allowed - bytes);
     if (bytes <= allowed) bytes += estimated_decoding_memory(model, stored_bytes, allowed - bytes);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cli/output_file.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -94,7 +95,8 @@ OptionInfo positional(const std::string& name, std::string& value, const std::st
 }
 
 OptionInfo format_option(std::string& format) {
-    return text_option("--format", "glb|gltf|obj|ply|stl", format, "Output format (default glb)");
+    return text_option("--format", format_names("|"), format,
+                       "Output format (default " + default_format() + ")");
 }
 
 std::vector<OptionInfo> compare_options(CompareOptions& options) {

@@ -12,9 +12,8 @@
 #include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
+#include "asset/io/file_names.hpp"
 #include "asset/io/file_set.hpp"
-#include "asset/io/file_format.hpp"
-#include "asset/io/side_files.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -7,9 +7,10 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/json.hpp"
+#include "asset/gltf/json.hpp"
+#include "faqem/export.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 /// Handles the events of the parser for a glTF document, which therefore needs no memory, and keeps the path
 /// to the current value. The parser stops when a function returns false, and at an error of the document.
@@ -66,6 +67,6 @@ private:
 
 /// Reads the JSON of a .gltf or .glb file.
 /// \param model  a regular file. Of a file that is damaged or no glTF, the part before the error is read
-void scan_gltf(const std::filesystem::path& model, JsonScan& events);
+FAQEM_EXPORT void scan_gltf(const std::filesystem::path& model, JsonScan& events);
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

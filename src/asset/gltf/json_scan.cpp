@@ -1,9 +1,9 @@
-#include "cli/memory/json_scan.hpp"
+#include "asset/gltf/json_scan.hpp"
 
 #include <fstream>
 #include <string_view>
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 void scan_gltf(const std::filesystem::path& model, JsonScan& events) {
     // The JSON of a GLB file is its first chunk, after a file header of 12 bytes and a chunk header of 8 bytes.
@@ -16,4 +16,4 @@ void scan_gltf(const std::filesystem::path& model, JsonScan& events) {
     static_cast<void>(Json::sax_parse(in, &events, Json::input_format_t::json, strict));
 }
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

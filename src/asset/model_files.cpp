@@ -1,11 +1,14 @@
-#include "asset/io/side_files.hpp"
+#include "asset/model_files.hpp"
 
 #include <map>
 #include <set>
+#include <string>
 #include <string_view>
 #include <system_error>
 
-#include "asset/io/file_format.hpp"
+#include "asset/file_format.hpp"
+#include "asset/formats/obj.hpp"
+#include "asset/io/file_names.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -41,26 +44,36 @@ std::set<std::string> image_suffixes(const fs::path& folder) {
 
 }  // namespace
 
-std::string buffer_file_name(const std::string& stem) { return stem + ".bin"; }
-
-std::string library_file_name(const std::string& stem) { return stem + ".mtl"; }
-
-std::string image_file_name(const std::string& stem, std::size_t number, const std::string& extension) {
-    return stem + "_" + std::to_string(number) + extension;
+std::vector<fs::path> referenced_files(const fs::path& model, References which) {
+    ReferenceList files(model, which);
+    std::error_code error;
+    if (!fs::is_regular_file(model, error)) return {};  // opening a pipe would block
+    try {
+        // A library is no model, but has references of its own.
+        if (lower_case_extension(model) == library_file_name("")) {
+            list_library_references(model, files);
+        } else if (const FileFormat* format = format_of_file(model); format && format->list_references) {
+            format->list_references(model, files);
+        }
+    } catch (const fs::filesystem_error&) {  // the model was removed
+    }
+    return files.finish();
 }
 
 std::vector<fs::path> existing_side_files(const std::vector<fs::path>& models) {
     std::vector<fs::path> found;
     std::map<fs::path, std::set<std::string>> suffixes;  // by folder
     for (const fs::path& model : models) {
-        const std::string extension = lower_case_extension(model), stem = model.stem().string();
-        if (extension != ".gltf" && extension != ".obj") continue;
+        const FileFormat* format = format_by_name(model);
+        if (format == nullptr || !(format->side_file.name || format->has_image_files)) continue;
+        const std::string stem = model.stem().string();
         const fs::path folder = model.parent_path();
         const auto add_if_exists = [&](const std::string& name) {
             std::error_code error;
             if (fs::exists(folder / name, error)) found.push_back(folder / name);
         };
-        add_if_exists(extension == ".gltf" ? buffer_file_name(stem) : library_file_name(stem));
+        if (format->side_file.name) add_if_exists(format->side_file.name(stem));
+        if (!format->has_image_files) continue;
         const auto [in_folder, is_new] = suffixes.try_emplace(folder);
         if (is_new) in_folder->second = image_suffixes(folder.empty() ? "." : folder);
         // The stem is not compared with the names in the folder: only the file system knows which are equal.

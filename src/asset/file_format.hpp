@@ -1,0 +1,79 @@
+#pragma once
+/// \file
+/// The table of the formats of model files. CONTRIBUTING.md tells how to add one.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asset/io/reference_list.hpp"
+#include "faqem/asset.hpp"
+#include "faqem/export.hpp"
+#include "faqem/option_types.hpp"
+
+namespace faqem::detail {
+
+struct LeveledAsset;
+
+/// A file that save() writes beside a model, besides images.
+struct SideFile {
+    std::string (*name)(const std::string& stem) = nullptr;  ///< null: there is none
+    bool is_always_written = false;
+};
+
+/// A format of model files. Functions that the format does not have are null.
+struct FileFormat {
+    std::string_view extension;  ///< with its dot, in lower case
+    /// Whether a file is of the format, by its first bytes (64, or all it has) and the same without leading blanks.
+    /// Null: the format has no signature.
+    bool (*has_signature)(std::string_view head, std::string_view text) = nullptr;
+
+    Asset (*read)(const std::filesystem::path& file) = nullptr;
+    std::vector<std::string> (*write)(const Asset& asset, const std::filesystem::path& file,
+                                      Overwrite overwrite) = nullptr;
+    /// Writes the levels of detail of a scene to one file.
+    std::vector<std::string> (*write_levels)(const LeveledAsset& levels, const std::filesystem::path& file,
+                                             Overwrite overwrite) = nullptr;
+
+    /// Adds the files that a model refers to. Null: it refers to none.
+    void (*list_references)(const std::filesystem::path& model, ReferenceList& files) = nullptr;
+    bool is_read_for_references = false;  ///< list_references() reads the whole file
+    SideFile side_file = {};
+    bool has_image_files = false;  ///< images are written to files beside the model
+    bool holds_images = false;     ///< images are stored in the file
+
+    bool is_gltf = false;           ///< its JSON tells how much memory decoding needs
+    double min_bytes_per_face = 0;  ///< of a file with more than 65,536 vertices, with half a vertex per face
+
+    /// What Bake::automatic means for a source with appearance, and for one with neither materials nor colours.
+    Bake bake = Bake::automatic, bare_bake = Bake::automatic;
+    bool holds_normals = true;
+    /// Parts without materials can be stored as they are, and materials of glTF only as baked images.
+    bool keeps_plain_parts = false;
+};
+
+/// What can be done with a format.
+enum class FormatUse { read, write, write_levels };
+
+/// All formats. The first one is the default of the command.
+FAQEM_EXPORT std::span<const FileFormat> file_formats();
+
+/// Returns the format by the extension of the name in any case, which determines the format of an output file; null if
+/// it is unknown. Lives as long as the program.
+FAQEM_EXPORT const FileFormat* format_by_name(const std::filesystem::path& file);
+
+/// Returns the format of an existing file: by its first bytes, or by its name if these have no signature; null if both
+/// are unknown.
+/// \param file  a regular file; one that cannot be read has the format of its name
+FAQEM_EXPORT const FileFormat* format_of_file(const std::filesystem::path& file);
+
+/// Returns the extensions of the formats with a use, in the order of the table, with their dots.
+FAQEM_EXPORT std::vector<std::string_view> format_extensions(FormatUse use);
+
+/// Returns the extensions as text: `.glb, .gltf or .obj`.
+/// \param conjunction  before the last one
+FAQEM_EXPORT std::string listed_extensions(FormatUse use, std::string_view conjunction = "or");
+
+}  // namespace faqem::detail

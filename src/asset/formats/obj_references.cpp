@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <set>
+#include <string_view>
+
+#include "asset/formats/mtl.hpp"
+#include "asset/formats/obj.hpp"
+#include "asset/text/text_scanner.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Calls visit(name) for the file names that a statement may contain. Options before a name are not
+/// interpreted: any word may be the name or, because names may contain blanks, its start.
+template <class Visit>
+void for_each_possible_name(const std::string& statement, const Visit& visit) {
+    constexpr std::size_t max_path = 4096;  // longer names are not valid
+    constexpr const char* blanks = " \t";
+    for (std::size_t first = 0; first < statement.size();) {
+        const std::size_t end = std::min(statement.find_first_of(blanks, first), statement.size());
+        if (statement.size() - first <= max_path) visit(statement.substr(first));
+        if (end - first <= max_path) visit(statement.substr(first, end - first));
+        first = std::min(statement.find_first_not_of(blanks, end), statement.size());
+    }
+}
+
+/// Returns the length of the lines that are complete: the last one does not continue after a backslash.
+std::size_t complete_lines_size(std::string_view text) {
+    constexpr std::string_view line_ends = "\r\n";
+    for (std::size_t end = text.find_last_of(line_ends); end != std::string_view::npos;) {
+        const std::size_t last = text.find_last_not_of(line_ends, end);
+        if (last == std::string_view::npos || text[last] != '\\') return end + 1;
+        end = text.find_last_of(line_ends, last);
+    }
+    return 0;
+}
+
+/// Calls visit(scanner) for each block of whole lines of a file, which may be larger than the memory.
+template <class Visit>
+void for_each_block(const fs::path& file, const Visit& visit) {
+    std::ifstream in(file, std::ios::binary);
+    std::size_t block_size = std::size_t{1} << 20;
+    for (std::string text; in;) {
+        const std::size_t rest = text.size();
+        text.resize(rest + block_size);
+        in.read(text.data() + rest, static_cast<std::streamsize>(block_size));
+        text.resize(rest + static_cast<std::size_t>(in.gcount()));
+        const std::size_t size = in ? complete_lines_size(text) : text.size();
+        if (size == 0) block_size *= 2;
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+        visit(TextScanner({bytes, size}, file.string(), Continuation::yes));
+        text.erase(0, size);
+    }
+}
+
+/// Adds a library and its textures, which are relative to its folder.
+void add_library(const std::string& name, ReferenceList& files, std::set<fs::path>& known) {
+    files.add(name, ReferenceSyntax::file_name, Readable::yes);
+    try {
+        const fs::path library = resolve_inside(files.folder(), name, ReferenceSyntax::file_name);
+        if (!known.insert(library).second) return;
+        const fs::path root = fs::canonical(files.folder().empty() ? "." : files.folder());
+        const fs::path subfolder = library.parent_path().lexically_relative(root);
+        const std::vector<std::uint8_t> text = read_file(library);
+        for (const std::string& statement : texture_statements(text, library.string()))
+            for_each_possible_name(statement, [&](const std::string& texture) {
+                files.add(texture, ReferenceSyntax::file_name, Readable::yes, subfolder);
+            });
+    } catch (const InputError&) {  // may not be read
+    }
+}
+
+}  // namespace
+
+void list_library_references(const fs::path& library, ReferenceList& files) {
+    std::set<fs::path> libraries;
+    add_library(library.filename().string(), files, libraries);
+}
+
+void list_obj_references(const fs::path& model, ReferenceList& files) {
+    static constexpr std::array<std::string_view, 4> others = {"maplib", "shadow_obj", "trace_obj", "call"};
+    std::set<fs::path> libraries;
+    for_each_block(model, [&](TextScanner in) {
+        for (; in.skip_to_content(); in.next_line()) {
+            const std::string_view key = in.word();
+            if (key == "mtllib") {
+                const std::string statement = in.rest_of_line();
+                const auto add = [&](const std::string& name) { add_library(name, files, libraries); };
+                for (const std::string& name : library_names(statement, files.folder())) add(name);
+                for_each_possible_name(statement, add);
+            } else if (std::find(others.begin(), others.end(), key) != others.end()) {
+                for_each_possible_name(in.rest_of_line(), [&](const std::string& name) {
+                    files.add(name, ReferenceSyntax::file_name, Readable::no);
+                });
+            }
+        }
+    });
+}
+
+}  // namespace faqem::detail

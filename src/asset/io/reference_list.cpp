@@ -1,0 +1,31 @@
+#include "asset/io/reference_list.hpp"
+
+#include <system_error>
+
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+
+namespace fs = std::filesystem;
+
+void ReferenceList::add(const std::string& reference, ReferenceSyntax syntax, Readable readable,
+                        const fs::path& subfolder) {
+    fs::path file;
+    std::error_code error;
+    if (which_ == References::all) {
+        file = referenced_path(folder_ / subfolder, reference, syntax);
+        if (!fs::is_regular_file(file, error)) return;
+    } else if (readable == Readable::yes) {
+        try {
+            const fs::path from_model = subfolder / reference;
+            file = resolve_inside(folder_, from_model.generic_string(), syntax);
+        } catch (const InputError&) {
+            return;
+        }
+    } else {
+        return;
+    }
+    if (known_.insert(file).second) files_.push_back(std::move(file));
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,50 @@
+#pragma once
+/// \file
+/// Collects the files that a model refers to.
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asset/io/file.hpp"
+
+namespace faqem::detail {
+
+/// Which of the files that a model refers to.
+enum class References {
+    /// Those that load() may read: in the folder of the model or below it.
+    readable,
+    /// All, read or not and in any folder. Where a statement can be understood in several ways, the files of all of
+    /// them.
+    all
+};
+
+/// Whether load() may read a file.
+enum class Readable { no, yes };
+
+/// The existing files that references of a model name, each path once.
+class ReferenceList {
+public:
+    ReferenceList(const std::filesystem::path& model, References which)
+        : folder_(model.parent_path()), which_(which) {}
+
+    /// Folder of the model.
+    const std::filesystem::path& folder() const { return folder_; }
+
+    /// Adds the file that a reference names if it exists, and if it is one of those that are wanted.
+    /// \param subfolder  of the file with the reference, relative to the folder of the model
+    void add(const std::string& reference, ReferenceSyntax syntax, Readable readable,
+             const std::filesystem::path& subfolder = {});
+
+    std::vector<std::filesystem::path> finish() { return std::move(files_); }
+
+private:
+    std::filesystem::path folder_;
+    References which_;
+    std::vector<std::filesystem::path> files_;
+    std::set<std::filesystem::path> known_;
+};
+
+}  // namespace faqem::detail

@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// The files that belong to a model: those that it refers to, and those that are written beside it.
+
+#include <filesystem>
+#include <vector>
+
+#include "asset/io/reference_list.hpp"
+#include "faqem/export.hpp"
+
+namespace faqem::detail {
+
+/// Returns the files that a model refers to and that exist, each path once, without the model. As many as
+/// possible of a damaged model; load() reports the reason. The format is detected as by load(). Of the files,
+/// only material libraries in the folder of the model or below it are read.
+/// \param model  a model, or a material library (.mtl)
+/// \param which  References::readable: buffers and images of glTF, libraries and their textures of OBJ.
+///               References::all: also every `uri` of a glTF document; texture statements of any kind and other files
+///               of OBJ; `TextureFile` comments of PLY
+FAQEM_EXPORT std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& model,
+                                                                 References which);
+
+/// Finds the files that exist and that save() may replace when it writes the models: buffers, libraries, and
+/// images of any number and extension. On a file system that ignores case, files whose names differ in case are
+/// found too.
+/// Complexity: lists each folder once.
+/// \throws WriteError  a folder of a model with such files exists and cannot be listed
+FAQEM_EXPORT std::vector<std::filesystem::path> existing_side_files(
+    const std::vector<std::filesystem::path>& models);
+
+}  // namespace faqem::detail

@@ -1,0 +1,33 @@
+#include "cli/file_stamp.hpp"
+
+#include <sys/stat.h>
+
+namespace faqem::cli {
+
+namespace fs = std::filesystem;
+
+std::string modification_stamp(const std::vector<fs::path>& files) {
+    std::string text;
+    for (const fs::path& file : files) {
+        struct stat status = {};
+        if (::stat(file.c_str(), &status) != 0) continue;
+        for (const auto number :
+             {static_cast<std::int64_t>(status.st_size), static_cast<std::int64_t>(status.st_mtim.tv_sec),
+              static_cast<std::int64_t>(status.st_mtim.tv_nsec)}) {
+            if (!text.empty()) text += ' ';
+            text += std::to_string(number);
+        }
+    }
+    return text;
+}
+
+std::uint64_t total_file_size(const std::vector<fs::path>& files) {
+    std::uint64_t sum = 0;
+    for (const fs::path& file : files) {
+        struct stat status = {};
+        if (::stat(file.c_str(), &status) == 0) sum += static_cast<std::uint64_t>(status.st_size);
+    }
+    return sum;
+}
+
+}  // namespace faqem::cli

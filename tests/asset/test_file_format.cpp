@@ -1,0 +1,172 @@
+// The table of formats: each row is read and written, and its properties are those of the files written.
+
+#include "asset/file_format.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "asset/gltf/write/levels.hpp"
+#include "asset/io/file_names.hpp"
+#include "asset/model_files.hpp"
+#include "faqem/save_levels.hpp"
+#include "support/catch.hpp"
+#include "support/format_support.hpp"
+#include "support/gltf_builder.hpp"
+
+using namespace faqem;
+using namespace faqem::testing;
+using detail::FileFormat;
+using detail::FormatUse;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Files with two triangles of the formats that are only read, by extension.
+const std::map<std::string_view, std::string> read_only_samples = {
+    {".off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"}};
+
+/// Two triangles with a textured material.
+Asset textured_square() {
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+    asset.parts[0].uvs = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+    asset.parts[0].face_material = {0, 0};
+    asset.images.push_back(encode_png(Pixels{1, 1, {255, 0, 0, 255}, false}, "red"));
+    asset.materials.emplace_back().base_color_texture.image = 0;
+    return asset;
+}
+
+std::string upper_case(std::string text) {
+    for (char& c : text)
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    return text;
+}
+
+std::set<fs::path> canonical(const std::vector<fs::path>& files) {
+    std::set<fs::path> paths;
+    for (const fs::path& file : files) paths.insert(fs::canonical(file));
+    return paths;
+}
+
+std::set<fs::path> files_in(const fs::path& folder) {
+    std::set<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) files.insert(fs::canonical(entry.path()));
+    return files;
+}
+
+}  // namespace
+
+TEST_CASE("formats: extensions are unique and in lower case, and every format is read") {
+    std::set<std::string_view> known;
+    for (const FileFormat& format : detail::file_formats()) {
+        CHECK(known.insert(format.extension).second);
+        CHECK(detail::lower_case_extension("a" + std::string(format.extension)) == format.extension);
+        CHECK(format.read != nullptr);
+        CHECK(format.min_bytes_per_face > 0);
+        CHECK(detail::format_by_name("a.b" + upper_case(std::string(format.extension))) == &format);
+    }
+    CHECK(detail::format_by_name("glb") == nullptr);
+    CHECK(detail::format_by_name("a.glb2") == nullptr);
+}
+
+TEST_CASE("formats: every format is read and written with its extension in lower and upper case") {
+    for (const FileFormat& format : detail::file_formats()) {
+        const std::string extension(format.extension);
+        for (const std::string& name : {"model" + extension, "MODEL" + upper_case(extension)}) {
+            INFO(name);
+            const TemporaryFolder folder;
+            if (format.write)
+                save(textured_square(), folder / name);
+            else
+                put(folder / name, read_only_samples.at(format.extension));
+            CHECK(detail::format_of_file(folder / name)->read == format.read);
+            const Asset read = load(folder / name);
+            REQUIRE(read.parts.size() == 1);
+            CHECK(read.parts[0].triangles.size() == 2);
+        }
+    }
+}
+
+TEST_CASE("formats: the files beside a model are found, and hold its images unless the model does") {
+    for (const FileFormat& format : detail::file_formats()) {
+        if (!format.write) continue;
+        for (const std::string& extension :
+             {std::string(format.extension), upper_case(std::string(format.extension))}) {
+            INFO(extension);
+            const TemporaryFolder folder;
+            const fs::path model = fs::canonical(folder.path()) / ("model" + extension);
+            save(textured_square(), model);
+            std::set<fs::path> beside = files_in(folder.path());
+            REQUIRE(beside.erase(model) == 1);
+            for (const detail::References which : {detail::References::readable, detail::References::all}) {
+                const std::vector<fs::path> referenced = detail::referenced_files(model, which);
+                CHECK(canonical(referenced) == beside);
+            }
+            const std::vector<fs::path> replaced = detail::existing_side_files({model});
+            CHECK(canonical(replaced) == beside);
+            CHECK(std::any_of(beside.begin(), beside.end(), [](const fs::path& file) {
+                      return file.extension() == ".png";
+                  }) == format.has_image_files);
+            CHECK((format.side_file.name &&
+                   beside.contains(model.parent_path() / format.side_file.name("model"))) ==
+                  (format.side_file.name != nullptr));
+            const bool has_image = !load(model).images.empty();
+            CHECK(has_image == (format.holds_images || format.has_image_files));
+        }
+    }
+}
+
+TEST_CASE("formats: files have at least the stated number of bytes per face") {
+    // A grid, which has half a vertex per face.
+    constexpr Index side = 260;  // more vertices than 16-bit indices can name
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    for (Index y = 0; y <= side; ++y)
+        for (Index x = 0; x <= side; ++x) positions.push_back({x / 7.0, y / 7.0, 0});
+    for (Index y = 0; y < side; ++y) {
+        for (Index x = 0; x < side; ++x) {
+            const Index v = y * (side + 1) + x;
+            triangles.push_back({v, v + 1, v + side + 2});
+            triangles.push_back({v, v + side + 2, v + side + 1});
+        }
+    }
+    const auto faces = static_cast<double>(triangles.size());
+    const Asset asset = one_part(positions, triangles);
+    for (const FileFormat& format : detail::file_formats()) {
+        if (!format.write) continue;
+        INFO(format.extension);
+        const TemporaryFolder folder;
+        save(asset, folder / ("a" + std::string(format.extension)));
+        double bytes = 0;
+        for (const fs::path& file : files_in(folder.path()))
+            bytes += static_cast<double>(fs::file_size(file));
+        CHECK(bytes >= format.min_bytes_per_face * faces);
+    }
+}
+
+TEST_CASE("formats: levels are saved in formats that hold them, and rejected in others") {
+    for (const FileFormat& format : detail::file_formats()) {
+        INFO(format.extension);
+        const TemporaryFolder folder;
+        const fs::path file = folder / ("a" + upper_case(std::string(format.extension)));
+        const auto write = [&] { save_levels({{textured_square(), {0}}, {textured_square(), {0}}}, file); };
+        if (format.write_levels)
+            CHECK_NOTHROW(write());
+        else
+            CHECK(contains(message_of<UnsupportedError>(write),
+                           detail::listed_extensions(FormatUse::write_levels)));
+    }
+}
+
+TEST_CASE("formats: messages about unknown extensions list the known ones") {
+    const TemporaryFolder folder;
+    put(folder / "a.xyz", "1 2 3");
+    const std::string read = message_of<UnsupportedError>([&] { load(folder / "a.xyz"); });
+    const std::string written = message_of<UnsupportedError>([&] { save(Asset{}, folder / "b.xyz"); });
+    for (const FileFormat& format : detail::file_formats()) {
+        CHECK(contains(read, std::string(format.extension)));
+        CHECK(contains(written, std::string(format.extension)) == (format.write != nullptr));
+    }
+    CHECK(detail::listed_extensions(FormatUse::read, "and") == ".glb, .gltf, .obj, .ply, .stl and .off");
+}
