@@ -4,20 +4,9 @@
 
 #include <condition_variable>
 #include <cstdint>
-#include <filesystem>
 #include <mutex>
 
-#include "faqem/option_types.hpp"
-
 namespace faqem::cli {
-
-/// Returns an upper estimate, in bytes, of the peak memory for simplifying a model, from the file sizes
-/// alone. It assumes the minimum number of bytes per face of the file format, and the measured memory per
-/// face of the preset.
-/// \param model  only its extension is used
-/// \param bytes  total size of the model and the files it refers to
-std::uint64_t estimated_peak_memory_of_file(const std::filesystem::path& model, std::uint64_t bytes,
-                                            const Options& options);
 
 /// A semaphore that counts bytes. A request above the limit is granted when no other memory is in use.
 class MemorySemaphore {

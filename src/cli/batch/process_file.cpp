@@ -136,7 +136,7 @@ Result try_process(const BatchFile& file, const BatchContext& work, detail::Stop
     const std::uint64_t loading = estimated_model_memory(file.in, process_limit);
     require_memory(file.in, loading, process_limit);
     const std::uint64_t needed =
-        std::max(loading, estimated_peak_memory_of_file(file.in, total_file_size(inputs), work.options));
+        loading + estimated_work_memory(file.in, total_file_size(inputs), work.options);
     return process_within_memory(file, work, entry, overwrite, needed, watch);
 } catch (const std::exception& problem) {
     return failed_result(problem);

@@ -47,11 +47,20 @@ double simplify_bytes_per_face(const Options& options) {
 
 constexpr double history_bytes_per_face = 300;  // collapse history and the data structures of the baking map
 constexpr double visibility_bytes_per_face = 400;  // per face of all instances, with --visibility weighted
-constexpr double search_factor = 1.3;  // --max-error: best mesh so far and the distance measurement
 constexpr double bytes_per_corner_value = 12;
 constexpr double image_library_bytes = 30e6;  // libraries of PNG, JPEG and WebP, and their buffers
 constexpr double bake_bytes_per_texel = 36, page_bytes_per_texel = 8, correspondence_bytes_per_texel = 24;
 constexpr double bake_bytes_per_layer_texel = 9;  // per texel of each texture of material extensions
+
+/// --max-error needs memory for the best mesh so far and the distance measurement.
+double search_factor(const Options& options) { return options.max_error ? 1.3 : 1; }
+
+/// Memory for the simplification and its histories.
+/// \param all, largest  numbers of faces of all meshes and of the largest one
+double work_bytes(const Options& options, double all, double largest) {
+    return search_factor(options) *
+           (history_bytes_per_face * all + simplify_bytes_per_face(options) * largest);
+}
 
 std::size_t attribute_values_per_corner(const Part& part) {
     return 2 * part.uvs.size() + (part.colors.empty() ? 0 : 4);
@@ -126,9 +135,8 @@ std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options) 
         largest = std::max(largest, faces);
         values = std::max(values, 3 * faces * static_cast<double>(attribute_values_per_corner(part)));
     }
-    double work = history_bytes_per_face * all + simplify_bytes_per_face(options) * largest;
-    if (options.bake.kind == Bake::keep) work += bytes_per_corner_value * values;
-    if (options.max_error) work *= search_factor;
+    double work = work_bytes(options, all, largest);
+    if (options.bake.kind == Bake::keep) work += search_factor(options) * bytes_per_corner_value * values;
     if (options.visibility == Visibility::weighted)
         work = std::max(work, visibility_bytes_per_face * instanced_face_count(asset));
     double baking = 0;
@@ -137,6 +145,17 @@ std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options) 
     if (makes_atlas(options.bake.kind)) baking += page_bytes(asset, options.bake);
     if (baking > 0) baking += image_library_bytes;
     return static_cast<std::uint64_t>(peak_resident_memory() + work + baking);
+}
+
+std::uint64_t estimated_work_memory(const std::filesystem::path& model, std::uint64_t stored_bytes,
+                                    const Options& options) {
+    double bytes = 64e6;  // the process and its threads
+    if (makes_atlas(options.bake.kind))
+        bytes += bake_bytes_per_texel * options.bake.texture_size * options.bake.texture_size;
+    const detail::FileFormat* format = detail::format_by_name(model);
+    const double min_bytes_per_face = format ? format->min_bytes_per_face : 15;
+    const double faces = static_cast<double>(stored_bytes) / min_bytes_per_face;
+    return static_cast<std::uint64_t>(bytes + work_bytes(options, faces, faces));
 }
 
 void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed) {

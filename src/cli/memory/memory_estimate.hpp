@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Estimates of the memory that `faqem simplify` needs, made before the work starts. Of these, `faqem batch`
-/// uses that for loading; the peak of a run it estimates from the file sizes (batch/memory_semaphore.hpp).
+/// Estimates of the memory that `faqem simplify` needs, made before the work starts. `faqem batch`
+/// makes them before any model is loaded.
 
 #include <cstdint>
 #include <filesystem>
@@ -28,6 +28,14 @@ std::uint64_t estimated_loading_memory(const std::filesystem::path& model,
 /// history, the simplification of the largest mesh, and decoded and baked images. The factors are measured,
 /// see docs/robustness.md. Complexity: O(parts + images).
 std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options);
+
+/// Returns an upper estimate, in bytes, of the memory of a run besides that for loading the model, before it is
+/// loaded: as estimated_peak_memory() for the largest number of faces that the files can have, and one texture. For
+/// `faqem batch`, which decides by it how many models run at the same time.
+/// \param model         only its extension is used
+/// \param stored_bytes  total size of the model and the files it refers to
+std::uint64_t estimated_work_memory(const std::filesystem::path& model, std::uint64_t stored_bytes,
+                                    const Options& options);
 
 /// Checks an estimate against the limit.
 /// \param file             file name for the message

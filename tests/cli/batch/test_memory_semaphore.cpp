@@ -48,18 +48,3 @@ TEST_CASE("MemorySemaphore tells whether memory was shared") {
     CHECK(semaphore.was_shared(second));
     semaphore.release(4);
 }
-
-TEST_CASE("the memory estimate of a file grows with its size, the texture size and the preset") {
-    faqem::Options options;
-    const auto peak = [&](const char* file, std::uint64_t bytes) {
-        return estimated_peak_memory_of_file(file, bytes, options);
-    };
-    CHECK(peak("a.glb", 2'000'000) > peak("a.glb", 1'000'000));
-    // A binary file has more faces than a text file of the same size.
-    CHECK(peak("a.PLY", 1'000'000) > peak("a.obj", 1'000'000));
-    const std::uint64_t balanced = peak("a.glb", 1'000'000);
-    options.preset = faqem::Preset::best;
-    CHECK(peak("a.glb", 1'000'000) > balanced);
-    options.bake.kind = faqem::Bake::none;
-    CHECK(peak("a.glb", 0) < 100'000'000);
-}

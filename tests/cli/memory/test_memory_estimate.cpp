@@ -99,3 +99,37 @@ TEST_CASE("the estimated peak memory is between one and three times the measured
 }
 
 #endif
+
+TEST_CASE("the memory estimate of a file grows with its size, the texture size and the preset") {
+    faqem::Options options;
+    const auto peak = [&](const char* file, std::uint64_t bytes) {
+        return estimated_work_memory(file, bytes, options);
+    };
+    CHECK(peak("a.glb", 2'000'000) > peak("a.glb", 1'000'000));
+    // A binary file has more faces than a text file of the same size.
+    CHECK(peak("a.PLY", 1'000'000) > peak("a.obj", 1'000'000));
+    const std::uint64_t balanced = peak("a.glb", 1'000'000);
+    options.preset = faqem::Preset::best;
+    CHECK(peak("a.glb", 1'000'000) > balanced);
+    options.bake.kind = faqem::Bake::none;
+    CHECK(peak("a.glb", 0) < 100'000'000);
+}
+
+TEST_CASE("batch and simplify estimate the same memory per face") {
+    faqem::Options options;
+    options.bake.kind = faqem::Bake::none;
+    for (const auto preset :
+         {faqem::Preset::fast, faqem::Preset::balanced, faqem::Preset::best, faqem::Preset::qem}) {
+        options.preset = preset;
+        faqem::Asset none, asset;
+        none.parts.resize(1);
+        asset.parts.resize(1);
+        asset.parts[0].triangles.resize(100'000);
+        const auto per_face = static_cast<double>(estimated_peak_memory(asset, options)) -
+                              static_cast<double>(estimated_peak_memory(none, options));
+        // A binary STL file of this size has as many faces.
+        const auto of_file = static_cast<double>(estimated_work_memory("a.stl", 5'000'000, options)) -
+                             static_cast<double>(estimated_work_memory("a.stl", 0, options));
+        CHECK(of_file == Approx(per_face).margin(1e6));
+    }
+}
