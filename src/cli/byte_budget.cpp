@@ -19,10 +19,6 @@ constexpr std::uint32_t min_texture_size = 64;
 constexpr std::uint64_t min_faces = 4;
 constexpr int max_runs = 8;
 
-/// BakeOptions::image_quality for a result that does not fit at the wanted quality, before the sides of its
-/// images are halved.
-constexpr double low_quality = 34;
-
 /// Factor on the estimated face target: the number of bytes per face varies slightly between runs.
 constexpr double safety_factor = 0.98;
 
@@ -100,8 +96,8 @@ private:
     // Selects the next smaller image quality or size. Returns false if there is none.
     bool reduce_image_size() {
         BakeOptions& bake = options_.bake;
-        if (bake.image_format == ImageFormat::automatic && bake.image_quality > low_quality) {
-            bake.image_quality = low_quality;
+        if (bake.image_format == ImageFormat::automatic && bake.image_quality > low_image_quality) {
+            bake.image_quality = low_image_quality;
             return true;
         }
         if (bake.texture_size <= min_texture_size) return false;

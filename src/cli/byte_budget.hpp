@@ -16,6 +16,9 @@ public:
     using Error::Error;
 };
 
+/// BakeOptions::image_quality of a result that has too many bytes at the wanted quality.
+inline constexpr double low_image_quality = 34;
+
 /// A byte budget for the files of one model.
 struct ByteBudget {
     std::uint64_t bytes = 0;     ///< total size of all files, > 0

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <sstream>
+#include <vector>
 
 #include "asset/file_format.hpp"
+#include "asset/model_files.hpp"
+#include "cli/file_stamp.hpp"
 #include "cli/strict.hpp"
 #include "faqem/error.hpp"
 
@@ -40,10 +43,17 @@ BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
     return requested;
 }
 
+std::uint64_t input_bytes(const std::filesystem::path& model) {
+    std::vector<std::filesystem::path> files = detail::referenced_files(model, detail::References::readable);
+    files.push_back(model);
+    return total_file_size(files);
+}
+
 SimplifiedAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
-                               const std::optional<ByteBudget>& budget) {
+                               const SizeRule& rule, const std::optional<ByteBudget>& budget) {
     return with_file_in_errors(file, [&] {
-        return budget ? simplify_within_bytes(source, options, *budget) : simplify(source, options);
+        return budget ? simplify_within_bytes(source, options, *budget)
+                      : simplify_no_larger(source, options, rule);
     });
 }
 

@@ -2,12 +2,14 @@
 /// \file
 /// Loading, simplifying and checking one model, shared by `simplify`, `batch`, `lod` and `truncate`.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "cli/byte_budget.hpp"
 #include "cli/exit_code.hpp"
+#include "cli/no_larger.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report.hpp"
@@ -44,11 +46,14 @@ auto with_file_in_errors(const std::filesystem::path& file, Work&& work) {
 BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
                                    const std::filesystem::path& out);
 
-/// Calls simplify_within_bytes() if there is a budget, otherwise simplify().
+/// Returns the total size of a model and of the files that it refers to, bytes.
+std::uint64_t input_bytes(const std::filesystem::path& model);
+
+/// Calls simplify_within_bytes() if there is a budget, otherwise simplify_no_larger().
 /// \param file  name of the source, prepended to error messages
 /// \throws whatever these functions throw
 SimplifiedAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,
-                               const std::optional<ByteBudget>& budget = std::nullopt);
+                               const SizeRule& rule, const std::optional<ByteBudget>& budget = std::nullopt);
 
 /// Returns exit_bad_input (nothing is left), exit_target_missed or exit_error_exceeded if the result must not be
 /// written, otherwise exit_ok. An empty model is useless to the next program, and usually means that the faces of

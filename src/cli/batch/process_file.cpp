@@ -67,8 +67,10 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
                          Overwrite overwrite) {
     Asset source = load_model(file.in, work.strictness);
     Options options = work.options;
+    const SizeRule rule = {file.out, input_bytes(file.in),
+                           larger_result(work.options.bake, work.allow_larger)};
     options.bake = resolve_automatic_bake(options.bake, source, file.out);
-    SimplifiedAsset simplified = simplify_model(source, file.in, options);
+    SimplifiedAsset simplified = simplify_model(source, file.in, options, rule);
     const Report& report = simplified.report;
     if (report.stop == StopReason::cancelled) return cancelled_result();
     Result result = {exit_ok, "done", "", report.faces_in, report.faces_out, source.warnings};

@@ -20,6 +20,7 @@ struct BatchContext {
     std::string options_key;  ///< everything except the input files that results depend on
     Strictness strictness = Strictness::lenient;
     bool strict_target = false;
+    bool allow_larger = false;
     bool resume = false;
     Overwrite overwrite = Overwrite::no;
     BatchRecord& record;

@@ -27,7 +27,7 @@ struct BatchArguments : SimplifyArguments {
     std::string in, out, format = default_format();
     std::uint32_t jobs = 0;
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
-    bool resume = false, force = false;
+    bool resume = false, allow_larger = false, force = false;
 };
 
 /// Checks before the first model that no result, with the files beside it, is an input of the batch or belongs
@@ -62,11 +62,13 @@ int run(const BatchArguments& arguments) {
     options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
     const std::string key = std::string(version()) + " " + extension + " " + detail::options_key(options) +
                             (arguments.strict ? " strict" : "") +
-                            (arguments.strict_target ? " strict-target" : "");
+                            (arguments.strict_target ? " strict-target" : "") +
+                            (arguments.allow_larger ? " allow-larger" : "");
     const BatchContext work = {options,
                                key,
                                arguments.strictness(),
                                arguments.strict_target,
+                               arguments.allow_larger,
                                arguments.resume,
                                arguments.force ? Overwrite::yes : Overwrite::no,
                                record,
@@ -114,8 +116,8 @@ CommandInfo batch_command() {
             option.description = "Maximum number of threads per model; 0: all, divided by the jobs (default)";
     }
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
-    add_options(command.options,
-                {profile_option(), flag_option("--force", arguments->force, "Overwrite existing files")});
+    add_options(command.options, {allow_larger_option(arguments->allow_larger), profile_option(),
+                                  flag_option("--force", arguments->force, "Overwrite existing files")});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

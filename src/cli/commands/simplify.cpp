@@ -41,7 +41,7 @@ struct SimplifyCommandArguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
     std::uint64_t max_bytes = 0;   ///< 0: unlimited
     std::uint64_t max_memory = 0;  ///< bytes; 0: machine_memory()
-    bool force = false, quiet = false;
+    bool allow_larger = false, force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
 };
@@ -127,13 +127,6 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
     std::cout << out.str();
 }
 
-/// Total size of a model and the files that it refers to.
-std::uint64_t input_bytes(const std::filesystem::path& model) {
-    std::vector<std::filesystem::path> files = detail::referenced_files(model, detail::References::readable);
-    files.push_back(model);
-    return total_file_size(files);
-}
-
 Asset load_input(const SimplifyCommandArguments& arguments, PhaseSeconds& seconds) {
     const ExitOnInterrupt exit_on_interrupt;
     const Stopwatch watch;
@@ -195,11 +188,13 @@ int run(const SimplifyCommandArguments& arguments) {
         // Image libraries start a thread per hardware thread, besides those of --threads.
         limit_process_memory(allowed, detail::thread_count(options.threads) + detail::thread_count(0));
         const Asset source = load_input(arguments, seconds);
+        const SizeRule rule = {arguments.out, input_bytes(arguments.in),
+                               larger_result(options.bake, arguments.allow_larger)};
         options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
         require_memory(arguments.in, estimated_peak_memory(source, options), allowed);
-        simplified = simplify_model(source, arguments.in, options, byte_budget(arguments));
+        simplified = simplify_model(source, arguments.in, options, rule, byte_budget(arguments));
         simplified.report.seconds.load = seconds.load;
-        simplified.report.bytes_in = input_bytes(arguments.in);
+        simplified.report.bytes_in = rule.bytes_in;
         simplified.report.warnings.insert(simplified.report.warnings.begin(), source.warnings.begin(),
                                           source.warnings.end());
         if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return cancelled();
@@ -236,6 +231,7 @@ std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
             text_option("--correspondence", "FILE", a.correspondence,
                         "Write the position of each texel of the new atlas on the original to this file"),
             profile_option(),
+            allow_larger_option(a.allow_larger),
             flag_option("--force", a.force, "Overwrite existing files"),
             flag_option("--quiet", a.quiet, "Print no summary and no progress bar")};
 }

@@ -61,6 +61,11 @@ std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target) {
                         "Exit with 5, and write no model, if the target is missed")};
 }
 
+OptionInfo allow_larger_option(bool& allow_larger) {
+    return flag_option("--allow-larger", allow_larger,
+                       "Give nothing up if a textured result has more bytes than its input");
+}
+
 bool is_given(const GivenOptions& given, std::string_view name) {
     return std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first->name == name; });
 }

@@ -33,6 +33,9 @@ std::vector<OptionInfo> table_options(detail::EntryPoint command, GivenOptions& 
 /// --strict and --strict-target.
 std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target);
 
+/// `--allow-larger`: see LargerResult.
+OptionInfo allow_larger_option(bool& allow_larger);
+
 /// Tests whether an option is given. \param name  OptionRow::name
 bool is_given(const GivenOptions& given, std::string_view name);
 

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// The rule that a simplified textured model has no more bytes than its source.
+
+#include <cstdint>
+#include <filesystem>
+
+#include "faqem/bake.hpp"
+
+namespace faqem::cli {
+
+/// Whether a result with more bytes than its source gives something up.
+enum class LargerResult {
+    gives_up,  ///< what simplify_no_larger() lists
+    warns,     ///< nothing, because the images were asked for; there is a warning
+    allowed,   ///< nothing, without a warning
+};
+
+/// What a result is compared with.
+struct SizeRule {
+    std::filesystem::path out;   ///< name of the output; its extension selects the format
+    std::uint64_t bytes_in = 0;  ///< total size of the files of the source
+    LargerResult larger = LargerResult::gives_up;
+};
+
+/// The rule for options as they were given: images that were asked for are not given up.
+/// \param allow_larger  whether the rule is turned off
+LargerResult larger_result(const BakeOptions& bake, bool allow_larger);
+
+/// Calls simplify(). If the result has new images and its files would have more bytes than those of the source,
+/// it is baked again with less, until they have not: without the normal map, if the source has none; then with
+/// BakeOptions::image_quality 34. Nothing is given up if the geometry alone is larger. A warning says what was
+/// given up, and another one if the result is larger nevertheless.
+/// \throws whatever simplify() and model_bytes() throw
+/// Complexity: that of simplify(), and up to two more calls of bake().
+SimplifiedAsset simplify_no_larger(const Asset& source, const Options& options, const SizeRule& rule);
+
+}  // namespace faqem::cli

@@ -1,0 +1,72 @@
+#include "cli/no_larger.hpp"
+
+#include "faqem/bake.hpp"
+#include "support/catch.hpp"
+#include "support/cli_support.hpp"
+
+using namespace tool_test;
+using namespace faqem::cli;
+
+namespace {
+
+// A model with a JPEG of low quality: its new texture has more bytes than the file.
+faqem::Asset model_with_small_image() {
+    faqem::Asset asset = sheet(6, 0.3);
+    faqem::Pixels noise{256, 256, {}, false};
+    std::uint32_t state = 1;
+    for (std::uint32_t i = 0; i < 256 * 256; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            state = state * 1664525u + 1013904223u;
+            noise.rgba.push_back(static_cast<std::uint8_t>(state >> 24));
+        }
+        noise.rgba.push_back(255);
+    }
+    asset.images = {encode_jpeg(noise, "noise", 5, faqem::Content::color)};
+    asset.materials.resize(1);
+    asset.materials[0].base_color_texture.image = 0;
+    return asset;
+}
+
+std::uint64_t size_of(const Folder& folder, const char* file) { return fs::file_size(folder / file); }
+
+}  // namespace
+
+TEST_CASE("a textured result that would be larger than its input gives up image quality") {
+    const Folder folder;
+    faqem::save(model_with_small_image(), folder / "in.glb");
+    REQUIRE(run(folder, "simplify in.glb larger.glb --ratio 0.5 --allow-larger --report l.json").code == 0);
+    REQUIRE(size_of(folder, "larger.glb") > size_of(folder, "in.glb"));
+    CHECK(read(folder / "l.json").find("given up") == std::string::npos);
+    REQUIRE(run(folder, "simplify in.glb out.glb --ratio 0.5 --report r.json").code == 0);
+    CHECK(size_of(folder, "out.glb") < size_of(folder, "larger.glb"));
+    const std::string report = read(folder / "r.json");
+    CHECK(report.find("given up, to have no more bytes than the input: ") != std::string::npos);
+    CHECK(report.find("image quality (34 dB)") != std::string::npos);
+    CHECK((report.find("more than the input") != std::string::npos) ==
+          (size_of(folder, "out.glb") > size_of(folder, "in.glb")));
+}
+
+TEST_CASE("images that were asked for are not given up, with a warning") {
+    const Folder folder;
+    faqem::save(model_with_small_image(), folder / "in.glb");
+    const std::string larger =
+        "simplify in.glb larger.glb --ratio 0.5 --allow-larger --image-quality 40 --quiet";
+    REQUIRE(run(folder, larger).code == 0);
+    const std::string asked =
+        "simplify in.glb out.glb --ratio 0.5 --image-quality 40 --quiet --report r.json";
+    REQUIRE(run(folder, asked).code == 0);
+    CHECK(read(folder / "out.glb") == read(folder / "larger.glb"));
+    CHECK(read(folder / "r.json").find("bytes, more than the input with ") != std::string::npos);
+}
+
+TEST_CASE("bare models and options without new images have no rule about bytes") {
+    const faqem::Asset bare = sheet(6);
+    faqem::Options options;
+    options.bake.kind = faqem::Bake::none;
+    const auto bare_result = simplify_no_larger(bare, options, {"out.glb", 1, LargerResult::gives_up});
+    for (const std::string& warning : bare_result.report.warnings)
+        CHECK(warning.find("input") == std::string::npos);
+    CHECK(larger_result({}, false) == LargerResult::gives_up);
+    CHECK(larger_result({}, true) == LargerResult::allowed);
+    CHECK(larger_result({.untouched = faqem::UntouchedParts::baked}, false) == LargerResult::warns);
+}
