@@ -1,11 +1,11 @@
 #include "cli/strict.hpp"
 
-#include "asset/scene/messages.hpp"
-
 #include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
-#include "bake/texture/bake_job.hpp"
+#include "asset/scene/messages.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/error.hpp"
 
