@@ -13,7 +13,7 @@ namespace {
 
 // JPEG qualities that are tried. Below the first, blocks are visible on smooth surfaces at any PSNR; above the
 // last, PNG is about as small.
-constexpr std::array<std::uint32_t, 9> jpeg_qualities = {50, 60, 68, 75, 80, 85, 90, 93, 95};
+constexpr std::array<std::uint32_t, 10> jpeg_qualities = {50, 60, 68, 75, 80, 85, 90, 93, 95, 98};
 
 // A smaller side would not have a texel for every chart of a simple model.
 constexpr std::uint32_t min_side = 8;
