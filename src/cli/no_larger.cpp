@@ -23,7 +23,7 @@ std::string give_up_next(const Asset& source, const Asset& result, BakeOptions& 
     }
     if (bake.image_format == ImageFormat::automatic && bake.image_quality > low_image_quality) {
         bake.image_quality = low_image_quality;
-        return "image quality (34 dB)";
+        return "image quality (" + std::to_string(static_cast<int>(low_image_quality)) + " dB)";
     }
     return {};
 }
@@ -46,7 +46,11 @@ SimplifiedAsset simplify_no_larger(const Asset& source, const Options& options, 
         if (result.report.stop == StopReason::cancelled || result.report.faces_out == 0) return result;
         const ModelBytes size = model_bytes(result.asset, rule.out);
         const bool is_larger = size.total() > rule.bytes_in;
-        if (is_larger && rule.larger == LargerResult::gives_up && size.geometry < rule.bytes_in) {
+        const bool has_new_images = !result.report.pages.empty();
+        // Untouched parts stay so, although an option for images is no longer the default.
+        if (!result.report.untouched_parts.empty()) less.bake.untouched = UntouchedParts::kept;
+        if (is_larger && rule.larger == LargerResult::gives_up && has_new_images &&
+            size.geometry < rule.bytes_in) {
             const std::string next = give_up_next(source, result.asset, less.bake);
             if (!next.empty()) {
                 given_up += (given_up.empty() ? "" : ", ") + next;

@@ -1,5 +1,6 @@
 #include "cli/no_larger.hpp"
 
+#include "cli/byte_budget.hpp"
 #include "faqem/bake.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
@@ -57,6 +58,37 @@ TEST_CASE("images that were asked for are not given up, with a warning") {
     REQUIRE(run(folder, asked).code == 0);
     CHECK(read(folder / "out.glb") == read(folder / "larger.glb"));
     CHECK(read(folder / "r.json").find("bytes, more than the input with ") != std::string::npos);
+}
+
+TEST_CASE("meshes that the simplification leaves as they are stay so when something is given up") {
+    faqem::Asset asset = model_with_small_image();
+    faqem::Part small;
+    small.name = "small";
+    small.positions = {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
+    small.triangles = {{0, 1, 2}};
+    small.uvs = {{{0, 0}, {1, 0}, {0, 1}}};
+    small.face_material = {0};
+    asset.parts.push_back(small);
+    faqem::Options options;
+    options.target = faqem::ratio(0.5);
+    const auto full = simplify_no_larger(asset, options, {"out.glb", 0, LargerResult::allowed});
+    const std::uint64_t bytes = model_bytes(full.asset, "out.glb").geometry + 1;
+    const auto less = simplify_no_larger(asset, options, {"out.glb", bytes, LargerResult::gives_up});
+    CHECK(less.report.warnings.at(less.report.warnings.size() - 2).find("image quality") !=
+          std::string::npos);
+    REQUIRE(full.report.untouched_parts.size() == 1);
+    CHECK(less.report.untouched_parts == full.report.untouched_parts);
+    CHECK(less.asset.images.back().encoded == asset.images[0].encoded);
+}
+
+TEST_CASE("nothing is given up where no image is new") {
+    const faqem::Asset asset = model_with_small_image();
+    faqem::Options options;
+    options.target = faqem::ratio(1);
+    const std::uint64_t bytes = model_bytes(asset, "out.glb").total() - 1;
+    const auto result = simplify_no_larger(asset, options, {"out.glb", bytes, LargerResult::gives_up});
+    REQUIRE(result.report.warnings.size() == 1);
+    CHECK(result.report.warnings[0].find("more than the input") != std::string::npos);
 }
 
 TEST_CASE("bare models and options without new images have no rule about bytes") {

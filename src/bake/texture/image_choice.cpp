@@ -90,7 +90,7 @@ Image smallest_at(const Pixels& original, const Pixels& pixels, std::span<const 
                   const std::string& name, Content content, const ImageLimits& limits, bool tries_png,
                   CancellationCheck check_cancelled) {
     std::optional<Image> best;
-    if (limits.may_be_jpeg && !pixels.has_alpha)
+    if (!pixels.has_alpha)
         best = smallest_jpeg(original, pixels, known, name, content, limits.quality, check_cancelled);
     if (tries_png || !best) {
         Image png = encode_png(pixels, name);

@@ -13,9 +13,8 @@ namespace faqem::detail {
 
 /// How far encode_smallest() may go.
 struct ImageLimits {
-    double quality = 40;      ///< least PSNR in dB
-    bool may_shrink = true;   ///< whether the result may have fewer texels
-    bool may_be_jpeg = true;  ///< whether the result may be a JPEG; images with alpha never are
+    double quality;          ///< least PSNR in dB
+    bool may_shrink = true;  ///< whether the result may have fewer texels
 };
 
 /// Peak signal-to-noise ratios, in dB; infinity if nothing differs.

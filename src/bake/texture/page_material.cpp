@@ -18,8 +18,8 @@ namespace {
 
 using TextureMember = TextureRef Material::*;
 
-// By how many dB an image of normals, roughness and the like may be worse than one of colours: differences in
-// them are less visible (docs/appearance.md, "Image formats").
+// By how many dB an image of normals, roughness and the like may be worse than one of colours. This saves a third
+// of the bytes for 0.3 dB of the lit picture (docs/appearance.md, "Image formats").
 constexpr double data_allowance = 6;
 
 // Adds the images of one page to the result: add() appends an empty image, write() encodes all in parallel.
