@@ -17,6 +17,9 @@ namespace faqem {
 struct SimplifiedParts {
     std::vector<SimplifyResult> parts;  ///< one per part of the source, in its order, each with a history
     Report report;                      ///< sums over the parts
+    /// For Bake::automatic: the parts simplified to the same face counts with the source's UVs and vertex colours as
+    /// attributes, from which bake() chooses those that keep their UVs. Empty: none is tried.
+    std::vector<SimplifyResult> kept;
 };
 
 /// Point of the original surface that a texel corresponds to: that of the sample nearest to the texel centre.

@@ -134,6 +134,8 @@ struct Report {
     std::vector<BakedPage> pages;                 ///< pages of a new atlas; only of materials with images
     /// Of an asset: names of the parts that bake() left as they are (BakeOptions::untouched), as in warnings.
     std::vector<std::string> untouched_parts;
+    /// Of an asset: names of the parts for which bake() with Bake::automatic kept the UVs of the source.
+    std::vector<std::string> kept_uvs;
     std::vector<std::string> warnings;
     std::vector<ResultImage> images;  ///< of the result, in the order of Asset::images
     /// Total size of the files of the model before and after, without those of history and correspondence. Set by

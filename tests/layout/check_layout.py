@@ -42,6 +42,7 @@ ORDER = [
     ["src/render"],
     ["src/bake/atlas", "src/bake/transfer"],
     ["src/bake/texture"],
+    ["src/bake/keep"],
     ["src/bake/scene"],
     ["src/capi"],
     ["src/cli"],

@@ -1,14 +1,19 @@
 #include "faqem/bake.hpp"
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "asset/image/image.hpp"
 #include "asset/image/image_size.hpp"
 #include "asset/scene/messages.hpp"
+#include "bake/keep/kept_parts.hpp"
+#include "bake/keep/kept_uvs.hpp"
+#include "bake/keep/untouched_parts.hpp"
 #include "bake/scene/check_asset.hpp"
-#include "bake/scene/untouched_parts.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/error.hpp"
 
@@ -37,33 +42,6 @@ void check_parts_match(const Asset& source, const SimplifiedParts& simplified) {
     }
 }
 
-// Without textures and transferred normals, the map is needed only for skin weights and morph targets.
-bool needs_map(const Part& part, const BakeOptions& bake) {
-    const bool is_bare = bake.kind == Bake::none && bake.normals != Normals::transfer;
-    return !is_bare || !part.joints.empty() || !part.morph_targets.empty();
-}
-
-// Makes the surface maps and the normals of all parts.
-void map_parts(BakeJob& job, const SimplifiedParts& simplified) {
-    double done = 0;
-    for (std::size_t p = 0; p < job.source.parts.size(); ++p) {
-        job.report_progress(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
-        BakePart part{static_cast<Index>(p), &job.source.parts[p], &simplified.parts[p], nullptr};
-        if (part.faces() > 0 && !job.untouched[p] && needs_map(*part.source, job.options.bake)) {
-            part.map = std::make_unique<const SurfaceMap>(make_surface_map(
-                part.simplified->history, job.options.bake.mapping, part.source->triangles, job.workers()));
-        }
-        job.parts.push_back(std::move(part));
-    }
-    for (const BakePart& part : job.parts) {
-        job.report_progress(Phase::map, 1);
-        const bool has_normals =
-            part.faces() > 0 && !job.untouched[part.index] && job.options.bake.normals != Normals::none;
-        job.normals.push_back(has_normals ? make_normals(part, job.options.bake, job.workers())
-                                          : CornerNormals{});
-    }
-}
-
 // What an atlas places on the page. An automatic one is of charts or, if these are small, by triangle.
 std::string layout_unit(Bake kind) {
     if (kind == Bake::per_triangle) return "triangles";
@@ -89,9 +67,9 @@ void bake_by_kind(BakeJob& job) {
 }
 
 // A part that lost faces has no order of its own that a file should preserve.
-void set_file_orders(BakeJob& job) {
+void set_file_orders(BakeJob& job, std::span<const std::uint8_t> untouched) {
     for (const BakePart& part : job.parts) {
-        if (job.untouched[part.index]) continue;
+        if (untouched[part.index]) continue;
         const bool lost_faces = part.faces() < part.source->triangles.size();
         job.result.asset.parts[part.index].file_order =
             lost_faces ? FileOrder::for_gpu : part.source->file_order;
@@ -125,13 +103,15 @@ SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplifie
     if (simplified.report.stop == StopReason::cancelled) return std::move(job.result);
     PhaseSeconds& seconds = job.result.report.seconds;
     const Stopwatch watch;
-    job.untouched = find_untouched_parts(source, simplified, options.bake);
+    const std::vector<std::uint8_t> untouched = find_untouched_parts(source, simplified, options.bake);
+    job.skipped = untouched;
     try {
-        map_parts(job, simplified);
+        map_parts(job, simplified.parts);
         seconds.map = watch.seconds();
+        KeptUvs kept = choose_kept_uvs(job, simplified);
         bake_by_kind(job);
-        set_file_orders(job);
-        add_untouched_parts(job);
+        add_kept_parts(job, untouched, std::move(kept));
+        set_file_orders(job, untouched);
         report_images(job.result.asset, job.result.report);
         job.report_progress(Phase::bake, 1);
     } catch (const engine::Cancelled&) {

@@ -5,6 +5,8 @@
 #include <string>
 #include "asset/scene/messages.hpp"
 
+#include "bake/keep/kept_uvs.hpp"
+#include "bake/keep/part_reports.hpp"
 #include "bake/scene/check_asset.hpp"
 #include "bake/scene/coincident_faces.hpp"
 #include "bake/scene/face_budget.hpp"
@@ -12,6 +14,7 @@
 #include "bake/scene/removed_components.hpp"
 #include "bake/scene/scene_size.hpp"
 #include "bake/scene/simplify_parts.hpp"
+#include "bake/scene/step_progress.hpp"
 #include "bake/scene/visibility.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/transfer/material_groups.hpp"
@@ -48,30 +51,6 @@ std::vector<Index> face_groups(const Part& part, const std::optional<detail::Mat
     }
     const bool one = std::all_of(result.begin(), result.end(), [&](Index g) { return g == result.front(); });
     return one ? std::vector<Index>{} : result;
-}
-
-void add(Report& sum, const Report& part, const std::string& title) {
-    sum.faces_in += part.faces_in;
-    sum.faces_out += part.faces_out;
-    sum.vertices_in += part.vertices_in;
-    sum.vertices_out += part.vertices_out;
-    // The target of a part is at least 4, even if the part has fewer faces.
-    sum.target_faces += std::min(part.target_faces, part.faces_in);
-    if (part.stop != StopReason::reached_target && sum.stop != StopReason::cancelled) sum.stop = part.stop;
-    sum.collapses += part.collapses;
-    for (std::size_t i = 0; i < refusal_kinds; ++i) sum.refusals[i] += part.refusals[i];
-    for (std::size_t i = 0; i < rung_kinds; ++i) sum.rungs[i] += part.rungs[i];
-    sum.faces_dropped += part.faces_dropped;
-    sum.components_pruned += part.components_pruned;
-    sum.faces_pruned += part.faces_pruned;
-    sum.components_collapsed += part.components_collapsed;
-    sum.components_deleted += part.components_deleted;
-    sum.vertices_fitted += part.vertices_fitted;
-    sum.edges_flipped += part.edges_flipped;
-    sum.virtual_edges += part.virtual_edges;
-    for (const std::string& warning : part.warnings) sum.warnings.push_back(title + ": " + warning);
-    sum.seconds.weld += part.seconds.weld;
-    sum.seconds.simplify += part.seconds.simplify;
 }
 
 // A part as the input of the engine. Materials that are baked into one page form one group, so that
@@ -114,7 +93,21 @@ public:
             level.report.preset = options_.preset;
         }
         if (options_.visibility == Visibility::weighted) compute_visibility();
-        const std::vector<std::vector<std::uint64_t>> share = budgets(targets);
+        return run(budgets(targets));
+    }
+
+    /// Simplifies all parts to given face counts, by part.
+    SimplifiedParts to_face_counts(std::span<const std::uint64_t> counts) {
+        results_.resize(1);
+        results_.front().parts.resize(source_.parts.size());
+        if (options_.visibility == Visibility::weighted) compute_visibility();
+        std::vector<std::vector<std::uint64_t>> share;
+        for (const std::uint64_t count : counts) share.push_back({count});
+        return std::move(run(share).front());
+    }
+
+private:
+    std::vector<SimplifiedParts> run(const std::vector<std::vector<std::uint64_t>>& share) {
         for_each_part([&](std::size_t p, const MeshView& view, Options& own) {
             own.history = Recording::on;
             std::vector<SimplifyResult> results = detail::run_to_targets(view, share[p], own);
@@ -122,7 +115,8 @@ public:
             for (std::size_t i = 0; i < results.size(); ++i) {
                 results_[i].parts[p] = std::move(results[i]);
                 if (groups_) restore_face_groups(p, results_[i].parts[p]);
-                add(results_[i].report, results_[i].parts[p].report, detail::part_title(source_, p));
+                detail::add_part_report(results_[i].report, results_[i].parts[p].report,
+                                        detail::part_title(source_, p));
             }
         });
         if (is_cancelled_) {
@@ -135,7 +129,6 @@ public:
         return std::move(results_);
     }
 
-private:
     void compute_visibility() try {
         const detail::Stopwatch watch;
         const detail::MeasurementMonitor monitor(options_, 0);
@@ -240,14 +233,44 @@ std::vector<SimplifiedParts> detail::simplify_parts_to_targets(const Asset& sour
     return PartsRun(source, options)(targets);
 }
 
+namespace {
+
+// Whether a new atlas could have images: for textures, vertex colours, or several materials on one page.
+bool has_appearance(const Asset& source) {
+    return !source.images.empty() || source.materials.size() > 1 ||
+           std::any_of(source.parts.begin(), source.parts.end(),
+                       [](const Part& part) { return !part.colors.empty(); });
+}
+
+// Simplifies all parts again, with UVs, to the face counts that they have.
+void add_kept_parts(const Asset& source, const Options& options, SimplifiedParts& simplified) {
+    Options own = detail::step_options(options, Phase::simplify, 0.5, 1);
+    own.bake.kind = Bake::keep;
+    std::vector<std::uint64_t> counts;
+    for (const SimplifyResult& part : simplified.parts) counts.push_back(part.mesh.triangles.size());
+    SimplifiedParts kept = PartsRun(source, own).to_face_counts(counts);
+    simplified.report.seconds.simplify += kept.report.seconds.simplify;
+    simplified.report.seconds.total += kept.report.seconds.simplify;
+    if (kept.report.stop == StopReason::cancelled)
+        simplified.report.stop = kept.report.stop;
+    else
+        simplified.kept = std::move(kept.parts);
+}
+
+}  // namespace
+
 SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
     validate(options);
     detail::check_asset(source);
     if (options.max_error) return detail::simplify_parts_within_error(source, options);
-    double faces = 0;
-    for (const Part& part : source.parts) faces += static_cast<double>(part.triangles.size());
-    const std::uint64_t target = detail::target_face_count(options.target, faces);
-    return std::move(detail::simplify_parts_to_targets(source, {&target, 1}, options).front());
+    std::uint64_t faces = 0;
+    for (const Part& part : source.parts) faces += part.triangles.size();
+    const std::uint64_t target = detail::target_face_count(options.target, static_cast<double>(faces));
+    const bool tries_uvs = detail::may_keep_uvs(options) && has_appearance(source) && target < faces;
+    const Options own = detail::step_options(options, Phase::simplify, 0, tries_uvs ? 0.5 : 1);
+    SimplifiedParts result = std::move(detail::simplify_parts_to_targets(source, {&target, 1}, own).front());
+    if (tries_uvs && result.report.stop != StopReason::cancelled) add_kept_parts(source, options, result);
+    return result;
 }
 
 }  // namespace faqem

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/corners.hpp"
 #include "bake/transfer/material_groups.hpp"
+#include "bake/transfer/texture_sampling.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
@@ -27,8 +29,10 @@ public:
     const Options& options;
     std::vector<BakePart> parts;
     std::vector<CornerNormals> normals;  ///< by part
-    /// By part: whether it is kept as it is. Baking leaves such parts of the result empty.
-    std::vector<std::uint8_t> untouched;
+    /// By part: whether baking leaves it empty in the result, because it is added later: it keeps its vertices, or
+    /// its UVs.
+    std::vector<std::uint8_t> skipped;
+    DecodedImages images;  ///< those of the source that were needed
     SimplifiedAsset result;
 
     /// Calls the progress callback.
@@ -53,6 +57,10 @@ private:
     mutable double fraction_ = 0;
     mutable engine::ProgressMonitor monitor_{[this] { return options.progress(phase_, fraction_); }};
 };
+
+/// Makes the surface maps and the normals of all parts that are not skipped.
+/// \param simplified  by part of the source; borrowed by the job
+void map_parts(BakeJob& job, std::span<const SimplifyResult> simplified);
 
 /// parallel_blocks() that reports progress.
 /// \param size   number of elements

@@ -62,7 +62,7 @@ std::vector<GroupPage> group_pages(const BakeJob& job, const MaterialGroups& gro
         pages[g].channels.layer_normals = std::any_of(layers.begin(), layers.end(), is_normal_map);
     }
     for (const BakePart& part : job.parts) {
-        if (job.untouched[part.index]) continue;
+        if (job.skipped[part.index]) continue;
         const bool colors = has_non_white_colors(*part.source);
         const std::vector<Index>& kept = part.simplified->history.kept_faces;
         for (Index f = 0; f < part.faces(); ++f) {
@@ -204,11 +204,12 @@ void remove_unused_uvs(const BakeJob& job, const std::vector<GroupPage>& pages,
 }  // namespace
 
 bool bake_pages(BakeJob& job) {
-    const MaterialGroups groups = group_materials(job.source, Bake::per_triangle, job.untouched);
+    const MaterialGroups groups = group_materials(job.source, Bake::per_triangle, job.skipped);
     std::vector<GroupPage> pages = group_pages(job, groups);
     Channels wanted;
     for (const GroupPage& page : pages) wanted = wanted | page.channels;
-    const SourceSampler sampler(job.source, wanted, job.workers(), job.untouched);
+    const SourceSampler sampler(job.source, wanted, job.workers(), job.skipped, &job.images);
+    job.images.clear();  // the sampler has those that it needs
     double pieces = 0;
     for (GroupPage& page : pages) {
         if (!page.channels.any() || page.faces.empty()) continue;
@@ -239,7 +240,7 @@ bool bake_pages(BakeJob& job) {
     }
     remove_unused_uvs(job, pages, uvs, tangents);
     for (const BakePart& part : job.parts) {
-        if (job.untouched[part.index]) {
+        if (job.skipped[part.index]) {
             out.parts.emplace_back();
             continue;
         }

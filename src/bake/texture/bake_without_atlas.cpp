@@ -52,8 +52,8 @@ void finish_part(BakeJob& job, const BakePart& part, const CornerValues& values,
 
 // Adds an empty part for an untouched one. Returns false for other parts.
 bool leave_empty(BakeJob& job, const BakePart& part) {
-    if (job.untouched[part.index]) job.result.asset.parts.emplace_back();
-    return job.untouched[part.index] != 0;
+    if (job.skipped[part.index]) job.result.asset.parts.emplace_back();
+    return job.skipped[part.index] != 0;
 }
 
 std::vector<Index> kept_materials(const BakePart& part) {
@@ -90,10 +90,10 @@ std::vector<Vec4f> kept_tangents(const BakeJob& job, const BakePart& part,
 }  // namespace
 
 void bake_vertex(BakeJob& job) {
-    const MaterialGroups groups = group_materials(job.source, Bake::vertex, job.untouched);
+    const MaterialGroups groups = group_materials(job.source, Bake::vertex, job.skipped);
     Channels wanted;
     wanted.base = true;
-    const SourceSampler sampler(job.source, wanted, job.workers(), job.untouched);
+    const SourceSampler sampler(job.source, wanted, job.workers(), job.skipped);
     for (const MaterialGroup& group : groups.groups) {
         Material material = without_textures(job, group.materials.front(), true);
         for (std::size_t m = 1; m < group.materials.size(); ++m)

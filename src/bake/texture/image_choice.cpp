@@ -27,6 +27,9 @@ constexpr std::uint32_t block_side = 8;
 // By how many dB a block may be worse than the whole image.
 constexpr double local_allowance = 15;
 
+// By how many dB an image of normals, roughness and the like may be worse than one of colours.
+constexpr double data_allowance = 6;
+
 // Position of a texel's centre in an image with fewer texels, as the two nearest texels and the weight of the
 // second.
 struct Interpolation {
@@ -100,6 +103,10 @@ Image smallest_at(const Pixels& original, const Pixels& pixels, std::span<const 
 }
 
 }  // namespace
+
+double least_psnr(const BakeOptions& bake, Content content) {
+    return bake.image_quality - (content == Content::data ? data_allowance : 0);
+}
 
 ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {
     const std::vector<Interpolation> columns = interpolations(original.width, shown.width);

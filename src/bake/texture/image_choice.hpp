@@ -6,8 +6,10 @@
 #include <span>
 #include <string>
 
+#include "asset/image/image.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/options.hpp"
 
 namespace faqem::detail {
 
@@ -16,6 +18,10 @@ struct ImageLimits {
     double quality;          ///< least PSNR in dB
     bool may_shrink = true;  ///< whether the result may have fewer texels
 };
+
+/// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 6 less for normals and
+/// other data. This saves a third of the bytes for 0.3 dB of the lit picture (docs/appearance.md, "Image formats").
+double least_psnr(const BakeOptions& bake, Content content);
 
 /// Peak signal-to-noise ratios, in dB; infinity if nothing differs.
 struct ImageLoss {

@@ -18,10 +18,6 @@ namespace {
 
 using TextureMember = TextureRef Material::*;
 
-// By how many dB an image of normals, roughness and the like may be worse than one of colours. This saves a third
-// of the bytes for 0.3 dB of the lit picture (docs/appearance.md, "Image formats").
-constexpr double data_allowance = 6;
-
 // Adds the images of one page to the result: add() appends an empty image, write() encodes all in parallel.
 class ImageWriter {
 public:
@@ -71,7 +67,7 @@ private:
     ImageLimits limits(Content content) const {
         const BakeOptions& bake = job_.options.bake;
         const bool may_shrink = !bake.texel_density && bake.correspondence == Recording::off;
-        return {bake.image_quality - (content == Content::data ? data_allowance : 0), may_shrink};
+        return {least_psnr(bake, content), may_shrink};
     }
 
     bool should_use_jpeg(const Pixels& pixels, const std::vector<TextureRef>& from) const {

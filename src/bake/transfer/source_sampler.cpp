@@ -51,13 +51,15 @@ Pixels decode_for(const Asset& asset, Index image, Index material) {
 }  // namespace
 
 SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers,
-                             std::span<const std::uint8_t> skipped_parts)
+                             std::span<const std::uint8_t> skipped_parts, DecodedImages* decoded)
     : asset_(asset), wanted_(wanted) {
+    DecodedImages own;
+    DecodedImages& images = decoded ? *decoded : own;
     const std::vector<bool> used = used_materials(asset, skipped_parts);
     for (std::size_t m = 0; m <= asset.materials.size(); ++m) {
         const Index index = m == asset.materials.size() ? no_index : static_cast<Index>(m);
         material_slots_.push_back(
-            used[m] ? load_material(index, workers)
+            used[m] ? load_material(index, images, workers)
                     : MaterialSlots{&material_or_default(asset, index), {}, {}, {}, {}, {}, {}});
     }
     densities_.resize(asset.parts.size());
@@ -70,7 +72,8 @@ SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const W
     }
 }
 
-SourceSampler::MaterialSlots SourceSampler::load_material(Index index, const Workers& workers) {
+SourceSampler::MaterialSlots SourceSampler::load_material(Index index, DecodedImages& images,
+                                                          const Workers& workers) {
     MaterialSlots result;
     result.material = &material_or_default(asset_, index);
     const Material& m = *result.material;
@@ -78,7 +81,7 @@ SourceSampler::MaterialSlots SourceSampler::load_material(Index index, const Wor
         m.alpha_mode == AlphaMode::opaque ? TexelEncoding::opaque_color : TexelEncoding::color;
     const auto set = [&](TextureSlot& to, bool wanted, const TextureRef& texture_ref,
                          TexelEncoding encoding) {
-        if (wanted) to = load_slot(texture_ref, encoding, index, workers);
+        if (wanted) to = load_slot(texture_ref, encoding, index, images, workers);
     };
     set(result.base, wanted_.base, m.base_color_texture, color);
     set(result.metallic_roughness, wanted_.metallic_roughness, m.metallic_roughness_texture,
@@ -97,19 +100,20 @@ SourceSampler::MaterialSlots SourceSampler::load_material(Index index, const Wor
 }
 
 SourceSampler::TextureSlot SourceSampler::load_slot(const TextureRef& texture_ref, TexelEncoding encoding,
-                                                    Index material, const Workers& workers) {
+                                                    Index material, DecodedImages& images,
+                                                    const Workers& workers) {
     if (!texture_ref) return {};
-    auto& image = images_[{texture_ref.image, encoding}];
+    auto& image = images[{texture_ref.image, encoding}];
     if (!image) {
         workers.check_cancelled.now();
         Pixels pixels = decode_for(asset_, texture_ref.image, material);
         if (pixels.width == 0 || pixels.height == 0) {
             throw InputError("", "material " + std::to_string(material), "an image of it has no pixels");
         }
-        image = std::make_unique<const MipImage>(std::move(pixels), encoding, workers);
+        image = std::make_shared<const MipImage>(std::move(pixels), encoding, workers);
     }
     const double texels = double(image->width()) * image->height();
-    return {image.get(), &texture_ref,
+    return {image, &texture_ref,
             std::sqrt(texels * std::abs(double(texture_ref.scale[0]) * texture_ref.scale[1])),
             uv_transform(texture_ref)};
 }

@@ -4,10 +4,8 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "bake/transfer/extension_layers.hpp"
@@ -53,10 +51,12 @@ public:
     /// \param asset   must outlive this
     /// \param wanted  channels that will be sampled
     /// \param skipped_parts  by part: whether it will not be sampled; empty: all will be
+    /// \param decoded  images of the asset that are decoded already; those that are missing are added. It may
+    ///                 change or end before this
     /// \throws InputError if an image is damaged
     /// \throws UnsupportedError if an image has an unknown format
     SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers = {},
-                  std::span<const std::uint8_t> skipped_parts = {});
+                  std::span<const std::uint8_t> skipped_parts = {}, DecodedImages* decoded = nullptr);
 
     /// Appearance at a point, without normals.
     /// \param part     index into Asset::parts
@@ -92,7 +92,7 @@ public:
 
 private:
     struct TextureSlot {  // a texture of a material; no image: not sampled
-        const MipImage* image = nullptr;
+        std::shared_ptr<const MipImage> image;
         const TextureRef* texture_ref = nullptr;
         double texels_per_uv = 0;
         UvTransform transform;
@@ -116,9 +116,9 @@ private:
         double untextured_density = 1;
     };
 
-    MaterialSlots load_material(Index material, const Workers& workers);
+    MaterialSlots load_material(Index material, DecodedImages& images, const Workers& workers);
     TextureSlot load_slot(const TextureRef& texture_ref, TexelEncoding encoding, Index material,
-                          const Workers& workers);
+                          DecodedImages& images, const Workers& workers);
     void measure_densities(const Part& part, PartDensity& density) const;
     LinearColor fetch(const TextureSlot& slot, Index part, const SurfacePoint& point, double spacing) const;
     engine::Vector3 perturbed_normal(const TextureSlot& slot, double scale, Index part,
@@ -133,7 +133,6 @@ private:
 
     const Asset& asset_;
     const Channels wanted_;
-    std::map<std::pair<Index, TexelEncoding>, std::unique_ptr<const MipImage>> images_;
     std::vector<MaterialSlots> material_slots_;  ///< by material, the default material last
     std::vector<PartDensity> densities_;         ///< by part
     std::vector<std::vector<Vec4f>> tangents_;   ///< by part and corner; empty for parts without normal map

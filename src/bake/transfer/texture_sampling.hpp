@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "faqem/asset.hpp"
@@ -58,6 +60,9 @@ private:
     TexelEncoding encoding_;
     std::vector<Level> levels_;  ///< starting with level 1
 };
+
+/// Images of an asset, by index and interpretation.
+using DecodedImages = std::map<std::pair<Index, TexelEncoding>, std::shared_ptr<const MipImage>>;
 
 /// An affine map of texture coordinates.
 struct UvTransform {

@@ -114,10 +114,11 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
         out << "distance: at least " << error.value << ", at most " << error.bound << " (allowed "
             << error.allowed << "), " << error.runs << (error.runs == 1 ? " run\n" : " runs\n");
     }
-    if (!report.untouched_parts.empty()) {
-        out << "left as they are: " << report.untouched_parts.size()
-            << (report.untouched_parts.size() == 1 ? " mesh\n" : " meshes\n");
-    }
+    const auto print_meshes = [&](const char* what, std::size_t count) {
+        if (count > 0) out << what << ": " << count << (count == 1 ? " mesh\n" : " meshes\n");
+    };
+    print_meshes("left as they are", report.untouched_parts.size());
+    print_meshes("with the UVs of the source", report.kept_uvs.size());
     print_counts(out, report);
     out << report.warnings.size() << (report.warnings.size() == 1 ? " warning\n" : " warnings\n");
     for (const std::string& warning : report.warnings) out << "  " << warning << "\n";

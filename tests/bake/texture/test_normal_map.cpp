@@ -131,7 +131,9 @@ TEST_CASE("models without textures get a normal map only if it is requested") {
     CHECK(simplify(asset, with(NormalMap::on, 0.02)).asset.images.size() == 1);
     for (const Vec3& p : asset.parts[0].positions)
         asset.parts[0].colors.push_back({static_cast<float>(p[0] / 64), 0, 0, 1});
-    CHECK(simplify(asset, with(NormalMap::automatic, 0.02)).asset.images.size() == 1);
+    Options colored = with(NormalMap::automatic, 0.02);
+    colored.bake.kind = Bake::atlas;
+    CHECK(simplify(asset, colored).asset.images.size() == 1);
 }
 
 TEST_CASE("normal maps are omitted for unlit materials and with a warning if they are off") {

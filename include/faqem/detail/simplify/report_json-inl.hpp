@@ -94,6 +94,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["bytes_in"] = report.bytes_in;
     json["bytes_out"] = report.bytes_out;
     json["untouched_parts"] = report.untouched_parts;
+    json["kept_uvs"] = report.kept_uvs;
     json["warnings"] = report.warnings;
     const PhaseSeconds& s = report.seconds;
     json["seconds"] = {{"load", s.load}, {"weld", s.weld}, {"simplify", s.simplify}, {"map", s.map},

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parts that the simplification leaves as they are keep their vertices, materials and images.
+/// Parts that the simplification leaves as they are.
 
 #include <cstdint>
 #include <vector>
@@ -16,9 +16,5 @@ namespace faqem::detail {
 /// Complexity: O(faces).
 std::vector<std::uint8_t> find_untouched_parts(const Asset& source, const SimplifiedParts& simplified,
                                                const BakeOptions& bake);
-
-/// Replaces the empty parts that baking leaves for BakeJob::untouched by those of the source, adds their
-/// materials and images, and reports them.
-void add_untouched_parts(BakeJob& job);
 
 }  // namespace faqem::detail

@@ -1,0 +1,173 @@
+#include "bake/keep/kept_images.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "asset/image/image.hpp"
+#include "asset/scene/material_textures.hpp"
+#include "bake/keep/uv_texels.hpp"
+#include "bake/texture/image_choice.hpp"
+#include "bake/transfer/texture_sampling.hpp"
+
+namespace faqem::detail {
+namespace {
+
+// What materials use an image for.
+struct ImageUse {
+    bool is_used = false;   // by a part whose images may change
+    bool is_fixed = false;  // stays as it is
+    bool is_color = false;  // holds colours, not only data
+    bool needs_alpha = false;
+    bool is_pixel_art = false;  // shown without filter
+};
+
+// Calls visit(texture, content); content is null for a texture of an unknown extension.
+template <class Visit>
+void for_each_content(const Material& m, const Visit& visit) {
+    const auto known = [&](const TextureRef& texture, TextureContent content) {
+        if (texture) visit(texture, &content);
+    };
+    known(m.base_color_texture,
+          m.alpha_mode == AlphaMode::opaque ? TextureContent::color : TextureContent::color_and_alpha);
+    known(m.metallic_roughness_texture, TextureContent::data);
+    known(m.occlusion_texture, TextureContent::data);
+    known(m.normal_texture, TextureContent::normal);
+    known(m.emissive_texture, TextureContent::color);
+    for (const ExtensionTexture& e : m.extension_textures) {
+        if (!e.texture) continue;
+        const KnownTexture* found = find_known_texture(e.extension, e.name);
+        visit(e.texture, found ? &found->content : nullptr);
+    }
+}
+
+void add_use(ImageUse& use, const TextureRef& texture, const TextureContent* content) {
+    use.is_used = true;
+    use.is_pixel_art = use.is_pixel_art || texture.filter == Filter::nearest;
+    if (!content) {
+        use.is_fixed = true;
+        return;
+    }
+    const bool has_color = *content == TextureContent::color || *content == TextureContent::color_and_alpha;
+    use.is_color = use.is_color || has_color;
+    use.needs_alpha =
+        use.needs_alpha || *content == TextureContent::alpha || *content == TextureContent::color_and_alpha;
+}
+
+// The materials of a part, each once.
+std::vector<Index> materials_of(const Part& part) {
+    std::vector<Index> result = part.face_material;
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    if (!result.empty() && result.back() == no_index) result.pop_back();
+    return result;
+}
+
+std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> parts) {
+    std::vector<ImageUse> result(asset.images.size());
+    for (const KeptPart& kept : parts) {
+        for (const Index m : materials_of(asset.parts[kept.part])) {
+            for_each_content(asset.materials[m],
+                             [&](const TextureRef& texture, const TextureContent* content) {
+                                 if (kept.keeps_images)
+                                     result[texture.image].is_fixed = true;
+                                 else
+                                     add_use(result[texture.image], texture, content);
+                             });
+        }
+    }
+    return result;
+}
+
+// By texel of an image: whether a part shows it.
+std::vector<std::uint8_t> texels_of_parts(const Asset& asset, std::span<const KeptPart> parts, Index image,
+                                          const Pixels& pixels) {
+    UvTexels texels(pixels.width, pixels.height);
+    for (const KeptPart& kept : parts) {
+        const Part& part = asset.parts[kept.part];
+        std::map<Index, std::vector<TextureRef>> textures;  // by material
+        for (const Index m : materials_of(part)) {
+            for_each_texture(asset.materials[m], [&](const TextureRef& texture) {
+                if (texture.image == image && texture.uv_set < part.uvs.size())
+                    textures[m].push_back(texture);
+            });
+        }
+        if (textures.empty()) continue;
+        for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+            const auto of_face = textures.find(part.face_material[f]);
+            if (of_face == textures.end()) continue;
+            for (const TextureRef& texture : of_face->second) {
+                const UvTransform transform = uv_transform(texture);
+                std::array<Vec2f, 3> uv;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const Vec2f& from = part.uvs[texture.uv_set][part.triangles[f][k]];
+                    const auto to = transform.apply(from[0], from[1]);
+                    uv[k] = {static_cast<float>(to[0]), static_cast<float>(to[1])};
+                }
+                texels.add(uv, texture.wrap_u, texture.wrap_v);
+            }
+        }
+    }
+    return std::move(texels).finish();
+}
+
+bool can_halve(const Pixels& pixels) {
+    return pixels.width % 2 == 0 && pixels.height % 2 == 0 && std::min(pixels.width, pixels.height) > 1;
+}
+
+// Whether an image must get fewer texels.
+bool exceeds(const Pixels& pixels, const ImageUse& use, std::uint32_t texture_size) {
+    return !use.is_pixel_art && std::max(pixels.width, pixels.height) > texture_size && can_halve(pixels);
+}
+
+// The decoded image without alpha that nothing uses.
+Pixels used_pixels(const Image& image, const ImageUse& use) {
+    Pixels pixels = decode(image);
+    if (!use.needs_alpha && pixels.has_alpha) {
+        for (std::size_t i = 3; i < pixels.rgba.size(); i += 4) pixels.rgba[i] = 255;
+        pixels.has_alpha = false;
+    }
+    return pixels;
+}
+
+Image encoded_kept_image(const BakeJob& job, std::span<const KeptPart> parts, Index index,
+                         const ImageUse& use, CancellationCheck check_cancelled) {
+    const BakeOptions& bake = job.options.bake;
+    const Image& image = job.result.asset.images[index];
+    Pixels pixels = used_pixels(image, use);
+    const bool is_too_large = exceeds(pixels, use, bake.texture_size);
+    while (exceeds(pixels, use, bake.texture_size)) pixels = halved(pixels);
+    const Content content = use.is_color ? Content::color : Content::data;
+    check_cancelled.now();
+    if (bake.image_format == ImageFormat::png) return encode_png(pixels, image.name);
+    if (bake.image_format == ImageFormat::jpeg) {
+        return pixels.has_alpha ? encode_png(pixels, image.name)
+                                : encode_jpeg(pixels, image.name, bake.jpeg_quality, content);
+    }
+    const std::vector<std::uint8_t> shown = texels_of_parts(job.result.asset, parts, index, pixels);
+    const ImageLimits limits{least_psnr(bake, content), !use.is_pixel_art};
+    Image result = encode_smallest(pixels, shown, image.name, content, limits, check_cancelled);
+    return !is_too_large && result.encoded.size() >= image.encoded.size() ? image : result;
+}
+
+}  // namespace
+
+void encode_kept_images(BakeJob& job, std::span<const KeptPart> parts) {
+    if (job.options.bake.image_format == ImageFormat::source) return;
+    const std::vector<ImageUse> uses = image_uses(job.result.asset, parts);
+    std::vector<Index> changing;
+    for (Index i = 0; i < uses.size(); ++i)
+        if (uses[i].is_used && !uses[i].is_fixed) changing.push_back(i);
+    std::vector<Image> encoded(changing.size());
+    parallel_blocks(changing.size(), 1, job.workers(),
+                    [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
+                        encoded[i] =
+                            encoded_kept_image(job, parts, changing[i], uses[changing[i]], check_cancelled);
+                    });
+    for (std::size_t i = 0; i < changing.size(); ++i)
+        job.result.asset.images[changing[i]] = std::move(encoded[i]);
+}
+
+}  // namespace faqem::detail

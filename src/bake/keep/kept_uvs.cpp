@@ -1,0 +1,220 @@
+#include "bake/keep/kept_uvs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "asset/scene/material_textures.hpp"
+#include "asset/scene/messages.hpp"
+#include "bake/keep/part_reports.hpp"
+#include "bake/keep/picture_loss.hpp"
+#include "bake/texture/normal_map.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::to_eigen;
+
+// By how many dB pictures with kept UVs may have a lower PSNR: in the mean of unlit and lit, small and large ones,
+// and each.
+constexpr double allowed_mean_loss = 0.2, allowed_loss = 0.8;
+
+// Mean squared difference of a channel that is not seen: 50 dB.
+constexpr double invisible_difference = 1e-5;
+
+// Points per side of a view: of a scene with one set of parts, and at least.
+constexpr std::uint32_t view_points = 256, min_view_points = 64;
+
+// Share of a page's texels that its charts cover.
+constexpr double usual_fill = 0.6;
+
+std::uint64_t lost_components(const Report& report) {
+    return report.components_collapsed + report.components_deleted;
+}
+
+// Whether a part was simplified with UVs as far as without, and lost no more on the way. Coincident faces of
+// different colour are one face where UVs are kept.
+bool is_as_complete(const SimplifyResult& kept, const SimplifyResult& free) {
+    return !kept.mesh.triangles.empty() && kept.mesh.triangles.size() <= free.mesh.triangles.size() &&
+           kept.report.faces_dropped <= free.report.faces_dropped &&
+           lost_components(kept.report) <= lost_components(free.report);
+}
+
+// Sets of parts that share images.
+class PartSets {
+public:
+    explicit PartSets(const Asset& asset) : parent_(asset.parts.size()) {
+        std::iota(parent_.begin(), parent_.end(), Index{0});
+        std::vector<Index> user(asset.images.size(), no_index);
+        for (Index p = 0; p < parent_.size(); ++p) {
+            std::vector<Index> materials = asset.parts[p].face_material;
+            std::sort(materials.begin(), materials.end());
+            materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
+            for (const Index m : materials) {
+                if (m == no_index) continue;
+                for_each_texture(asset.materials[m], [&](const TextureRef& texture) {
+                    if (!texture) return;
+                    if (user[texture.image] == no_index) user[texture.image] = p;
+                    join(user[texture.image], p);
+                });
+            }
+        }
+    }
+
+    /// The least part of the set.
+    Index set_of(Index part) const {
+        while (parent_[part] != part) part = parent_[part];
+        return part;
+    }
+
+private:
+    void join(Index a, Index b) {
+        a = set_of(a);
+        b = set_of(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+    std::vector<Index> parent_;
+};
+
+// What new pages would have: ComparedScenes::page_texels and gets_normal_map.
+struct ExpectedPages {
+    std::vector<double> texels;
+    std::vector<std::uint8_t> has_normal_map;
+};
+
+ExpectedPages expected_pages(const BakeJob& job, const SourceSampler& sampler) {
+    const MaterialGroups groups = group_materials(job.source, Bake::per_triangle, job.skipped);
+    std::vector<std::vector<PageFace>> faces(groups.groups.size());
+    std::vector<double> needed(groups.groups.size(), 0);  // texels
+    std::vector<double> area(job.parts.size(), 0), texels(job.parts.size(), 0);
+    for (const BakePart& part : job.parts) {
+        if (job.skipped[part.index]) continue;
+        const TriangleMesh& mesh = part.simplified->mesh;
+        for (Index f = 0; f < part.faces(); ++f) {
+            const Index group =
+                groups.group_of(face_material(*part.source, part.simplified->history.kept_faces[f]));
+            faces[group].push_back({part.index, f});
+            const Triangle& t = mesh.triangles[f];
+            const double own =
+                engine::area_vector(to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]),
+                                    to_eigen(mesh.positions[t[2]]))
+                    .norm() /
+                2;
+            constexpr double third = 1.0 / 3;
+            const double density =
+                sampler.texel_density(part.index, part.map->map(f, {third, third, third}).face);
+            if (!std::isfinite(own * density * density)) continue;
+            area[part.index] += own;
+            texels[part.index] += own * density * density;
+            needed[group] += own * density * density;
+        }
+    }
+    ExpectedPages result{std::vector<double>(job.parts.size(), 0),
+                         std::vector<std::uint8_t>(job.parts.size(), 0)};
+    const double side = job.options.bake.texture_size;
+    for (std::size_t g = 0; g < faces.size(); ++g) {
+        const bool normal_map = wants_normal_map(job, groups.groups[g], faces[g]);
+        const double share = std::min(1.0, usual_fill * side * side / needed[g]);
+        for (const PageFace& face : faces[g]) {
+            if (normal_map) result.has_normal_map[face.part] = 1;
+            const double spacing = std::sqrt(area[face.part] / (texels[face.part] * share));
+            if (spacing > result.texels[face.part] && std::isfinite(spacing))
+                result.texels[face.part] = spacing;
+        }
+    }
+    return result;
+}
+
+// By how many dB the PSNR of one picture is lower than that of another.
+double lost_psnr(double kept, double baked, std::uint64_t points) {
+    const double invisible = 3 * invisible_difference * static_cast<double>(points);
+    return 10 * std::log10((kept + invisible) / (baked + invisible));
+}
+
+bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses) {
+    double sum = 0, worst = 0;
+    for (const auto& [kept, baked] : losses) {
+        for (const double lost :
+             {lost_psnr(kept.unlit, baked.unlit, kept.points), lost_psnr(kept.lit, baked.lit, kept.points)}) {
+            sum += lost;
+            worst = std::max(worst, lost);
+        }
+    }
+    return sum / 4 <= allowed_mean_loss && worst <= allowed_loss;
+}
+
+// The parts with faces by set, without those whose set has a part that cannot keep its UVs.
+std::vector<std::vector<Index>> candidate_sets(const BakeJob& job, const SimplifiedParts& simplified) {
+    const PartSets sets(job.source);
+    std::vector<std::vector<Index>> result(job.parts.size());
+    std::vector<std::uint8_t> is_possible(job.parts.size(), 1);
+    for (const BakePart& part : job.parts) {
+        if (job.skipped[part.index] || part.source->triangles.empty()) continue;
+        const Index set = sets.set_of(part.index);
+        result[set].push_back(part.index);
+        if (!is_as_complete(simplified.kept[part.index], simplified.parts[part.index])) is_possible[set] = 0;
+    }
+    for (std::size_t s = 0; s < result.size(); ++s)
+        if (!is_possible[s]) result[s].clear();
+    std::erase_if(result, [](const std::vector<Index>& set) { return set.empty(); });
+    return result;
+}
+
+void accept(BakeJob& job, const SimplifiedParts& simplified, Index part) {
+    Report& report = job.result.report;
+    const std::string title = part_title(job.source, part);
+    remove_part_report(report, simplified.parts[part].report, title);
+    const PhaseSeconds seconds = report.seconds;  // has those of both runs already
+    add_part_report(report, simplified.kept[part].report, title);
+    report.seconds = seconds;
+    report.kept_uvs.push_back(title);
+    job.parts[part].simplified = &simplified.kept[part];
+    job.parts[part].map.reset();
+    job.skipped[part] = 1;
+}
+
+}  // namespace
+
+bool may_keep_uvs(const Options& options) {
+    const BakeOptions& bake = options.bake;
+    return bake.kind == Bake::automatic && bake.normal_map == NormalMap::automatic && !bake.texel_density &&
+           bake.correspondence == Recording::off && bake.normals == Normals::transfer &&
+           bake.untouched != UntouchedParts::baked && options.history == Recording::off && !options.max_error;
+}
+
+KeptUvs choose_kept_uvs(BakeJob& job, const SimplifiedParts& simplified) {
+    KeptUvs result{{}, std::vector<std::uint8_t>(job.parts.size(), 0)};
+    if (job.options.bake.kind != Bake::automatic || simplified.kept.size() != job.parts.size()) return result;
+    const std::vector<std::vector<Index>> sets = candidate_sets(job, simplified);
+    if (sets.empty()) return result;
+
+    Options how = job.options;
+    how.bake.kind = Bake::keep;
+    BakeJob kept(job.source, how);
+    kept.skipped.assign(job.parts.size(), 1);
+    for (const std::vector<Index>& set : sets)
+        for (const Index p : set) kept.skipped[p] = 0;
+    map_parts(kept, simplified.kept);
+    bake_keep(kept);
+
+    const Channels seen{.base = true, .normal = true};
+    const SourceSampler sampler(job.source, seen, job.workers(), job.skipped, &job.images);
+    const SourceSampler kept_sampler(kept.result.asset, seen, job.workers(), kept.skipped, &job.images);
+    const ExpectedPages pages = expected_pages(job, sampler);
+    const ComparedScenes scenes{job,          sampler,      kept.result.asset,
+                                kept_sampler, pages.texels, pages.has_normal_map};
+    const double side = view_points / std::sqrt(static_cast<double>(sets.size()));
+    const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
+    for (const std::vector<Index>& set : sets) {
+        const bool is_accepted = is_as_good(compare_pictures(scenes, set, size));
+        for (const Index p : set) result.accepted[p] = is_accepted ? 1 : 0;
+    }
+    for (Index p = 0; p < result.accepted.size(); ++p)
+        if (result.accepted[p]) accept(job, simplified, p);
+    result.asset = std::move(kept.result.asset);
+    return result;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// Parts that keep the UVs of the source because their pictures are as good as with new images.
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/texture/bake_job.hpp"
+#include "faqem/bake.hpp"
+
+namespace faqem::detail {
+
+/// Whether the options leave it to bake() to keep UVs: Bake::automatic without any option that is about a new atlas
+/// or about the collapses.
+bool may_keep_uvs(const Options& options);
+
+/// The parts that keep their UVs.
+struct KeptUvs {
+    Asset asset;                         ///< the parts, with the materials and images of the source
+    std::vector<std::uint8_t> accepted;  ///< by part: whether it keeps its UVs
+};
+
+/// Compares pictures of SimplifiedParts::kept with those of perfect new images. Parts that share images are accepted
+/// together: if each of them has reached the face count of its simplification without UVs and lost no more
+/// faces and components, and if pictures of them have a PSNR at most 0.8 dB lower, and 0.2 dB in the mean (unlit and lit, small
+/// and large pictures).
+/// Accepted parts are skipped in the job, and their simplified meshes and reports are those with UVs.
+/// \param job         after map_parts()
+/// \param simplified  must outlive the job
+/// \throws engine::Cancelled
+/// Complexity: that of bake_keep() and of compare_pictures() for each set of parts that share images.
+KeptUvs choose_kept_uvs(BakeJob& job, const SimplifiedParts& simplified);
+
+}  // namespace faqem::detail

@@ -1,0 +1,59 @@
+#pragma once
+/// \file
+/// How much pictures of a simplified scene differ from those of its source: with the source's UVs, and with new
+/// images that reproduce the source at every point.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "bake/texture/bake_job.hpp"
+#include "bake/transfer/source_sampler.hpp"
+
+namespace faqem::detail {
+
+/// Sums of squared differences to pictures of the source, of sRGB values in [0, 1].
+struct PictureLoss {
+    double unlit = 0;          ///< base colours
+    double lit = 0;            ///< with light, which shows normals and normal maps
+    std::uint64_t points = 0;  ///< pixels that show something
+
+    PictureLoss& operator+=(const PictureLoss& o) {
+        unlit += o.unlit;
+        lit += o.lit;
+        points += o.points;
+        return *this;
+    }
+};
+
+/// The losses of two versions of the same parts.
+struct KeptAndBakedLoss {
+    PictureLoss kept, baked;
+};
+
+/// What is compared.
+struct ComparedScenes {
+    const BakeJob& job;                 ///< with the maps and the normals of the parts that would be baked
+    const SourceSampler& source;        ///< of job.source: base colours and normals
+    const Asset& kept;                  ///< the parts with kept UVs, by index of the source
+    const SourceSampler& kept_sampler;  ///< of `kept`
+    /// By part: side of a texel that a new page would have, in the part's units.
+    std::span<const double> page_texels;
+    std::span<const std::uint8_t> gets_normal_map;  ///< by part: whether a new page has a normal map
+};
+
+/// Sides in pixels of the pictures that are compared: small ones, in which textures are filtered, and large ones.
+inline constexpr std::array<std::uint32_t, 2> compared_sizes = {384, 1152};
+
+/// Compares some parts in 6 views without perspective that show all of them, each at its first instance. New
+/// images are taken to be perfect: the colours are those of the source, at the points that the map gives, and blurred
+/// by a texel of the page.
+/// \param parts  indices of parts that have faces in the source and in both versions
+/// \param size   number of rows and columns of points that are compared in each view
+/// \return by compared size
+/// \throws engine::Cancelled
+/// Complexity: O(faces + size^2 log faces). The result does not depend on the number of threads.
+std::array<KeptAndBakedLoss, 2> compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts,
+                                                 std::uint32_t size);
+
+}  // namespace faqem::detail

@@ -1,0 +1,81 @@
+// Images of parts that keep their UVs: encoded again where something changed.
+
+#include "asset/image/image.hpp"
+#include "bake/keep/kept_images.hpp"
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+Pixels smooth(std::uint32_t size, std::uint8_t alpha = 255) {
+    return paint(size, size, [=](std::uint32_t x, std::uint32_t y) {
+        return Rgba{static_cast<std::uint8_t>(50 + x * 150 / size),
+                    static_cast<std::uint8_t>(50 + y * 150 / size), 90,
+                    static_cast<std::uint8_t>(x < size / 2 ? 255 : alpha)};
+    });
+}
+
+// The images of an asset after encode_kept_images() with one part that keeps its UVs.
+Asset encoded(const Asset& asset, const BakeOptions& bake,
+              std::vector<detail::KeptPart> parts = {{0, false}}) {
+    Options options;
+    options.bake = bake;
+    detail::BakeJob job(asset, options);
+    job.result.asset.parts = asset.parts;
+    job.result.asset.materials = asset.materials;
+    job.result.asset.images = asset.images;
+    detail::encode_kept_images(job, parts);
+    return job.result.asset;
+}
+
+}  // namespace
+
+TEST_CASE("kept images: fewer texels and bytes where the loss is within the quality") {
+    const Asset asset = textured_square(smooth(128));
+    const Image image = encoded(asset, {}).images[0];
+    CHECK(decode(image).width < 128);
+    CHECK(image.encoded.size() < asset.images[0].encoded.size());
+}
+
+TEST_CASE("kept images: the bytes of the source stay where another part keeps its images") {
+    Asset asset = textured_square(smooth(128));
+    asset.parts.push_back(square());
+    CHECK(encoded(asset, {}, {{0, false}, {1, true}}).images[0].encoded == asset.images[0].encoded);
+    BakeOptions source;
+    source.image_format = ImageFormat::source;
+    CHECK(encoded(asset, source).images[0].encoded == asset.images[0].encoded);
+}
+
+TEST_CASE("kept images: a texture without filter keeps its resolution") {
+    Asset asset = textured_square(smooth(128));
+    asset.materials[0].base_color_texture.filter = Filter::nearest;
+    BakeOptions bake;
+    bake.texture_size = 64;
+    CHECK(decode(encoded(asset, bake).images[0]).width == 128);
+}
+
+TEST_CASE("kept images: texture_size is a maximum, for lossless images too") {
+    const Asset asset = textured_square(smooth(256));
+    BakeOptions bake = lossless().bake;
+    bake.texture_size = 64;
+    const Image image = encoded(asset, bake).images[0];
+    CHECK(image.mime_type == "image/png");
+    CHECK(decode(image).width == 64);
+}
+
+TEST_CASE("kept images: alpha stays only where the material uses it") {
+    Asset asset = textured_square(smooth(64, 100));
+    CHECK_FALSE(decode(encoded(asset, lossless().bake).images[0]).has_alpha);
+    asset.materials[0].alpha_mode = AlphaMode::blend;
+    CHECK(decode(encoded(asset, lossless().bake).images[0]).has_alpha);
+}
+
+TEST_CASE("kept images: those of unknown extensions stay as they are") {
+    Asset asset = textured_square(smooth(128));
+    asset.materials[0].extension_textures.push_back(
+        {"VENDOR_paint", "paintTexture", asset.materials[0].base_color_texture});
+    CHECK(encoded(asset, {}).images[0].encoded == asset.images[0].encoded);
+}
