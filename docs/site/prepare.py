@@ -27,9 +27,11 @@ class Pages:
     def __init__(self, source):
         self.source = source
         files = [source / "README.md", source / "CHANGELOG.md", source / "CONTRIBUTING.md", source / "SECURITY.md",
-                 *sorted((source / "docs").glob("*.md"))]
+                 *sorted((source / "docs").rglob("*.md"))]
         self.pages = {file.resolve(): "index" if file == source / "docs" / "README.md" else file.stem
                       for file in files}
+        if len(set(self.pages.values())) != len(files):  # the site has all pages in one folder
+            raise SystemExit("two pages have the same name")
         self.examples = {file.resolve(): file.stem for file in sorted((source / "examples").glob("*.cpp"))
                          if not file.stem.startswith(("model_", "make_"))}
 

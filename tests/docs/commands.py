@@ -57,7 +57,8 @@ def main():
             printed = list(commands(lines))
             if not printed:
                 continue
-            folder = work / f"{page.stem}-{first}"
+            name = page.relative_to(pages.SOURCE).with_suffix("").as_posix().replace("/", "-")
+            folder = work / f"{name}-{first}"
             shutil.copytree(seeds, folder)
             (folder / ".zfunc").mkdir()
             for directory in ["bin", "build/release/bin", "faqem/bin"]:

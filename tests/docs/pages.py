@@ -3,7 +3,7 @@ import pathlib
 import re
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-PAGES = sorted(SOURCE.glob("*.md")) + sorted(SOURCE.glob("docs/*.md")) + sorted(SOURCE.glob("examples/*.md"))
+PAGES = sorted(SOURCE.glob("*.md")) + sorted(SOURCE.glob("docs/**/*.md")) + sorted(SOURCE.glob("data/*.md"))
 
 
 def blocks(page, language):
