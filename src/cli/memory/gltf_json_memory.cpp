@@ -8,8 +8,8 @@ namespace faqem::cli {
 
 namespace {
 
-// Upper estimates, measured with documents that have millions of such values (docs/robustness.md). A value
-// becomes an object in the source document, in a copy of it, and in the document and the model of tinygltf.
+// Upper estimates, measured with documents that have millions of such values. A value becomes an object in
+// the source document, in a copy of it, and in the document and the model of tinygltf.
 constexpr double value_bytes = 320, string_bytes = 200, object_bytes = 1000, member_bytes = 300;
 constexpr double bytes_per_character = 8;
 constexpr double material_bytes = 5000, node_bytes = 1800;

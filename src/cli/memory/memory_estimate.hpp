@@ -26,7 +26,7 @@ std::uint64_t estimated_loading_memory(const std::filesystem::path& model,
 
 /// Returns an upper estimate, in bytes, of the peak memory of the whole run: the process, the model, its
 /// history, the simplification of the largest mesh, and decoded and baked images. The factors are measured,
-/// see docs/robustness.md. Complexity: O(parts + images).
+/// see docs/measurements/stress.md. Complexity: O(parts + images).
 std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options);
 
 /// Returns an upper estimate, in bytes, of the memory of a run besides that for loading the model, before it is
