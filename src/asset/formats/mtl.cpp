@@ -184,7 +184,12 @@ private:
             values.emissive[k] =
                 static_cast<float>(linear_from_srgb(emission_ ? (*emission_)[k] : default_emission));
         }
-        const double alpha = opacity_ ? *opacity_ : transparency_ ? 1 - *transparency_ : 1;
+        double alpha = opacity_ ? *opacity_ : transparency_ ? 1 - *transparency_ : 1;
+        if (alpha <= 0) {
+            warn("material '" + material.name + "': " + (opacity_ ? "d 0" : "Tr 1") +
+                 " would hide everything, and is read as opaque");
+            alpha = 1;
+        }
         values.base_color[3] = static_cast<float>(alpha);
         if (alpha < 1) values.alpha_mode = AlphaMode::blend;
         if (roughness_)

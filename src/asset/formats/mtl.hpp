@@ -32,7 +32,8 @@ struct MtlMaterial {
 ///
 /// - Kd and Ke are sRGB values and are converted to linear. Kd 0 0 0 with a map_Kd is read as white, with a
 ///   warning, since several exporters write it so.
-/// - d, or 1 - Tr, is the alpha of the base colour; below 1, the alpha mode is blend.
+/// - d, or 1 - Tr, is the alpha of the base colour; below 1, the alpha mode is blend. 0 is read as 1, with a
+///   warning: programs for photogrammetry write Tr 1, and others d 0, for opaque materials.
 /// - Pr is the roughness; without it, roughness = (2 / (Ns + 2))^(1/4), or 1 without Ns. The formula follows
 ///   Karis, "Specular BRDF reference", 2013, with alpha = roughness^2.
 /// - Pm is the metallic factor; the default is 0.

@@ -48,6 +48,21 @@ TEST_CASE("d and Tr set the alpha and d takes precedence", "[mtl]") {
     CHECK(one("newmtl a\nd 1.0\n").values.alpha_mode == AlphaMode::opaque);
 }
 
+TEST_CASE("a material that would hide everything is opaque with a warning", "[mtl]") {
+    for (const std::string statement : {"Tr 1.000000", "d 0", "d 0\nTr 0", "d -halo 0.0", "d -1"}) {
+        CAPTURE(statement);
+        std::vector<std::string> warnings;
+        const Material m = one("newmtl a\n" + statement + "\nmap_Kd a.png\n", &warnings).values;
+        CHECK(m.base_color[3] == 1);
+        CHECK(m.alpha_mode == AlphaMode::opaque);
+        CHECK(any_contains(warnings, "material 'a'"));
+        CHECK(any_contains(warnings, "would hide everything"));
+    }
+    std::vector<std::string> warnings;
+    CHECK(one("newmtl a\nTr 0.999\n", &warnings).values.alpha_mode == AlphaMode::blend);
+    CHECK(warnings.empty());
+}
+
 TEST_CASE("the roughness is Pr or else computed from Ns", "[mtl]") {
     CHECK(one("newmtl a\nNs 30\n").values.roughness == Approx(0.5));  // (2 / 32)^(1/4)
     CHECK(one("newmtl a\nNs 0\n").values.roughness == 1);
