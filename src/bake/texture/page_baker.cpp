@@ -15,7 +15,7 @@ namespace {
 
 using engine::Vector3;
 
-// Texels with a lower alpha take their colour from the texels around them.
+// Texels with a lower alpha take their colour from the texels around them, if their material has visible ones.
 constexpr float min_visible_alpha = 1.0f / 512;
 
 Pixels blank(const Atlas& atlas, bool wanted, bool has_alpha) {
@@ -75,7 +75,10 @@ public:
         approximate_samples_.assign(is_covered_.size(), 0);
         closest_samples_.assign(is_covered_.size(), 0);
         if (job.options.bake.correspondence == Recording::on) images_.origins.resize(is_covered_.size());
-        if (images_.base.has_alpha) has_color_.assign(is_covered_.size(), 0);
+        if (images_.base.has_alpha) {
+            has_color_.assign(is_covered_.size(), 0);
+            material_.resize(is_covered_.size());
+        }
         if (!request.layers.empty()) has_layer_samples_.assign(is_covered_.size(), 0);
     }
 
@@ -121,6 +124,7 @@ public:
 
     PageImages finish() {
         count_samples();
+        keep_colors_of_hidden_materials();
         struct Filled {
             Pixels& image;
             const std::vector<std::uint8_t>&known, &known_alpha;
@@ -217,12 +221,7 @@ private:
         closest_samples_[at] = texel.steps[static_cast<std::size_t>(MapStep::closest)];
         if (!images_.origins.empty()) images_.origins[at] = texel.origin;
         if (request_.channels.base) {
-            const float alpha = texel.base[3];
-            std::uint8_t* p = &images_.base.rgba[4 * at];
-            for (std::size_t k = 0; k < 3; ++k)
-                p[k] = alpha > min_visible_alpha ? srgb_byte(texel.base[k] / alpha) : 0;
-            p[3] = linear_byte(alpha);
-            if (!has_color_.empty()) has_color_[at] = alpha > min_visible_alpha;
+            write_base(at, texel);
         }
         if (!images_.occlusion_roughness_metallic.rgba.empty()) {
             std::uint8_t* p = &images_.occlusion_roughness_metallic.rgba[4 * at];
@@ -238,6 +237,34 @@ private:
         for (std::size_t i = 0; i < request_.layers.size(); ++i)
             write_layer(request_.layers[i], texel.layers[i], 1.0f / static_cast<float>(texel.layer_samples),
                         &images_.layers[i].rgba[4 * at]);
+    }
+
+    void write_base(std::size_t at, const TexelSums& texel) {
+        const float alpha = texel.base[3];
+        const bool is_visible = alpha > min_visible_alpha;
+        std::uint8_t* p = &images_.base.rgba[4 * at];
+        if (is_visible) {
+            for (std::size_t k = 0; k < 3; ++k) p[k] = srgb_byte(texel.base[k] / alpha);
+        } else {
+            const Vec3f stored = sampler_.stored_base_color(texel.origin.part, texel.origin.point);
+            for (std::size_t k = 0; k < 3; ++k) p[k] = srgb_byte(stored[k]);
+        }
+        p[3] = linear_byte(alpha);
+        if (has_color_.empty()) return;
+        has_color_[at] = is_visible;
+        material_[at] = sampler_.material(texel.origin.part, texel.origin.point);
+    }
+
+    // The texels of a material without any visible texel keep the colours that were stored under its alpha.
+    void keep_colors_of_hidden_materials() {
+        if (has_color_.empty()) return;
+        const std::size_t count = job_.source.materials.size();
+        const auto slot = [&](Index material) { return std::min<std::size_t>(material, count); };
+        std::vector<std::uint8_t> is_visible(count + 1, 0);
+        for (std::size_t i = 0; i < is_covered_.size(); ++i)
+            if (has_color_[i]) is_visible[slot(material_[i])] = 1;
+        for (std::size_t i = 0; i < is_covered_.size(); ++i)
+            if (is_covered_[i] && !is_visible[slot(material_[i])]) has_color_[i] = 1;
     }
 
     static void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float share,
@@ -269,7 +296,8 @@ private:
     // By texel: number of samples with MapStep::approximate and MapStep::closest.
     std::vector<std::uint8_t> approximate_samples_, closest_samples_;
     std::vector<std::uint8_t> is_covered_;         // by texel: in a cell or chart
-    std::vector<std::uint8_t> has_color_;          // by texel: has a visible colour
+    std::vector<std::uint8_t> has_color_;          // by texel: its colour is its own; empty without alpha
+    std::vector<Index> material_;                  // by covered texel: in the source; empty without alpha
     std::vector<std::uint8_t> has_layer_samples_;  // by texel: has samples of the page's own material
 };
 

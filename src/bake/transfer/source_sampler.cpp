@@ -144,16 +144,48 @@ void SourceSampler::measure_densities(const Part& part, PartDensity& density) co
     }
 }
 
+std::array<double, 2> SourceSampler::uv_at(const TextureSlot& slot, const Part& part,
+                                           const SurfacePoint& point) const {
+    const std::uint32_t set = slot.texture_ref->uv_set;
+    if (set >= part.uvs.size()) return {0, 0};
+    const Triangle& t = part.triangles[point.face];
+    return slot.transform.apply(blend(part.uvs[set], t, point.barycentric, 0),
+                                blend(part.uvs[set], t, point.barycentric, 1));
+}
+
 LinearColor SourceSampler::fetch(const TextureSlot& slot, Index p, const SurfacePoint& point,
                                  double spacing) const {
     const Part& part = asset_.parts[p];
     const std::uint32_t set = slot.texture_ref->uv_set;
-    if (set >= part.uvs.size()) return slot.image->sample(*slot.texture_ref, 0, 0, 0);
-    const Triangle& t = part.triangles[point.face];
-    const auto uv = slot.transform.apply(blend(part.uvs[set], t, point.barycentric, 0),
-                                         blend(part.uvs[set], t, point.barycentric, 1));
+    const auto uv = uv_at(slot, part, point);
+    if (set >= part.uvs.size()) return slot.image->sample(*slot.texture_ref, uv[0], uv[1], 0);
     const double footprint = densities_[p].uv_per_length[set][point.face] * slot.texels_per_uv * spacing;
     return slot.image->sample(*slot.texture_ref, uv[0], uv[1], footprint > 1 ? std::log2(footprint) : 0);
+}
+
+Vec4f SourceSampler::base_factor(const Material& material, const Part& part,
+                                 const SurfacePoint& point) const {
+    Vec4f factor = material.base_color;
+    if (!part.colors.empty()) {
+        const Triangle& t = part.triangles[point.face];
+        for (std::size_t k = 0; k < 4; ++k)
+            factor[k] *= static_cast<float>(blend(part.colors, t, point.barycentric, k));
+    }
+    if (material.alpha_mode == AlphaMode::opaque) factor[3] = 1;
+    return factor;
+}
+
+Vec3f SourceSampler::stored_base_color(Index p, const SurfacePoint& point) const {
+    const Part& part = asset_.parts[p];
+    const MaterialSlots& s = slots(p, point);
+    const Vec4f factor = base_factor(*s.material, part, point);
+    Vec3f color = {1, 1, 1};
+    if (s.base.image) {
+        const auto uv = uv_at(s.base, part, point);
+        color = s.base.image->stored_color(*s.base.texture_ref, uv[0], uv[1]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) color[k] *= factor[k];
+    return color;
 }
 
 Appearance SourceSampler::sample(Index p, const SurfacePoint& point, double spacing) const {
@@ -161,13 +193,7 @@ Appearance SourceSampler::sample(Index p, const SurfacePoint& point, double spac
     const MaterialSlots& s = slots(p, point);
     const Material& m = *s.material;
     Appearance result;
-    Vec4f factor = m.base_color;
-    if (!part.colors.empty()) {
-        const Triangle& t = part.triangles[point.face];
-        for (std::size_t k = 0; k < 4; ++k)
-            factor[k] *= static_cast<float>(blend(part.colors, t, point.barycentric, k));
-    }
-    if (m.alpha_mode == AlphaMode::opaque) factor[3] = 1;
+    const Vec4f factor = base_factor(m, part, point);
     const LinearColor base = s.base.image ? fetch(s.base, p, point, spacing) : LinearColor{1, 1, 1, 1};
     for (std::size_t k = 0; k < 3; ++k) result.base[k] = base[k] * factor[k] * factor[3];
     result.base[3] = base[3] * factor[3];

@@ -64,6 +64,10 @@ public:
     /// \param spacing  distance between samples, in the part's units; finer detail is averaged
     Appearance sample(Index part, const SurfacePoint& point, double spacing) const;
 
+    /// Linear base colour at a point as it is stored, whatever its alpha is, for points where alpha is 0: their
+    /// premultiplied colour is black.
+    Vec3f stored_base_color(Index part, const SurfacePoint& point) const;
+
     /// Shading normal at a point, in the part's coordinates, with the normal map if there is one.
     /// If both the winding and the normals of the source face are opposite to `face_normal`, it is seen from
     /// behind, and its normal is reversed, as viewers do.
@@ -120,6 +124,8 @@ private:
     TextureSlot load_slot(const TextureRef& texture_ref, TexelEncoding encoding, Index material,
                           DecodedImages& images, const Workers& workers);
     void measure_densities(const Part& part, PartDensity& density) const;
+    Vec4f base_factor(const Material& material, const Part& part, const SurfacePoint& point) const;
+    std::array<double, 2> uv_at(const TextureSlot& slot, const Part& part, const SurfacePoint& point) const;
     LinearColor fetch(const TextureSlot& slot, Index part, const SurfacePoint& point, double spacing) const;
     engine::Vector3 perturbed_normal(const TextureSlot& slot, double scale, Index part,
                                      const SurfacePoint& point, double spacing,

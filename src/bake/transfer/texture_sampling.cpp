@@ -137,6 +137,17 @@ LinearColor MipImage::sample(const TextureRef& texture_ref, double u, double v, 
     return t > 0 ? mix(fine, sample_level(level + 1, u, v, texture_ref), t) : fine;
 }
 
+Vec3f MipImage::stored_color(const TextureRef& texture_ref, double u, double v) const {
+    const auto index = [](double at, std::uint32_t n, Wrap wrap) {
+        return wrapped(static_cast<std::int64_t>(std::floor(valid_or_zero(at) * n)), n, wrap);
+    };
+    const std::size_t x = index(u, pixels_.width, texture_ref.wrap_u);
+    const std::size_t y = index(v, pixels_.height, texture_ref.wrap_v);
+    const std::uint8_t* p = &pixels_.rgba[(y * pixels_.width + x) * 4];
+    const auto& linear = srgb_table();
+    return {linear[p[0]], linear[p[1]], linear[p[2]]};
+}
+
 UvTransform uv_transform(const TextureRef& texture_ref) {
     const double c = std::cos(double(texture_ref.rotation)), s = std::sin(double(texture_ref.rotation));
     return {{c * texture_ref.scale[0], s * texture_ref.scale[1], texture_ref.offset[0]},

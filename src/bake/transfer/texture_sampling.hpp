@@ -42,6 +42,9 @@ public:
     /// \param lod          log2 of the footprint in texels of level 0; clamped to the existing levels
     LinearColor sample(const TextureRef& texture_ref, double u, double v, double lod) const;
 
+    /// Colour of the texel of level 0 at a point, whatever its alpha is. Parameters as in sample().
+    Vec3f stored_color(const TextureRef& texture_ref, double u, double v) const;
+
 private:
     struct Level {
         std::uint32_t width, height;

@@ -69,20 +69,23 @@ double shortest_edge(const TriangleMesh& mesh, std::size_t face) {
     return least;
 }
 
-// Sum of premultiplied colours, so that transparent corners do not tint the others.
+// Sum of premultiplied colours, so that transparent corners do not tint the others. Corners with an alpha of 0
+// have straight colours, which are used if there are no others.
 struct ColorSum {
-    LinearColor premultiplied{};
+    LinearColor premultiplied{}, hidden{};
     float count = 0;
 
     void add(const LinearColor& c) {
-        for (std::size_t k = 0; k < 4; ++k) premultiplied[k] += c[k];
+        LinearColor& sum = c[3] > 0 ? premultiplied : hidden;
+        for (std::size_t k = 0; k < 4; ++k) sum[k] += c[k];
         ++count;
     }
     Vec4f straight() const {
         const float alpha = premultiplied[3];
-        Vec4f result{1, 1, 1, std::clamp(alpha / count, 0.0f, 1.0f)};
-        for (std::size_t k = 0; k < 3 && alpha > 0; ++k)
-            result[k] = std::clamp(premultiplied[k] / alpha, 0.0f, 1.0f);
+        const LinearColor& sum = alpha > 0 ? premultiplied : hidden;
+        const float weight = alpha > 0 ? alpha : count;
+        Vec4f result{0, 0, 0, std::clamp(alpha / count, 0.0f, 1.0f)};
+        for (std::size_t k = 0; k < 3; ++k) result[k] = std::clamp(sum[k] / weight, 0.0f, 1.0f);
         return result;
     }
 };
@@ -128,10 +131,11 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
             const Index face = static_cast<Index>(c / 3);
             // A vertex represents the surface around it: a quarter of an edge on each side.
             const double spacing = shortest_edge(mesh, face) / 4;
-            raw[c] =
-                sampler
-                    .sample(part.index, part.map->map(face, barycentrics_near_corner(c % 3, 1e-3)), spacing)
-                    .base;
+            const SurfacePoint point = part.map->map(face, barycentrics_near_corner(c % 3, 1e-3));
+            raw[c] = sampler.sample(part.index, point, spacing).base;
+            if (raw[c][3] > 0) continue;
+            const Vec3f stored = sampler.stored_base_color(part.index, point);
+            raw[c] = {stored[0], stored[1], stored[2], 0};
         }
     });
     const auto group = [&](std::uint64_t c) {

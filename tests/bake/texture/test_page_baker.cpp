@@ -206,3 +206,38 @@ TEST_CASE("every covered texel is mapped to a close point of the source") {
     CHECK(unmapped == 0);
     CHECK(farthest < 0.4);  // the diameter is 2: some texels and most simplified faces have this size
 }
+
+// Two squares with a ramp each; one is invisible by its factor, or by its texture.
+TEST_CASE("a material without visible texels keeps its colours under alpha 0") {
+    const bool by_factor = GENERATE(true, false);
+    const Bake kind = GENERATE(Bake::atlas, Bake::per_triangle);
+    const Pixels visible = ramp(64);
+    Asset source = textured_square(visible);
+    Pixels hidden = ramp(64);
+    for (std::size_t i = 0; i < hidden.rgba.size(); i += 4) {
+        hidden.rgba[i + 2] = 200;
+        if (!by_factor) hidden.rgba[i + 3] = 0;
+    }
+    hidden.has_alpha = !by_factor;
+    source.materials.push_back(source.materials[0]);
+    source.materials[1].base_color_texture.image = add_texture(source, hidden);
+    if (by_factor) source.materials[1].base_color[3] = 0;
+    for (Material& m : source.materials) m.alpha_mode = AlphaMode::blend;
+    source.parts.push_back(square());
+    source.parts[1].face_material = {1, 1};
+    const SimplifiedAsset simplified = bake(source, unchanged(source), of_kind(kind, 256));
+    REQUIRE(simplified.asset.images.size() == 1);
+    const Pixels after = decode(simplified.asset.images[0]);
+    const std::array<const Pixels*, 2> before = {&visible, &hidden};
+    for (std::size_t p = 0; p < 2; ++p) {
+        const Part& part = simplified.asset.parts[p];
+        for (std::size_t f = 0; f < 2; ++f) {
+            for (const Vec3& w : spread(4)) {
+                const auto expected = look(source.parts[p], *before[p], f, w),
+                           found = look(part, after, f, w);
+                for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(found[k] - expected[k]) < 5);
+                CHECK(found[3] == Approx(p == 0 ? 255 : 0).margin(1));
+            }
+        }
+    }
+}

@@ -106,6 +106,18 @@ TEST_CASE("transparent texels do not affect the colour of others") {
     CHECK(c[1] == Approx(0).margin(1e-4));
 }
 
+TEST_CASE("the stored colour of a texel does not depend on its alpha") {
+    const MipImage image(paint(2, 1,
+                               [](std::uint32_t x, std::uint32_t) {
+                                   return Rgba{255, 0, std::uint8_t(51 * x), 0};
+                               }),
+                         TexelEncoding::color);
+    CHECK(image.stored_color(wrapped(Wrap::repeat), 0.25, 0.5) == Vec3f{1, 0, 0});
+    CHECK(image.stored_color(wrapped(Wrap::repeat), 1.75, 0.5)[2] == Approx(0.0331).margin(1e-4));
+    CHECK(image.stored_color(wrapped(Wrap::clamp), -3, 0.5) == Vec3f{1, 0, 0});
+    CHECK(image.stored_color(wrapped(Wrap::clamp), std::nan(""), 1e300) == Vec3f{1, 0, 0});
+}
+
 TEST_CASE("a texture transform applies scale, then rotation, then offset") {
     TextureRef use;
     use.offset = {0.25f, 0.5f};

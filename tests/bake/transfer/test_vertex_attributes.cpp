@@ -165,6 +165,21 @@ TEST_CASE("vertex colours include texture, factor and alpha and are split betwee
     CHECK(simplified.asset.materials[part.face_material[1]].double_sided);
 }
 
+TEST_CASE("vertex colours under an alpha of 0 are those of the source") {
+    Asset asset = textured_square(paint(8, 8, [](std::uint32_t, std::uint32_t) {
+        return Rgba{255, 188, 0, 0};
+    }));
+    asset.materials[0].alpha_mode = AlphaMode::blend;
+    asset.materials[0].base_color = {0.5f, 1, 1, 1};
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), of_kind(Bake::vertex));
+    for (const Vec4f& color : simplified.asset.parts[0].colors) {
+        CHECK(color[0] == Approx(0.5f));
+        CHECK(color[1] == Approx(0.5f).margin(5e-3));
+        CHECK(color[2] == 0);
+        CHECK(color[3] == 0);
+    }
+}
+
 TEST_CASE("keep preserves UVs, colours, images and materials") {
     Asset asset = textured_square(ramp(8));
     asset.parts[0].uvs.push_back({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
