@@ -1,31 +1,46 @@
 #include "cli/no_larger.hpp"
 
-#include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "bake/scene/unencoded_result.hpp"
 #include "cli/byte_budget.hpp"
 
 namespace faqem::cli {
 
 namespace {
 
-bool has_normal_map(const Asset& asset) {
-    return std::any_of(asset.materials.begin(), asset.materials.end(),
-                       [](const Material& m) { return bool(m.normal_texture); });
-}
+// Least PSNR of results that are larger than their source, one after the other. Below the last, details of colour
+// are lost that the source shows.
+constexpr std::array<double, 3> lower_qualities = {low_image_quality, 29, 24};
 
-/// Takes the next thing away from the options. Returns its name, or nothing if none is left.
-std::string give_up_next(const Asset& source, const Asset& result, BakeOptions& bake) {
-    if (bake.normal_map == NormalMap::automatic && has_normal_map(result) && !has_normal_map(source)) {
-        bake.normal_map = NormalMap::off;
+// Takes the next thing away from the result. Returns its name, or nothing if none is left.
+std::string give_up_next(detail::UnencodedResult& result, BakeOptions& bake) {
+    if (bake.normal_map == NormalMap::automatic && detail::remove_new_normal_maps(result))
         return "the normal map, which the source does not have";
-    }
-    if (bake.image_format == ImageFormat::automatic && bake.image_quality > low_image_quality) {
-        bake.image_quality = low_image_quality;
-        return "image quality (" + std::to_string(static_cast<int>(low_image_quality)) + " dB)";
+    if (bake.image_format != ImageFormat::automatic) return {};
+    for (const double quality : lower_qualities) {
+        if (!(bake.image_quality > quality)) continue;
+        bake.image_quality = quality;
+        return "image quality (" + std::to_string(static_cast<int>(quality)) + " dB)";
     }
     return {};
+}
+
+// Keeps what was given up last only: a lower quality replaces the one before.
+void add_given_up(std::vector<std::string>& all, const std::string& next) {
+    constexpr std::string_view quality = "image quality";
+    if (!all.empty() && all.back().starts_with(quality) && next.starts_with(quality)) all.pop_back();
+    all.push_back(next);
+}
+
+std::string joined(const std::vector<std::string>& all) {
+    std::string result;
+    for (const std::string& one : all) result += (result.empty() ? "" : ", ") + one;
+    return result;
 }
 
 }  // namespace
@@ -38,33 +53,35 @@ LargerResult larger_result(const BakeOptions& bake, bool allow_larger) {
 SimplifiedAsset simplify_no_larger(const Asset& source, const Options& options, const SizeRule& rule) {
     if (source.images.empty() || !makes_atlas(options.bake.kind) || rule.larger == LargerResult::allowed)
         return simplify(source, options);
-    const SimplifiedParts parts = simplify_parts(source, options);
+    SimplifiedParts parts = simplify_parts(source, options);
+    detail::UnencodedResult result = detail::bake_unencoded(source, parts, options);
     Options less = options;
-    std::string given_up;
+    std::vector<std::string> given_up;
     for (;;) {
-        SimplifiedAsset result = bake(source, parts, less);
-        if (result.report.stop == StopReason::cancelled || result.report.faces_out == 0) return result;
-        const ModelBytes size = model_bytes(result.asset, rule.out);
+        detail::encode_images(result, less);
+        Report& report = result.asset.report;
+        if (report.stop == StopReason::cancelled || report.faces_out == 0) break;
+        const ModelBytes size = model_bytes(result.asset.asset, rule.out);
         const bool is_larger = size.total() > rule.bytes_in;
-        const bool has_new_images = !result.report.pages.empty();
-        // Untouched parts stay so, although an option for images is no longer the default.
-        if (!result.report.untouched_parts.empty()) less.bake.untouched = UntouchedParts::kept;
-        if (is_larger && rule.larger == LargerResult::gives_up && has_new_images &&
+        if (is_larger && rule.larger == LargerResult::gives_up && !result.pending.empty() &&
             size.geometry < rule.bytes_in) {
-            const std::string next = give_up_next(source, result.asset, less.bake);
+            const std::string next = give_up_next(result, less.bake);
             if (!next.empty()) {
-                given_up += (given_up.empty() ? "" : ", ") + next;
+                add_given_up(given_up, next);
                 continue;
             }
         }
         if (!given_up.empty())
-            result.report.warnings.push_back("given up, to have no more bytes than the input: " + given_up);
+            report.warnings.push_back("given up, to have no more bytes than the input: " + joined(given_up));
         if (is_larger)
-            result.report.warnings.push_back("the result has " + std::to_string(size.total()) +
-                                             " bytes, more than the input with " +
-                                             std::to_string(rule.bytes_in));
-        return result;
+            report.warnings.push_back("the result has " + std::to_string(size.total()) +
+                                      " bytes, more than the input with " + std::to_string(rule.bytes_in));
+        break;
     }
+    if (options.history == Recording::on) {
+        for (SimplifyResult& part : parts.parts) result.asset.histories.push_back(std::move(part.history));
+    }
+    return std::move(result.asset);
 }
 
 }  // namespace faqem::cli

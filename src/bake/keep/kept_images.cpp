@@ -132,42 +132,38 @@ Pixels used_pixels(const Image& image, const ImageUse& use) {
     return pixels;
 }
 
-Image encoded_kept_image(const BakeJob& job, std::span<const KeptPart> parts, Index index,
-                         const ImageUse& use, CancellationCheck check_cancelled) {
-    const BakeOptions& bake = job.options.bake;
+PendingImage kept_image(const BakeJob& job, std::span<const KeptPart> parts, Index index,
+                        const ImageUse& use) {
+    const std::uint32_t texture_size = job.options.bake.texture_size;
     const Image& image = job.result.asset.images[index];
-    Pixels pixels = used_pixels(image, use);
-    const bool is_too_large = exceeds(pixels, use, bake.texture_size);
-    while (exceeds(pixels, use, bake.texture_size)) pixels = halved(pixels);
-    const Content content = use.is_color ? Content::color : Content::data;
-    check_cancelled.now();
-    if (bake.image_format == ImageFormat::png) return encode_png(pixels, image.name);
-    if (bake.image_format == ImageFormat::jpeg) {
-        return pixels.has_alpha ? encode_png(pixels, image.name)
-                                : encode_jpeg(pixels, image.name, bake.jpeg_quality, content);
-    }
-    const std::vector<std::uint8_t> shown = texels_of_parts(job.result.asset, parts, index, pixels);
-    const ImageLimits limits{least_psnr(bake, content), !use.is_pixel_art};
-    Image result = encode_smallest(pixels, shown, image.name, content, limits, check_cancelled);
-    return !is_too_large && result.encoded.size() >= image.encoded.size() ? image : result;
+    PendingImage result{index,
+                        used_pixels(image, use),
+                        {},
+                        image.name,
+                        use.is_color ? Content::color : Content::data,
+                        !use.is_pixel_art};
+    if (!exceeds(result.pixels, use, texture_size)) result.original = image;
+    while (exceeds(result.pixels, use, texture_size)) result.pixels = halved(result.pixels);
+    result.known = std::make_shared<const std::vector<std::uint8_t>>(
+        texels_of_parts(job.result.asset, parts, index, result.pixels));
+    return result;
 }
 
 }  // namespace
 
-void encode_kept_images(BakeJob& job, std::span<const KeptPart> parts) {
+void add_kept_images(BakeJob& job, std::span<const KeptPart> parts) {
     if (job.options.bake.image_format == ImageFormat::source) return;
     const std::vector<ImageUse> uses = image_uses(job.result.asset, parts);
     std::vector<Index> changing;
     for (Index i = 0; i < uses.size(); ++i)
         if (uses[i].is_used && !uses[i].is_fixed) changing.push_back(i);
-    std::vector<Image> encoded(changing.size());
+    const std::size_t first = job.pending.size();
+    job.pending.resize(first + changing.size());
     parallel_blocks(changing.size(), 1, job.workers(),
                     [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
-                        encoded[i] =
-                            encoded_kept_image(job, parts, changing[i], uses[changing[i]], check_cancelled);
+                        check_cancelled.now();
+                        job.pending[first + i] = kept_image(job, parts, changing[i], uses[changing[i]]);
                     });
-    for (std::size_t i = 0; i < changing.size(); ++i)
-        job.result.asset.images[changing[i]] = std::move(encoded[i]);
 }
 
 }  // namespace faqem::detail

@@ -76,7 +76,7 @@ void add_kept_parts(BakeJob& job, std::span<const std::uint8_t> untouched, KeptU
         if (keeps_vertices) job.result.report.untouched_parts.push_back(part_title(job.source, part.index));
         kept_parts.push_back({part.index, keeps_vertices});
     }
-    encode_kept_images(job, kept_parts);
+    add_kept_images(job, kept_parts);
 }
 
 }  // namespace faqem::detail

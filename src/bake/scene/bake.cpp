@@ -1,19 +1,17 @@
 #include "faqem/bake.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "asset/image/image.hpp"
-#include "asset/image/image_size.hpp"
 #include "asset/scene/messages.hpp"
 #include "bake/keep/kept_parts.hpp"
 #include "bake/keep/kept_uvs.hpp"
 #include "bake/keep/untouched_parts.hpp"
 #include "bake/scene/check_asset.hpp"
+#include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/error.hpp"
 
@@ -76,20 +74,10 @@ void set_file_orders(BakeJob& job, std::span<const std::uint8_t> untouched) {
     }
 }
 
-void report_images(const Asset& asset, Report& report) {
-    for (const Image& image : asset.images) {
-        const std::optional<ImageSize> size = declared_size(image.encoded);
-        const auto side = [&](std::uint64_t ImageSize::*member) {
-            return size ? static_cast<std::uint32_t>(*size.*member) : 0;
-        };
-        report.images.push_back({image.name, sniff_mime_type(image.encoded), side(&ImageSize::width),
-                                 side(&ImageSize::height), image.encoded.size()});
-    }
-}
+}  // namespace
 
-// Bakes the parts with their histories. The callers add the histories to the result: one copies them, the
-// other moves them.
-SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
+UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
+                               const Options& options) {
     validate(options);
     check_asset(source);
     check_parts_match(source, simplified);
@@ -100,7 +88,7 @@ SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplifie
     job.result.report = simplified.report;
     job.result.asset.source = source.source;
     job.result.asset.warnings = source.warnings;
-    if (simplified.report.stop == StopReason::cancelled) return std::move(job.result);
+    if (simplified.report.stop == StopReason::cancelled) return {std::move(job.result), {}};
     PhaseSeconds& seconds = job.result.report.seconds;
     const Stopwatch watch;
     const std::vector<std::uint8_t> untouched = find_untouched_parts(source, simplified, options.bake);
@@ -112,38 +100,36 @@ SimplifiedAsset bake_parts(const Asset& source, const SimplifiedParts& simplifie
         bake_by_kind(job);
         add_kept_parts(job, untouched, std::move(kept));
         set_file_orders(job, untouched);
-        report_images(job.result.asset, job.result.report);
         job.report_progress(Phase::bake, 1);
     } catch (const engine::Cancelled&) {
-        job.result.asset.parts.clear();
-        job.result.asset.materials.clear();
-        job.result.asset.images.clear();
-        job.result.correspondence.clear();
-        job.result.report.stop = StopReason::cancelled;
+        set_cancelled(job.result);
+        job.pending.clear();
     }
     seconds.bake = watch.seconds() - seconds.map;
     seconds.total += watch.seconds();
-    return std::move(job.result);
+    return {std::move(job.result), std::move(job.pending)};
 }
 
-}  // namespace
 }  // namespace detail
 
 SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
-    SimplifiedAsset result = detail::bake_parts(source, simplified, options);
+    detail::UnencodedResult result = detail::bake_unencoded(source, simplified, options);
+    detail::encode_images(result, options);
     if (options.history == Recording::on) {
-        for (const SimplifyResult& part : simplified.parts) result.histories.push_back(part.history);
+        for (const SimplifyResult& part : simplified.parts) result.asset.histories.push_back(part.history);
     }
-    return result;
+    return std::move(result.asset);
 }
 
 SimplifiedAsset simplify(const Asset& source, const Options& options) {
     SimplifiedParts simplified = simplify_parts(source, options);
-    SimplifiedAsset result = detail::bake_parts(source, simplified, options);
+    detail::UnencodedResult result = detail::bake_unencoded(source, simplified, options);
+    detail::encode_images(result, options);
     if (options.history == Recording::on) {
-        for (SimplifyResult& part : simplified.parts) result.histories.push_back(std::move(part.history));
+        for (SimplifyResult& part : simplified.parts)
+            result.asset.histories.push_back(std::move(part.history));
     }
-    return result;
+    return std::move(result.asset);
 }
 
 }  // namespace faqem

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/texture/pending_images.hpp"
 #include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/corners.hpp"
 #include "bake/transfer/material_groups.hpp"
@@ -34,6 +35,7 @@ public:
     std::vector<std::uint8_t> skipped;
     DecodedImages images;  ///< those of the source that were needed
     SimplifiedAsset result;
+    std::vector<PendingImage> pending;  ///< images of the result that are not encoded yet
 
     /// Calls the progress callback.
     /// \param fraction  of the phase, 0 to 1

@@ -236,7 +236,7 @@ bool bake_pages(BakeJob& job) {
         }
         if (page.atlas) add_to_report(job, sampler, page, images);
         out.materials.push_back(page_material(job, groups.groups[g], page.atlas ? page.channels : Channels{},
-                                              page.layers, images));
+                                              page.layers, std::move(images)));
     }
     remove_unused_uvs(job, pages, uvs, tangents);
     for (const BakePart& part : job.parts) {

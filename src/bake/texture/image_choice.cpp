@@ -30,6 +30,9 @@ constexpr double local_allowance = 15;
 // By how many dB an image of normals, roughness and the like may be worse than one of colours.
 constexpr double data_allowance = 6;
 
+// Least PSNR of such an image unless colours may be worse too: 3% of the range, or 7 degrees of a normal.
+constexpr double least_data_psnr = 30;
+
 // Position of a texel's centre in an image with fewer texels, as the two nearest texels and the weight of the
 // second.
 struct Interpolation {
@@ -105,7 +108,8 @@ Image smallest_at(const Pixels& original, const Pixels& pixels, std::span<const 
 }  // namespace
 
 double least_psnr(const BakeOptions& bake, Content content) {
-    return bake.image_quality - (content == Content::data ? data_allowance : 0);
+    if (content != Content::data) return bake.image_quality;
+    return std::min(bake.image_quality, std::max(bake.image_quality - data_allowance, least_data_psnr));
 }
 
 ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {

@@ -20,7 +20,8 @@ struct ImageLimits {
 };
 
 /// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 6 less for normals and
-/// other data. This saves a third of the bytes for 0.3 dB of the lit picture (docs/measurements/appearance.md, "Image formats").
+/// other data, but not less than 30 if colours have more. This saves a third of the bytes for 0.3 dB of the lit
+/// picture (docs/measurements/appearance.md, "Image formats").
 double least_psnr(const BakeOptions& bake, Content content);
 
 /// Peak signal-to-noise ratios, in dB; infinity if nothing differs.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,76 +12,36 @@
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
 #include "bake/texture/constant_image.hpp"
-#include "bake/texture/image_choice.hpp"
 
 namespace faqem::detail {
 namespace {
 
 using TextureMember = TextureRef Material::*;
 
-// Adds the images of one page to the result: add() appends an empty image, write() encodes all in parallel.
-class ImageWriter {
+// Adds the images of one page to the result, to be encoded later.
+class PageImageList {
 public:
-    ImageWriter(BakeJob& job, std::string name) : job_(job), name_(std::move(name)) {}
+    PageImageList(BakeJob& job, std::string name) : job_(job), name_(std::move(name)) {}
 
-    /// \param pixels  borrowed until write()
-    /// \param known   by texel: nonzero if it shows a triangle; borrowed until write()
-    /// \param from    textures of the source that the image is baked from
-    TextureRef add(const Pixels& pixels, std::span<const std::uint8_t> known, const std::string& suffix,
-                   Content content, const std::vector<TextureRef>& from) {
+    /// \param known  by texel: nonzero if it shows a triangle
+    /// \param from   textures of the source that the image is baked from
+    TextureRef add(Pixels pixels, std::shared_ptr<const std::vector<std::uint8_t>> known,
+                   const std::string& suffix, Content content, const std::vector<TextureRef>& from) {
         std::vector<Image>& images = job_.result.asset.images;
         TextureRef ref;
         ref.image = static_cast<Index>(images.size());
         ref.wrap_u = ref.wrap_v = Wrap::clamp;
         images.emplace_back();
-        pending_.push_back(
-            {pixels, known, name_ + suffix, content, should_use_jpeg(pixels, from), ref.image});
+        // A density that was asked for is kept, as is the resolution that a correspondence has.
+        const BakeOptions& bake = job_.options.bake;
+        const bool may_shrink = !bake.texel_density && bake.correspondence == Recording::off;
+        job_.pending.push_back({ref.image, std::move(pixels), std::move(known), name_ + suffix, content,
+                                may_shrink, is_from_jpeg(from), from.empty()});
         return ref;
     }
 
-    void write() const {
-        const auto encode = [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
-            const auto& [pixels, known, name, content, is_jpeg, image] = pending_[i];
-            const BakeOptions& bake = job_.options.bake;
-            Image& to = job_.result.asset.images[image];
-            if (bake.image_format == ImageFormat::automatic)
-                to = encode_smallest(pixels, known, name, content, limits(content), check_cancelled);
-            else if (is_jpeg)
-                to = encode_jpeg(pixels, name, bake.jpeg_quality, content);
-            else
-                to = encode_png(pixels, name);
-        };
-        parallel_blocks(pending_.size(), 1, job_.workers(), encode);
-    }
-
 private:
-    struct PendingImage {
-        const Pixels& pixels;
-        std::span<const std::uint8_t> known;
-        std::string name;
-        Content content;
-        bool is_jpeg;
-        Index image;
-    };
-
-    // A density that was asked for is kept, as is the resolution that a correspondence has.
-    ImageLimits limits(Content content) const {
-        const BakeOptions& bake = job_.options.bake;
-        const bool may_shrink = !bake.texel_density && bake.correspondence == Recording::off;
-        return {least_psnr(bake, content), may_shrink};
-    }
-
-    bool should_use_jpeg(const Pixels& pixels, const std::vector<TextureRef>& from) const {
-        if (pixels.has_alpha) return false;
-        switch (job_.options.bake.image_format) {
-            case ImageFormat::automatic:
-            case ImageFormat::png:
-                return false;
-            case ImageFormat::jpeg:
-                return true;
-            case ImageFormat::source:
-                break;
-        }
+    bool is_from_jpeg(const std::vector<TextureRef>& from) const {
         return !from.empty() && std::all_of(from.begin(), from.end(), [&](const TextureRef& texture_ref) {
             return job_.source.images[texture_ref.image].mime_type == "image/jpeg";
         });
@@ -88,7 +49,6 @@ private:
 
     BakeJob& job_;
     std::string name_;
-    std::vector<PendingImage> pending_;
 };
 
 // "sheenColorTexture" -> "_sheenColor"
@@ -106,16 +66,17 @@ bool is_neutral(const ExtensionLayer& layer, const Pixels& pixels, std::span<con
     return (color || !layer.has_color()) && (is_one(values[3]) || !layer.has_alpha());
 }
 
-void add_layers(ImageWriter& writer, const Material& source, std::span<const ExtensionLayer> layers,
-                const PageImages& images, Material& result) {
+void add_layers(PageImageList& list, const Material& source, std::span<const ExtensionLayer> layers,
+                PageImages& images, Material& result) {
+    const auto known = std::make_shared<const std::vector<std::uint8_t>>(std::move(images.known_layers));
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const ExtensionLayer& layer = layers[i];
-        if (is_neutral(layer, images.layers[i], images.known_layers)) continue;
+        if (is_neutral(layer, images.layers[i], *known)) continue;
         const Content content =
             layer.encoding() == TexelEncoding::color_and_data_alpha ? Content::color : Content::data;
-        const TextureRef ref = writer.add(images.layers[i], images.known_layers,
-                                          suffix_of(source.extension_textures[layer.textures.front()]),
-                                          content, {layer.texture_ref});
+        const TextureRef ref = list.add(std::move(images.layers[i]), known,
+                                        suffix_of(source.extension_textures[layer.textures.front()]), content,
+                                        {layer.texture_ref});
         for (const Index t : layer.textures) {
             const ExtensionTexture& texture = source.extension_textures[t];
             result.extension_textures.push_back({texture.extension, texture.name, ref});
@@ -143,7 +104,7 @@ std::optional<Vec3f> constant_emission(const PageImages& images) {
 }  // namespace
 
 Material page_material(BakeJob& job, const MaterialGroup& group, const Channels& channels,
-                       std::span<const ExtensionLayer> layers, const PageImages& images) {
+                       std::span<const ExtensionLayer> layers, PageImages images) {
     Material result = group.material;
     result.rebaked = true;
     result.normal_texture = result.base_color_texture = result.metallic_roughness_texture =
@@ -161,15 +122,16 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         }
         return found;
     };
-    ImageWriter writer(job, result.name.empty()
+    PageImageList list(job, result.name.empty()
                                 ? "material" + std::to_string(job.result.asset.materials.size())
                                 : result.name);
+    const auto known = std::make_shared<const std::vector<std::uint8_t>>(images.known);
     if (channels.base) {
         const std::optional<Vec4f> constant = constant_base_color(images);
         result.base_color = constant.value_or(Vec4f{1, 1, 1, 1});
         if (!constant)
-            result.base_color_texture = writer.add(images.base, images.known, "_baseColor", Content::color,
-                                                   uses({&Material::base_color_texture}));
+            result.base_color_texture = list.add(std::move(images.base), known, "_baseColor", Content::color,
+                                                 uses({&Material::base_color_texture}));
     }
     if (channels.metallic_roughness || channels.occlusion) {
         const auto [occlusion, roughness, metallic, alpha] =
@@ -178,9 +140,9 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         const bool is_varying = channels.metallic_roughness && !(roughness && metallic);
         TextureRef orm;
         if (has_occlusion || is_varying) {
-            orm = writer.add(images.occlusion_roughness_metallic, images.known, "_occlusionRoughnessMetallic",
-                             Content::data,
-                             uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}));
+            orm = list.add(std::move(images.occlusion_roughness_metallic), known,
+                           "_occlusionRoughnessMetallic", Content::data,
+                           uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}));
         }
         if (has_occlusion) result.occlusion_texture = orm;
         if (channels.metallic_roughness) {
@@ -193,16 +155,15 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         const std::optional<Vec3f> constant = constant_emission(images);
         result.emissive = constant.value_or(Vec3f{1, 1, 1});
         if (!constant)
-            result.emissive_texture = writer.add(images.emissive, images.known, "_emissive", Content::color,
-                                                 uses({&Material::emissive_texture}));
+            result.emissive_texture = list.add(std::move(images.emissive), known, "_emissive", Content::color,
+                                               uses({&Material::emissive_texture}));
     }
     if (channels.normal && !is_flat_normal_map(images.normal, images.known)) {
-        result.normal_texture = writer.add(images.normal, images.known, "_normal", Content::data,
-                                           uses({&Material::normal_texture}));
+        result.normal_texture = list.add(std::move(images.normal), known, "_normal", Content::data,
+                                         uses({&Material::normal_texture}));
     }
-    add_layers(writer, group.material, channels.layers ? layers : std::span<const ExtensionLayer>(), images,
+    add_layers(list, group.material, channels.layers ? layers : std::span<const ExtensionLayer>(), images,
                result);
-    writer.write();
     return result;
 }
 

@@ -18,7 +18,7 @@ Pixels smooth(std::uint32_t size, std::uint8_t alpha = 255) {
     });
 }
 
-// The images of an asset after encode_kept_images() with one part that keeps its UVs.
+// The images of an asset after add_kept_images() and encode_pending_images(), with one part that keeps its UVs.
 Asset encoded(const Asset& asset, const BakeOptions& bake,
               std::vector<detail::KeptPart> parts = {{0, false}}) {
     Options options;
@@ -27,7 +27,8 @@ Asset encoded(const Asset& asset, const BakeOptions& bake,
     job.result.asset.parts = asset.parts;
     job.result.asset.materials = asset.materials;
     job.result.asset.images = asset.images;
-    detail::encode_kept_images(job, parts);
+    detail::add_kept_images(job, parts);
+    detail::encode_pending_images(job.pending, bake, {}, job.result.asset.images);
     return job.result.asset;
 }
 

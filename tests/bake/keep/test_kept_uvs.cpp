@@ -153,6 +153,7 @@ TEST_CASE("kept UVs: cancellation at any time gives a cancelled result") {
         calls = 0;
         options.progress = [&](Phase, double) { return ++calls < limit ? Continue::yes : Continue::cancel; };
         const SimplifiedAsset result = simplify(asset, options);
+        if (calls < limit) continue;  // the number of calls depends on the time
         CHECK(result.report.stop == StopReason::cancelled);
         CHECK(result.asset.parts.empty());
     }

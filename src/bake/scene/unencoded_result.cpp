@@ -1,0 +1,97 @@
+#include "bake/scene/unencoded_result.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "asset/image/image_size.hpp"
+#include "asset/scene/material_textures.hpp"
+#include "bake/transfer/extension_layers.hpp"
+#include "bake/transfer/material_groups.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
+
+namespace faqem::detail {
+namespace {
+
+void report_images(const Asset& asset, Report& report) {
+    report.images.clear();
+    for (const Image& image : asset.images) {
+        const std::optional<ImageSize> size = declared_size(image.encoded);
+        const auto side = [&](std::uint64_t ImageSize::*member) {
+            return size ? static_cast<std::uint32_t>(*size.*member) : 0;
+        };
+        report.images.push_back({image.name, sniff_mime_type(image.encoded), side(&ImageSize::width),
+                                 side(&ImageSize::height), image.encoded.size()});
+    }
+}
+
+// Removes images, and gives the others and the references to them their new numbers.
+void remove_images(UnencodedResult& result, const std::vector<std::uint8_t>& removed) {
+    Asset& asset = result.asset.asset;
+    std::vector<Index> number(asset.images.size(), no_index);
+    Index count = 0;
+    for (std::size_t i = 0; i < number.size(); ++i)
+        if (!removed[i]) number[i] = count++;
+    for (std::size_t i = 0; i < number.size(); ++i)
+        if (!removed[i] && number[i] != i) asset.images[number[i]] = std::move(asset.images[i]);
+    asset.images.resize(count);
+    for (Material& material : asset.materials) {
+        for_each_texture(material, [&](TextureRef& texture) {
+            if (!texture) return;
+            texture.image = number[texture.image];
+            if (!texture) texture = {};
+        });
+    }
+    std::erase_if(result.pending, [&](const PendingImage& pending) { return removed[pending.image] != 0; });
+    for (PendingImage& pending : result.pending) pending.image = number[pending.image];
+}
+
+bool needs_tangents(const Asset& asset, const Part& part) {
+    return std::any_of(part.face_material.begin(), part.face_material.end(),
+                       [&](Index m) { return tangent_texture(material_or_default(asset, m)) != nullptr; });
+}
+
+}  // namespace
+
+void set_cancelled(SimplifiedAsset& result) {
+    result.asset.parts.clear();
+    result.asset.materials.clear();
+    result.asset.images.clear();
+    result.correspondence.clear();
+    result.report.stop = StopReason::cancelled;
+}
+
+void encode_images(UnencodedResult& result, const Options& options) {
+    Report& report = result.asset.report;
+    if (report.stop == StopReason::cancelled) return;
+    const Stopwatch watch;
+    engine::ProgressMonitor monitor([&] { return options.progress(Phase::bake, 1); });
+    const CancellationCheck check = options.progress ? CancellationCheck(monitor) : CancellationCheck();
+    try {
+        encode_pending_images(result.pending, options.bake, {options.threads, check},
+                              result.asset.asset.images);
+        report_images(result.asset.asset, report);
+    } catch (const engine::Cancelled&) {
+        set_cancelled(result.asset);
+    }
+    report.seconds.bake += watch.seconds();
+    report.seconds.total += watch.seconds();
+}
+
+bool remove_new_normal_maps(UnencodedResult& result) {
+    Asset& asset = result.asset.asset;
+    std::vector<std::uint8_t> removed(asset.images.size(), 0);
+    bool has_any = false;
+    for (const PendingImage& pending : result.pending) {
+        if (!pending.is_new_map) continue;
+        removed[pending.image] = 1;
+        has_any = true;
+    }
+    if (!has_any) return false;
+    remove_images(result, removed);
+    for (Part& part : asset.parts)
+        if (!needs_tangents(asset, part)) part.tangents.clear();
+    return true;
+}
+
+}  // namespace faqem::detail

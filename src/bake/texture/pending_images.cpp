@@ -1,0 +1,38 @@
+#include "bake/texture/pending_images.hpp"
+
+#include <utility>
+
+#include "bake/texture/image_choice.hpp"
+
+namespace faqem::detail {
+namespace {
+
+Image encoded_image(const PendingImage& pending, const BakeOptions& bake, CancellationCheck check_cancelled) {
+    const Pixels& pixels = pending.pixels;
+    if (bake.image_format == ImageFormat::automatic) {
+        Image smallest =
+            encode_smallest(pixels, *pending.known, pending.name, pending.content,
+                            {least_psnr(bake, pending.content), pending.may_shrink}, check_cancelled);
+        const bool keeps_original =
+            pending.original && smallest.encoded.size() >= pending.original->encoded.size();
+        return keeps_original ? *pending.original : std::move(smallest);
+    }
+    const bool is_jpeg =
+        bake.image_format == ImageFormat::source ? pending.was_jpeg : bake.image_format == ImageFormat::jpeg;
+    return is_jpeg && !pixels.has_alpha
+               ? encode_jpeg(pixels, pending.name, bake.jpeg_quality, pending.content)
+               : encode_png(pixels, pending.name);
+}
+
+}  // namespace
+
+void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
+                           const Workers& workers, std::vector<Image>& images) {
+    parallel_blocks(pending.size(), 1, workers,
+                    [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
+                        check_cancelled.now();
+                        images[pending[i].image] = encoded_image(pending[i], bake, check_cancelled);
+                    });
+}
+
+}  // namespace faqem::detail

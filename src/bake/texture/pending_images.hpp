@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// Images of a result before they are encoded. They can be encoded several times, with different limits.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asset/image/image.hpp"
+#include "faqem/asset.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/options.hpp"
+
+namespace faqem::detail {
+
+/// An image that is not encoded yet.
+struct PendingImage {
+    Index image = no_index;  ///< index into Asset::images of the result
+    Pixels pixels;
+    /// By texel: nonzero if it shows a triangle. Several images of a page share it.
+    std::shared_ptr<const std::vector<std::uint8_t>> known;
+    std::string name;  ///< Image::name
+    Content content = Content::color;
+    bool may_shrink = true;   ///< whether ImageFormat::automatic may choose a lower resolution
+    bool was_jpeg = false;    ///< whether ImageFormat::source means JPEG
+    bool is_new_map = false;  ///< a normal map of a material without one in the source
+    /// The image of the source, if the pixels are its own: ImageFormat::automatic takes it if it is not larger.
+    std::optional<Image> original = {};
+};
+
+/// Encodes images as BakeOptions::image_format says.
+/// \param images  Asset::images of the result; receives the encoded images
+/// \throws engine::Cancelled
+/// Complexity: at most about ten encodings of each image.
+void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
+                           const Workers& workers, std::vector<Image>& images);
+
+}  // namespace faqem::detail
