@@ -1,4 +1,4 @@
-#include "capi/mesh.hpp"
+#include "capi/c_mesh.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "faqem/levels.hpp"
+#include "capi/c_levels.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "capi/c_mesh.hpp"
+#include "capi/c_result.hpp"
 #include "capi/guard.hpp"
-#include "capi/levels.hpp"
-#include "capi/mesh.hpp"
-#include "capi/report.hpp"
 #include "faqem/faqem_levels.h"
+#include "faqem/levels.hpp"
 
 namespace {
 

@@ -1,10 +1,9 @@
-#include "faqem/options.hpp"
-
 #include <new>
 
+#include "capi/c_result.hpp"
 #include "capi/guard.hpp"
-#include "capi/report.hpp"
 #include "faqem/detail/options/option_table.hpp"
+#include "faqem/options.hpp"
 
 namespace {
 

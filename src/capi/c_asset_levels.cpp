@@ -7,9 +7,9 @@
 
 #include "bake/scene/level_coverage.hpp"
 #include "bake/scene/parts_from_histories.hpp"
-#include "capi/asset.hpp"
-#include "capi/history.hpp"
-#include "capi/levels.hpp"
+#include "capi/c_asset.hpp"
+#include "capi/c_history.hpp"
+#include "capi/c_levels.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/save_levels.hpp"
 

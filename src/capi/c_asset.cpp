@@ -1,11 +1,11 @@
-#include "capi/asset.hpp"
+#include "capi/c_asset.hpp"
 
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "capi/mesh.hpp"
+#include "capi/c_mesh.hpp"
 
 namespace {
 

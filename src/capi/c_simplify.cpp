@@ -1,10 +1,9 @@
-#include "faqem/simplify.hpp"
-
 #include <vector>
 
+#include "capi/c_mesh.hpp"
+#include "capi/c_result.hpp"
 #include "capi/guard.hpp"
-#include "capi/mesh.hpp"
-#include "capi/report.hpp"
+#include "faqem/simplify.hpp"
 #include "faqem/version.hpp"
 
 namespace {

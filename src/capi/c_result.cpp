@@ -1,6 +1,6 @@
-#include <limits>
+#include "capi/c_result.hpp"
 
-#include "capi/report.hpp"
+#include <limits>
 
 namespace faqem::capi {
 

@@ -1,4 +1,4 @@
-#include "capi/history.hpp"
+#include "capi/c_history.hpp"
 
 #include <memory>
 #include <sstream>
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "capi/c_result.hpp"
 #include "capi/guard.hpp"
-#include "capi/report.hpp"
 #include "faqem/surface_map.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "capi/c_result.hpp"
 #include "capi/guard.hpp"
-#include "capi/report.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/faqem_asset.h"
 
