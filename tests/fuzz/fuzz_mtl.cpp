@@ -1,4 +1,4 @@
-#include "asset/formats/mtl.hpp"
+#include "asset/formats/mtl_material.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;
@@ -9,8 +9,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         "a.mtl", [&] { return detail::read_mtl(fuzz::Bytes(data, size), "a.mtl", warnings); });
     if (!materials) return 0;
     Asset asset;
-    for (const detail::MtlMaterial& material : *materials)
-        detail::add_material(asset, material, "no-such-folder");
+    detail::FileFinder finder("no-such-folder");
+    detail::ReferencedImages images(asset, finder);
+    for (const detail::MtlMaterial& material : *materials) detail::MtlMaterials(asset, images).add(material);
     fuzz::expect_sound(asset);
     return 0;
 }

@@ -47,38 +47,96 @@ std::optional<float> as_number(std::string_view word) {
     return value;
 }
 
-/// Reads up to three numbers and stores the first two. The last word is never read, since it is the file
-/// name, which may look like a number.
-void read_pair(Words& words, Vec2f& pair) {
-    for (std::size_t i = 0; i < 3 && !words.is_last(); ++i) {
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower;
+}
+
+/// Where the options of a texture statement are. Before the file name its word, the last one, is not an argument,
+/// even if it looks like a number.
+enum class OptionPlace { before_name, after_name };
+
+ScalarChannel scalar_channel(std::string_view letter) {
+    static constexpr std::string_view letters = "rgbm";
+    const std::size_t k = letter.size() == 1 ? letters.find(letter[0]) : std::string_view::npos;
+    return k == std::string_view::npos
+               ? ScalarChannel::luminance
+               : static_cast<ScalarChannel>(static_cast<std::size_t>(ScalarChannel::red) + k);
+}
+
+/// Applies an option with one argument. Returns whether the argument fits the option.
+bool apply_option(std::string_view option, std::string_view argument, MtlTexture& texture) {
+    const bool is_switch = argument == "on" || argument == "off";
+    if (option == "-clamp") texture.wrap = argument == "on" ? Wrap::clamp : Wrap::repeat;
+    if (option == "-imfchan") texture.channel = scalar_channel(argument);
+    if (option == "-bm") texture.multiplier = as_number(argument).value_or(texture.multiplier);
+    if (option == "-bm" || option == "-boost" || option == "-texres") return as_number(argument).has_value();
+    if (option == "-imfchan") return argument.size() == 1;
+    return option == "-type" || is_switch;
+}
+
+/// Reads an option with its arguments. Returns false if there is none, or, after the name, if its arguments do not
+/// fit it.
+bool read_option(Words& words, OptionPlace place, MtlTexture& texture) {
+    static constexpr std::array<std::string_view, 9> one_argument = {
+        "-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-texres", "-type"};
+    const auto is_done = [&] {
+        return place == OptionPlace::before_name ? words.is_last() : words.rest().empty();
+    };
+    const std::string_view option = words.peek();
+    const bool takes_one = std::find(one_argument.begin(), one_argument.end(), option) != one_argument.end();
+    const bool takes_pair = option == "-o" || option == "-s" || option == "-t";
+    if ((!takes_one && !takes_pair && option != "-mm") || is_done()) return false;
+    words.skip();
+    bool fits = !is_done();
+    if (takes_one && fits) {
+        fits = apply_option(option, words.peek(), texture);
+        words.skip();
+    }
+    Vec2f unused = {0, 0};
+    Vec2f& pair = option == "-o" ? texture.offset : option == "-s" ? texture.scale : unused;
+    for (std::size_t i = 0; takes_pair && i < 3 && !is_done(); ++i) {
         const std::optional<float> value = as_number(words.peek());
-        if (!value) return;
+        if (!value) {
+            fits = fits && i > 0;
+            break;
+        }
         if (i < 2) pair[i] = *value;
         words.skip();
+    }
+    for (int i = 0; option == "-mm" && i < 2 && !is_done(); ++i) words.skip();
+    return fits || place == OptionPlace::before_name;
+}
+
+/// Removes options after the file name. A name that contains a blank and a minus is kept unless all that follows are
+/// options.
+void read_trailing_options(MtlTexture& texture) {
+    for (std::size_t at = 0; (at = texture.file.find(" -", at)) != std::string::npos; ++at) {
+        const std::string_view name = std::string_view(texture.file).substr(0, at);
+        const std::size_t end = name.find_last_not_of(" \t");
+        if (end == std::string_view::npos) continue;
+        MtlTexture with_options = texture;
+        Words words(std::string_view(texture.file).substr(at + 1));
+        bool are_options = true;
+        while (are_options && !words.rest().empty())
+            are_options = read_option(words, OptionPlace::after_name, with_options);
+        if (!are_options) continue;
+        with_options.file = name.substr(0, end + 1);
+        texture = std::move(with_options);
+        return;
     }
 }
 
 MtlTexture read_texture(const std::string& statement) {
-    static constexpr std::array<std::string_view, 9> one_argument = {
-        "-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-texres", "-type"};
     MtlTexture texture;
-    for (Words words(statement);;) {
-        const std::string_view option = words.peek();
-        const bool takes_one =
-            std::find(one_argument.begin(), one_argument.end(), option) != one_argument.end();
-        const bool takes_pair = option == "-o" || option == "-s" || option == "-t";
-        if ((!takes_one && !takes_pair && option != "-mm") || words.is_last()) {
-            texture.file = words.rest();
-            return texture;
-        }
-        words.skip();
-        if (option == "-clamp") texture.wrap = words.peek() == "on" ? Wrap::clamp : Wrap::repeat;
-        if (takes_one && !words.is_last()) words.skip();
-        Vec2f unused = {0, 0};
-        if (takes_pair)
-            read_pair(words, option == "-o" ? texture.offset : option == "-s" ? texture.scale : unused);
-        for (int i = 0; option == "-mm" && i < 2 && !words.is_last(); ++i) words.skip();
+    Words words(statement);
+    while (read_option(words, OptionPlace::before_name, texture)) {
     }
+    texture.file = words.rest();
+    read_trailing_options(texture);
+    return texture;
 }
 
 /// Parser of a material library.
@@ -101,7 +159,8 @@ public:
 private:
     void warn(const std::string& what) { warnings_.push_back(in_.file() + ": " + what); }
 
-    void statement(std::string_view key) {
+    void statement(std::string_view key_as_written) {
+        const std::string key = lower_case(key_as_written);
         if (key == "newmtl") {
             finish_material();
             materials_.emplace_back();
@@ -109,39 +168,45 @@ private:
             materials_.back().values.name = materials_.back().name;
             materials_.back().values.metallic = 0;
         } else if (materials_.empty() || !read_known_statement(key, materials_.back())) {
-            static constexpr std::array<std::string_view, 8> ignored_keys = {
-                "Ka", "Ks", "Ni", "Tf", "Km", "map_Ka", "illum", "sharpness"};
+            static constexpr std::array<std::string_view, 7> ignored_keys = {"ka", "ks",    "ni",       "tf",
+                                                                             "km", "illum", "sharpness"};
             if (std::find(ignored_keys.begin(), ignored_keys.end(), key) == ignored_keys.end())
-                ++unused_[TextScanner::quoted(key)];
+                ++unused_[TextScanner::quoted(key_as_written)];
         }
     }
 
     bool read_known_statement(std::string_view key, MtlMaterial& material) {
-        if (key == "Kd")
+        if (key == "kd")
             diffuse_ = color();
-        else if (key == "Ke")
+        else if (key == "ke")
             emission_ = color();
         else if (key == "d")
             opacity_ = opacity();
-        else if (key == "Tr")
+        else if (key == "tr")
             transparency_ = unit_number();
-        else if (key == "Ns")
+        else if (key == "ns")
             exponent_ = in_.number<double>();
-        else if (key == "Pr")
+        else if (key == "pr")
             roughness_ = unit_number();
-        else if (key == "Pm")
+        else if (key == "pm")
             material.values.metallic = static_cast<float>(unit_number());
-        else if (key == "map_Kd")
-            material.color = read_texture(in_.rest_of_line());
-        else if (key == "map_Ke")
-            material.emissive = read_texture(in_.rest_of_line());
-        else if (key == "map_d")
-            material.alpha = read_texture(in_.rest_of_line());
-        else if (key == "norm")
-            material.normal = read_texture(in_.rest_of_line());
+        else if (MtlTexture* texture = texture_of(key, material))
+            *texture = read_texture(in_.rest_of_line());
         else
             return false;
         return true;
+    }
+
+    MtlTexture* texture_of(std::string_view key, MtlMaterial& material) {
+        if (key == "map_kd") return &material.color;
+        if (key == "map_ka") return &ambient_;
+        if (key == "map_ke") return &material.emissive;
+        if (key == "map_d") return &material.alpha;
+        if (key == "norm") return &material.normal;
+        if (key == "bump" || key == "map_bump") return &material.bump;
+        if (key == "map_pr") return &material.roughness;
+        if (key == "map_pm") return &material.metallic;
+        return nullptr;
     }
 
     double unit_number() {
@@ -171,6 +236,10 @@ private:
     void finish_material() {
         if (materials_.empty()) return;
         MtlMaterial& material = materials_.back();
+        if (material.color.file.empty() && !ambient_.file.empty()) {
+            warn("material '" + material.name + "': map_Ka is read as the missing map_Kd");
+            material.color = ambient_;
+        }
         const auto is_black = [](const Vec3& c) { return c == Vec3{0, 0, 0}; };
         if (diffuse_ && is_black(*diffuse_) && !material.color.file.empty()) {
             warn("material '" + material.name + "': Kd 0 0 0 with a map_Kd is read as 1 1 1");
@@ -198,6 +267,7 @@ private:
             values.roughness = static_cast<float>(std::sqrt(std::sqrt(2 / (*exponent_ + 2))));
         diffuse_.reset();
         emission_.reset();
+        ambient_ = {};
         for (auto* number : {&opacity_, &transparency_, &exponent_, &roughness_}) number->reset();
     }
 
@@ -207,49 +277,13 @@ private:
     std::map<std::string, std::uint64_t> unused_;
     // Values of the current material.
     std::optional<Vec3> diffuse_, emission_;
+    MtlTexture ambient_;
     std::optional<double> opacity_, transparency_, exponent_, roughness_;
 };
 
-/// Returns the index of an image, which is read unless the asset already has it; no_index with a warning if
-/// it cannot be read.
-Index add_image(Asset& asset, const MtlMaterial& material, const std::string& name,
-                const std::filesystem::path& folder) {
-    try {
-        const std::string reference = (material.folder / name).generic_string();
-        const std::filesystem::path found = resolve_inside(folder, reference, ReferenceSyntax::file_name);
-        const std::filesystem::path root = std::filesystem::canonical(folder.empty() ? "." : folder);
-        Image image;
-        image.uri = found.lexically_relative(root).generic_string();
-        for (Index i = 0; i < asset.images.size(); ++i)
-            if (asset.images[i].uri == image.uri) return i;
-        image.name = found.stem().string();
-        image.encoded = read_file(found);
-        image.mime_type = sniff_mime_type(image.encoded);
-        asset.images.push_back(std::move(image));
-        return static_cast<Index>(asset.images.size() - 1);
-    } catch (const InputError& error) {
-        asset.warnings.push_back("material '" + material.name + "': texture left out: " + error.what());
-        return no_index;
-    }
-}
-
-TextureRef add_texture(Asset& asset, const MtlMaterial& material, const MtlTexture& texture,
-                       const std::filesystem::path& folder) {
-    TextureRef ref;
-    if (texture.file.empty()) return ref;
-    ref.image = add_image(asset, material, texture.file, folder);
-    ref.wrap_u = ref.wrap_v = texture.wrap;
-    ref.scale = texture.scale;
-    // MTL defines v' = o + s * v with v pointing up. With v = 1 - w this becomes w' = (1 - s - o) + s * w.
-    ref.offset = {texture.offset[0], 1 - texture.scale[1] - texture.offset[1]};
-    return ref;
-}
-
 bool is_texture_key(std::string_view key) {
     static constexpr std::array<std::string_view, 5> others = {"bump", "disp", "decal", "refl", "norm"};
-    std::string lower(key);
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string lower = lower_case(key);
     return lower.starts_with("map_") || std::find(others.begin(), others.end(), lower) != others.end();
 }
 
@@ -265,22 +299,6 @@ std::vector<std::string> texture_statements(std::span<const std::uint8_t> text, 
 std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
                                   std::vector<std::string>& warnings) {
     return MtlReader(text, name, warnings).run();
-}
-
-Index add_material(Asset& asset, const MtlMaterial& source, const std::filesystem::path& folder) {
-    Material material = source.values;
-    material.base_color_texture = add_texture(asset, source, source.color, folder);
-    material.emissive_texture = add_texture(asset, source, source.emissive, folder);
-    material.normal_texture = add_texture(asset, source, source.normal, folder);
-    if (!source.alpha.file.empty()) {
-        if (material.base_color_texture && source.alpha.file == source.color.file)
-            material.alpha_mode = AlphaMode::blend;
-        else
-            asset.warnings.push_back("material '" + source.name +
-                                     "': map_d is supported only if it is the same image as map_Kd");
-    }
-    asset.materials.push_back(std::move(material));
-    return static_cast<Index>(asset.materials.size() - 1);
 }
 
 }  // namespace faqem::detail

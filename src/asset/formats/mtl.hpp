@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Reading of OBJ material libraries (MTL files).
+/// Parsing of OBJ material libraries (MTL files).
 
 #include <cstdint>
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "asset/image/combine.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
 
@@ -15,9 +16,11 @@ namespace faqem::detail {
 
 /// A texture statement (`map_Kd` ...) as written.
 struct MtlTexture {
-    std::string file;                       ///< as written; empty: no texture
-    Vec2f offset = {0, 0}, scale = {1, 1};  ///< -o and -s, v pointing up
-    Wrap wrap = Wrap::repeat;               ///< -clamp
+    std::string file;                                  ///< as written; empty: no texture
+    Vec2f offset = {0, 0}, scale = {1, 1};             ///< -o and -s, v pointing up
+    Wrap wrap = Wrap::repeat;                          ///< -clamp
+    float multiplier = 1;                              ///< -bm
+    ScalarChannel channel = ScalarChannel::automatic;  ///< -imfchan; `z` is read as luminance
 };
 
 /// A material of a library. Texture files are relative to the folder of the library.
@@ -26,6 +29,8 @@ struct MtlMaterial {
     std::filesystem::path folder;  ///< folder of the library, relative to the folder of the OBJ file
     Material values;               ///< everything except the textures
     MtlTexture color, alpha, emissive, normal;
+    MtlTexture bump;                 ///< a normal map or a height map: only its image tells
+    MtlTexture roughness, metallic;  ///< if set, they replace the factors
 };
 
 /// Parses a material library and converts its values to the conventions of Material.
@@ -37,10 +42,12 @@ struct MtlMaterial {
 /// - Pr is the roughness; without it, roughness = (2 / (Ns + 2))^(1/4), or 1 without Ns. The formula follows
 ///   Karis, "Specular BRDF reference", 2013, with alpha = roughness^2.
 /// - Pm is the metallic factor; the default is 0.
-/// - map_Kd, map_Ke and norm are textures, and map_d if it is the same image as map_Kd. Of the options, -o,
-///   -s and -clamp are used; the others are ignored.
-/// - Ka, map_Ka, Ks, Ni, Tf, Km, illum and sharpness have no equivalent in Material and are ignored. Other
+/// - map_Kd, map_Ke, map_d, map_Pr, map_Pm, norm, and bump or map_Bump are textures. map_Ka is ignored beside a map_Kd, and
+///   otherwise read as one, with a warning. Of the options, -o, -s, -clamp, -bm and -imfchan are used; the others
+///   are ignored. Options may follow the file name.
+/// - Ka, Ks, Ni, Tf, Km, illum and sharpness have no equivalent in Material and are ignored. Other
 ///   statements, and statements before the first newmtl, are ignored with a counted warning.
+/// - Keywords may have any letter case.
 /// \param text      borrowed
 /// \param name      path of the library, for messages
 /// \param warnings  receives the warnings
@@ -55,11 +62,5 @@ FAQEM_EXPORT std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> tex
 /// \param text  borrowed
 /// \param name  path of the library
 std::vector<std::string> texture_statements(std::span<const std::uint8_t> text, const std::string& name);
-
-/// Adds a material and its images to the asset. Images that the asset already has are shared. An image that
-/// is missing or outside the folder is a warning, and the material has no such texture.
-/// \param folder  folder of the OBJ file; images must be in it or below it
-/// \return index into asset.materials
-Index add_material(Asset& asset, const MtlMaterial& material, const std::filesystem::path& folder);
 
 }  // namespace faqem::detail

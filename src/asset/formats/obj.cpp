@@ -8,7 +8,9 @@
 #include <map>
 #include <string_view>
 
-#include "asset/formats/mtl.hpp"
+#include "asset/formats/mtl_material.hpp"
+#include "asset/formats/obj_libraries.hpp"
+#include "asset/formats/referenced_images.hpp"
 #include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
@@ -264,39 +266,13 @@ void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& co
     }
 }
 
-/// Reads all material libraries. If a name is defined repeatedly, the last definition is used.
-std::map<std::string, MtlMaterial> read_libraries(const ObjStatements& in,
-                                                  const std::filesystem::path& folder,
-                                                  std::vector<std::string>& warnings) {
-    std::map<std::string, MtlMaterial> materials;
-    std::vector<std::string> done;
-    for (const std::string& statement : in.libraries) {
-        for (const std::string& name : library_names(statement, folder)) {
-            if (std::find(done.begin(), done.end(), name) != done.end()) continue;
-            done.push_back(name);
-            std::vector<std::uint8_t> text;
-            std::filesystem::path found;
-            try {
-                found = resolve_inside(folder, name, ReferenceSyntax::file_name);
-                text = read_file(found);
-            } catch (const InputError& error) {
-                warnings.push_back(std::string("material library ignored: ") + error.what());
-                continue;
-            }
-            const auto root = std::filesystem::canonical(folder.empty() ? "." : folder);
-            for (MtlMaterial& material : read_mtl(text, found.string(), warnings)) {
-                material.folder = found.parent_path().lexically_relative(root);
-                materials[material.name] = std::move(material);
-            }
-        }
-    }
-    return materials;
-}
-
 /// Adds the used materials in the order of their first use by a face.
-void add_materials(Asset& asset, const ObjStatements& in, const std::filesystem::path& folder) {
+void add_materials(Asset& asset, const ObjStatements& in, const std::filesystem::path& file) {
     std::vector<Index>& of_face = asset.parts[0].face_material;
-    const auto libraries = read_libraries(in, folder, asset.warnings);
+    FileFinder finder(file.parent_path());
+    const auto libraries = read_libraries(in.libraries, file, finder, asset.warnings);
+    ReferencedImages images(asset, finder);
+    MtlMaterials materials(asset, images);
     std::vector<Index> added(in.material_names.size(), no_index);
     for (Index& m : of_face) {
         if (m == no_index) continue;
@@ -308,7 +284,7 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::filesystem:
             unknown.values.metallic = 0;
             if (known == libraries.end())
                 asset.warnings.push_back("material '" + name + "' is not defined in any readable library");
-            added[m] = add_material(asset, known == libraries.end() ? unknown : known->second, folder);
+            added[m] = materials.add(known == libraries.end() ? unknown : known->second);
         }
         m = added[m];
     }
@@ -318,20 +294,6 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::filesystem:
 }
 
 }  // namespace
-
-std::vector<std::string> library_names(const std::string& statement, const std::filesystem::path& folder) {
-    try {
-        resolve_inside(folder, statement, ReferenceSyntax::file_name);
-        return {statement};
-    } catch (const InputError&) {
-        std::vector<std::string> names;
-        std::size_t first = 0;
-        for (std::size_t end; (end = statement.find(".mtl ", first)) != std::string::npos; first = end + 5)
-            names.push_back(statement.substr(first, end + 4 - first));
-        names.push_back(statement.substr(first));
-        return names;
-    }
-}
 
 Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
     Asset asset;
@@ -360,7 +322,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     part.face_material.reserve(part.triangles.size());
     for (const Index p : split.source_polygon) part.face_material.push_back(in.face_material[p]);
     repair_non_finite(part, file.string(), split.non_finite, asset.warnings);
-    add_materials(asset, in, file.parent_path());
+    add_materials(asset, in, file);
     return asset;
 }
 

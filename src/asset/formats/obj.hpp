@@ -33,12 +33,6 @@ Asset read_obj(const std::filesystem::path& file);
 /// \param file  path for messages; material libraries and images are searched in its folder
 Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& file);
 
-/// Returns the file names in an mtllib statement. The whole statement is one name if such a file exists;
-/// otherwise it is split after each `.mtl`.
-/// \param statement  without its keyword
-/// \param folder     folder of the OBJ file
-std::vector<std::string> library_names(const std::string& statement, const std::filesystem::path& folder);
-
 /// Adds the libraries of an OBJ file, every texture statement of these, and other files that it names. Of the files,
 /// only libraries in the folder of the model or below it are read.
 /// \param model  path of a regular file, which may be larger than the memory

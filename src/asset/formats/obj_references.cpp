@@ -6,6 +6,8 @@
 
 #include "asset/formats/mtl.hpp"
 #include "asset/formats/obj.hpp"
+#include "asset/formats/obj_libraries.hpp"
+#include "asset/io/file_finder.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
@@ -57,39 +59,71 @@ void for_each_block(const fs::path& file, const Visit& visit) {
     }
 }
 
-/// Adds a library and its textures, which are relative to its folder.
-void add_library(const std::string& name, ReferenceList& files, std::set<fs::path>& known) {
-    files.add(name, ReferenceSyntax::file_name, Readable::yes);
-    try {
-        const fs::path library = resolve_inside(files.folder(), name, ReferenceSyntax::file_name);
-        if (!known.insert(library).second) return;
-        const fs::path root = fs::canonical(files.folder().empty() ? "." : files.folder());
-        const fs::path subfolder = library.parent_path().lexically_relative(root);
-        const std::vector<std::uint8_t> text = read_file(library);
-        for (const std::string& statement : texture_statements(text, library.string()))
-            for_each_possible_name(statement, [&](const std::string& texture) {
-                files.add(texture, ReferenceSyntax::file_name, Readable::yes, subfolder);
-            });
-    } catch (const InputError&) {  // may not be read
+/// Collects the libraries and textures of one model.
+class LibraryReferences {
+public:
+    LibraryReferences(const fs::path& model, ReferenceList& files)
+        : model_(model), files_(files), finder_(files.folder()) {}
+
+    /// Adds a library and its textures, which are relative to its folder.
+    void add(const std::string& name) {
+        if (!names_.insert(name).second) return;
+        files_.add(name, ReferenceSyntax::file_name, Readable::yes);
+        try {
+            const fs::path library = find(name);
+            files_.add_found(library);
+            if (!libraries_.insert(library).second) return;
+            const fs::path root = fs::canonical(files_.folder().empty() ? "." : files_.folder());
+            const fs::path subfolder = library.parent_path().lexically_relative(root);
+            const std::vector<std::uint8_t> text = read_file(library);
+            for (const std::string& statement : texture_statements(text, library.string()))
+                for_each_possible_name(statement,
+                                       [&](const std::string& texture) { add_texture(texture, subfolder); });
+        } catch (const InputError&) {  // may not be read
+        }
     }
-}
+
+private:
+    fs::path find(const std::string& name) {
+        try {
+            return finder_.find(name).file;
+        } catch (const InputError&) {
+            const std::optional<std::string> other = renamed_library(model_, finder_);
+            if (!other) throw;
+            return finder_.find(*other).file;
+        }
+    }
+
+    void add_texture(const std::string& name, const fs::path& subfolder) {
+        files_.add(name, ReferenceSyntax::file_name, Readable::yes, subfolder);
+        try {
+            files_.add_found(finder_.find(name, subfolder).file);
+        } catch (const InputError&) {  // there is none
+        }
+    }
+
+    const fs::path& model_;
+    ReferenceList& files_;
+    FileFinder finder_;
+    std::set<std::string> names_;
+    std::set<fs::path> libraries_;
+};
 
 }  // namespace
 
 void list_library_references(const fs::path& library, ReferenceList& files) {
-    std::set<fs::path> libraries;
-    add_library(library.filename().string(), files, libraries);
+    LibraryReferences(library, files).add(library.filename().string());
 }
 
 void list_obj_references(const fs::path& model, ReferenceList& files) {
     static constexpr std::array<std::string_view, 4> others = {"maplib", "shadow_obj", "trace_obj", "call"};
-    std::set<fs::path> libraries;
+    LibraryReferences libraries(model, files);
     for_each_block(model, [&](TextScanner in) {
         for (; in.skip_to_content(); in.next_line()) {
             const std::string_view key = in.word();
             if (key == "mtllib") {
                 const std::string statement = in.rest_of_line();
-                const auto add = [&](const std::string& name) { add_library(name, files, libraries); };
+                const auto add = [&](const std::string& name) { libraries.add(name); };
                 for (const std::string& name : library_names(statement, files.folder())) add(name);
                 for_each_possible_name(statement, add);
             } else if (std::find(others.begin(), others.end(), key) != others.end()) {

@@ -25,7 +25,13 @@ void ReferenceList::add(const std::string& reference, ReferenceSyntax syntax, Re
     } else {
         return;
     }
-    if (known_.insert(file).second) files_.push_back(std::move(file));
+    if (!known_.insert(file).second) return;
+    canonical_.insert(fs::weakly_canonical(file, error));
+    files_.push_back(std::move(file));
+}
+
+void ReferenceList::add_found(const fs::path& file) {
+    if (canonical_.insert(file).second && known_.insert(file).second) files_.push_back(file);
 }
 
 }  // namespace faqem::detail

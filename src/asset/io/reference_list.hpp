@@ -38,13 +38,17 @@ public:
     void add(const std::string& reference, ReferenceSyntax syntax, Readable readable,
              const std::filesystem::path& subfolder = {});
 
+    /// Adds a file that may be read, unless it is already in the list under any path.
+    /// \param file  canonical
+    void add_found(const std::filesystem::path& file);
+
     std::vector<std::filesystem::path> finish() { return std::move(files_); }
 
 private:
     std::filesystem::path folder_;
     References which_;
     std::vector<std::filesystem::path> files_;
-    std::set<std::filesystem::path> known_;
+    std::set<std::filesystem::path> known_, canonical_;
 };
 
 }  // namespace faqem::detail

@@ -1,0 +1,101 @@
+#include "asset/formats/obj_libraries.hpp"
+
+#include <cstdint>
+#include <set>
+#include <utility>
+
+#include "asset/io/file.hpp"
+#include "asset/io/file_names.hpp"
+#include "asset/text/text_scanner.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads the libraries of one model.
+class LibraryReader {
+public:
+    LibraryReader(const fs::path& model, FileFinder& finder, std::vector<std::string>& warnings)
+        : model_(model), finder_(finder), warnings_(warnings) {}
+
+    void read(const std::string& name) {
+        if (!names_.insert(name).second) return;
+        FoundFile found;
+        std::vector<std::uint8_t> text;
+        try {
+            found = find(name);
+            if (!files_.insert(found.file).second) return;
+            text = read_file(found.file);
+        } catch (const InputError& error) {
+            warnings_.push_back(std::string("material library ignored: ") + error.what());
+            return;
+        }
+        const fs::path root = fs::canonical(finder_.folder().empty() ? "." : finder_.folder());
+        if (!found.is_as_named)
+            warnings_.push_back(
+                "material library " + TextScanner::quoted(name) + " was not found; the file " +
+                TextScanner::quoted(found.file.lexically_relative(root).generic_string()) + " is read");
+        for (MtlMaterial& material : read_mtl(text, found.file.string(), warnings_)) {
+            material.folder = found.file.parent_path().lexically_relative(root);
+            materials_[material.name] = std::move(material);
+        }
+    }
+
+    std::map<std::string, MtlMaterial> finish() { return std::move(materials_); }
+
+private:
+    FoundFile find(const std::string& name) {
+        try {
+            return finder_.find(name);
+        } catch (const InputError&) {
+            const std::optional<std::string> other = renamed_library(model_, finder_);
+            if (!other) throw;
+            return {finder_.find(*other).file, false};
+        }
+    }
+
+    const fs::path& model_;
+    FileFinder& finder_;
+    std::vector<std::string>& warnings_;
+    std::set<std::string> names_;
+    std::set<fs::path> files_;
+    std::map<std::string, MtlMaterial> materials_;
+};
+
+}  // namespace
+
+std::vector<std::string> library_names(const std::string& statement, const fs::path& folder) {
+    try {
+        resolve_inside(folder, statement, ReferenceSyntax::file_name);
+        return {statement};
+    } catch (const InputError&) {
+        std::vector<std::string> names;
+        std::size_t first = 0;
+        for (std::size_t end; (end = statement.find(".mtl ", first)) != std::string::npos; first = end + 5)
+            names.push_back(statement.substr(first, end + 4 - first));
+        names.push_back(statement.substr(first));
+        return names;
+    }
+}
+
+std::optional<std::string> renamed_library(const fs::path& model, FileFinder& finder) {
+    const std::vector<std::string> all = finder.files_with_extension(library_file_name(""));
+    if (all.size() != 1) return std::nullopt;
+    const fs::path own = model.filename();
+    for (const std::string& other : finder.files_with_extension(lower_case_extension(own)))
+        if (fs::path(other) != own && fs::path(other).stem() == fs::path(all[0]).stem()) return std::nullopt;
+    return all[0];
+}
+
+std::map<std::string, MtlMaterial> read_libraries(const std::vector<std::string>& statements,
+                                                  const fs::path& model, FileFinder& finder,
+                                                  std::vector<std::string>& warnings) {
+    LibraryReader reader(model, finder, warnings);
+    for (const std::string& statement : statements)
+        for (const std::string& name : library_names(statement, finder.folder())) reader.read(name);
+    return reader.finish();
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// The material libraries of an OBJ file.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asset/formats/mtl.hpp"
+#include "asset/io/file_finder.hpp"
+
+namespace faqem::detail {
+
+/// Returns the file names in an mtllib statement. The whole statement is one name if such a file exists;
+/// otherwise it is split after each `.mtl`.
+/// \param statement  without its keyword
+/// \param folder     folder of the OBJ file
+std::vector<std::string> library_names(const std::string& statement, const std::filesystem::path& folder);
+
+/// Returns the library that stands in for one that an OBJ file names and that is missing: the only one in its folder, unless
+/// that has the name of another OBJ file there.
+/// \param model  path of the OBJ file
+std::optional<std::string> renamed_library(const std::filesystem::path& model, FileFinder& finder);
+
+/// Reads all material libraries. If a name is defined repeatedly, the last definition is used. A library that is
+/// missing, or found under another name, is a warning.
+/// \param statements  mtllib statements without their keyword
+/// \param model       path of the OBJ file
+/// \param warnings    receives the warnings
+/// \return the materials by name
+/// \throws InputError  as read_mtl()
+std::map<std::string, MtlMaterial> read_libraries(const std::vector<std::string>& statements,
+                                                  const std::filesystem::path& model, FileFinder& finder,
+                                                  std::vector<std::string>& warnings);
+
+}  // namespace faqem::detail

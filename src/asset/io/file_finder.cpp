@@ -1,0 +1,109 @@
+#include "asset/io/file_finder.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "asset/io/file.hpp"
+#include "asset/io/file_names.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_same_ignoring_case(std::string_view a, std::string_view b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::string without_quotes(const std::string& name) {
+    const bool is_quoted =
+        name.size() > 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front();
+    return is_quoted ? name.substr(1, name.size() - 2) : name;
+}
+
+/// The steps of a path after its root, its drive and the last step to a parent folder; the last ones of a long path.
+std::vector<std::string> steps_of(const std::string& name) {
+    constexpr std::size_t max_steps = 32;
+    std::vector<std::string> steps;
+    for (std::size_t first = 0; first <= name.size();) {
+        const std::size_t end = std::min(name.find_first_of("/\\", first), name.size());
+        const std::string step = name.substr(first, end - first);
+        if (step == ".." || step.find('\0') != std::string::npos)
+            steps.clear();
+        else if (!step.empty() && step != "." && !(step.size() == 2 && step[1] == ':'))
+            steps.push_back(step);
+        first = end + 1;
+    }
+    if (steps.size() > max_steps) steps.erase(steps.begin(), steps.end() - max_steps);
+    return steps;
+}
+
+}  // namespace
+
+FileFinder::FileFinder(fs::path folder) : folder_(std::move(folder)) {}
+
+FoundFile FileFinder::find(const std::string& reference, const fs::path& subfolder) {
+    const auto resolve = [&](const fs::path& path) {
+        return resolve_inside(folder_, path.generic_string(), ReferenceSyntax::file_name);
+    };
+    const std::string name = without_quotes(reference);
+    try {
+        return {resolve(subfolder / name), true};
+    } catch (const InputError&) {
+        const Names steps = steps_of(name);
+        for (std::size_t first = 0; first < steps.size(); ++first) {
+            for (const fs::path& start : {subfolder, fs::path()}) {
+                const std::optional<fs::path> found = match(start, steps, first);
+                if (!found) continue;
+                try {
+                    return {resolve(*found), false};
+                } catch (const InputError&) {  // a folder, or a link to another folder
+                }
+            }
+        }
+        throw;
+    }
+}
+
+std::vector<std::string> FileFinder::files_with_extension(const std::string& extension) {
+    std::vector<std::string> files;
+    for (const std::string& name : names_in({}))
+        if (lower_case_extension(name) == extension) files.push_back(name);
+    return files;
+}
+
+const FileFinder::Names& FileFinder::names_in(const fs::path& subfolder) {
+    const auto [known, is_new] = names_.try_emplace(subfolder);
+    if (!is_new) return known->second;
+    const fs::path folder = folder_ / subfolder;
+    std::error_code error;
+    fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+        known->second.push_back(entry->path().filename().string());
+    std::sort(known->second.begin(), known->second.end());
+    return known->second;
+}
+
+std::optional<fs::path> FileFinder::match(fs::path subfolder, const Names& steps, std::size_t first) {
+    for (std::size_t i = first; i < steps.size(); ++i) {
+        const Names& names = names_in(subfolder);
+        if (std::binary_search(names.begin(), names.end(), steps[i])) {
+            subfolder /= steps[i];
+            continue;
+        }
+        const auto other = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+            return is_same_ignoring_case(name, steps[i]);
+        });
+        if (other == names.end()) return std::nullopt;
+        subfolder /= *other;
+    }
+    return subfolder;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,54 @@
+#pragma once
+/// \file
+/// Finds the files that models name by paths of another computer.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "faqem/export.hpp"
+
+namespace faqem::detail {
+
+/// A file that a reference was found to mean.
+struct FoundFile {
+    std::filesystem::path file;  ///< canonical, inside the folder of the model
+    bool is_as_named = true;     ///< false: the reference names another path
+};
+
+/// Resolves references of one model with ReferenceSyntax::file_name. Lists each folder once, so that files which
+/// appear later may not be found.
+class FAQEM_EXPORT FileFinder {
+public:
+    /// \param folder  of the model; empty: the current directory
+    explicit FileFinder(std::filesystem::path folder);
+
+    const std::filesystem::path& folder() const { return folder_; }
+
+    /// Finds the file that a reference names. Quotes around the name are removed. If there is no such file, or not in the
+    /// folder of the model or below it, the longest end of the path is used that names a file relative to `subfolder`
+    /// or to the folder of the model, also one with other letter case (A to Z): `C:\job\Wood.PNG` finds
+    /// `wood.png`. Of names that differ in case only, an equal one is used, else the first in the order of bytes.
+    /// \param reference  as written in a file in `subfolder`
+    /// \param subfolder  relative to the folder of the model
+    /// \throws InputError  no file was found: the error of resolve_inside() for the name as written
+    FoundFile find(const std::string& reference, const std::filesystem::path& subfolder = {});
+
+    /// Returns the names of the files in the folder of the model with an extension, in any case, sorted.
+    /// \param extension  in lower case, with its dot
+    std::vector<std::string> files_with_extension(const std::string& extension);
+
+private:
+    using Names = std::vector<std::string>;
+
+    const Names& names_in(const std::filesystem::path& subfolder);
+    std::optional<std::filesystem::path> match(std::filesystem::path subfolder, const Names& steps,
+                                               std::size_t first);
+
+    std::filesystem::path folder_;
+    std::map<std::filesystem::path, Names> names_;  // sorted, by folder
+};
+
+}  // namespace faqem::detail
