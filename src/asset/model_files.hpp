@@ -14,9 +14,10 @@ namespace faqem::detail {
 /// possible of a damaged model; load() reports the reason. The format is detected as by load(). Of the files,
 /// only material libraries in the folder of the model or below it are read.
 /// \param model  a model, or a material library (.mtl)
-/// \param which  References::readable: buffers and images of glTF, libraries and their textures of OBJ.
+/// \param which  References::readable: buffers and images of glTF, libraries and their textures of OBJ, `TextureFile`
+///               comments of PLY, also those that name a path of another computer.
 ///               References::all: also every `uri` of a glTF document; texture statements of any kind and other files
-///               of OBJ; `TextureFile` comments of PLY
+///               of OBJ; files outside the folder of the model
 FAQEM_EXPORT std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& model,
                                                                  References which);
 

@@ -149,6 +149,12 @@ void text_seeds() {
     put("ply", "binary", binary);
     put("ply", "big-endian",
         "ply\nformat binary_big_endian" + header + "end_header\n" + std::string(70, '\1'));
+    put("ply", "textured",
+        "ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float red\nproperty float green\nproperty float blue\nelement face 1\n"
+        "property list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty int texnumber\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+        "0 0 0 0 0 255\n1 0 0 1 1 1\n1 1 0 1 1 1\n3 0 1 2 6 0 0 1 0 1 1 0 1 2 3\n");
     put("stl", "ascii",
         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\n"
         "endfacet\nendsolid a\n");

@@ -8,6 +8,7 @@
 #include <map>
 #include <string_view>
 
+#include "asset/formats/corner_vertices.hpp"
 #include "asset/formats/mtl_material.hpp"
 #include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/referenced_images.hpp"
@@ -15,7 +16,6 @@
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/repair.hpp"
-#include "asset/scene/value_numbers.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
@@ -23,7 +23,7 @@ namespace faqem::detail {
 namespace {
 
 /// Indices of the position, UV and normal of a face corner; no_index if absent.
-using ObjCorner = std::array<Index, 3>;
+using ObjCorner = CornerKey;
 
 constexpr std::array<const char*, 3> corner_index_names = {"position", "texture coordinate", "normal"};
 
@@ -213,36 +213,6 @@ private:
     std::array<ForwardReference, 3> highest_;  // largest forward reference of each kind
     std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0;
     std::string first_unknown_;
-};
-
-/// Assigns vertices to distinct corners. Vertex i is position i with the UV and normal of its first corner;
-/// other combinations get vertices after these, in the order of the corners.
-class CornerVertices {
-public:
-    explicit CornerVertices(std::size_t positions)
-        : first_(positions, {no_index, no_index}), seen_(positions, 0) {}
-
-    Index vertex(const ObjCorner& c) {
-        std::array<Index, 2>& first = first_[c[0]];
-        if (!seen_[c[0]]) {
-            seen_[c[0]] = 1;
-            first = {c[1], c[2]};
-        }
-        if (first[0] == c[1] && first[1] == c[2]) return c[0];
-        return static_cast<Index>(first_.size() + extra_.insert(c));
-    }
-
-    std::uint64_t count() const { return first_.size() + extra_.values().size(); }
-    /// Indices of the position, UV and normal of vertex v.
-    ObjCorner corner(std::size_t v) const {
-        if (v >= first_.size()) return extra_.values()[v - first_.size()];
-        return {static_cast<Index>(v), first_[v][0], first_[v][1]};
-    }
-
-private:
-    std::vector<std::array<Index, 2>> first_;  // UV and normal of the first corner at each position
-    std::vector<std::uint8_t> seen_;
-    UniqueValues<ObjCorner> extra_;
 };
 
 void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& corner_vertices) {

@@ -1,128 +1,23 @@
 #include "asset/formats/ply.hpp"
 
-#include "asset/scene/messages.hpp"
-
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <string_view>
+#include <utility>
 
+#include "asset/formats/ply_content.hpp"
+#include "asset/formats/ply_data.hpp"
 #include "asset/formats/ply_header.hpp"
-#include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
+#include "asset/scene/messages.hpp"
 #include "asset/scene/repair.hpp"
-#include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {
-
-struct TypeRange {
-    double low, high;
-};
-
-TypeRange range_of(PlyType type) {
-    static constexpr std::array<TypeRange, 6> ranges = {{{-128, 127},
-                                                         {0, 255},
-                                                         {-32768, 32767},
-                                                         {0, 65535},
-                                                         {-2147483648.0, 2147483647.0},
-                                                         {0, 4294967295.0}}};
-    return ranges[static_cast<std::size_t>(type)];
-}
-
-bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
-
-/// Reads the values of an ASCII file, where each row is a line.
-class AsciiData {
-public:
-    AsciiData(std::span<const std::uint8_t> data, const std::string& file, std::uint64_t lines)
-        : in_(data, file, Continuation::no, lines) {}
-
-    /// Maximum number of rows of `values` values that the remaining bytes can hold.
-    std::uint64_t max_row_count(std::uint64_t values, std::uint64_t) const {
-        return (in_.remaining().size() + 1) / 2 / values;
-    }
-    void begin_row() { in_.skip_to_content(); }
-    void end_row() { in_.finish_line(); }
-    std::uint64_t remaining_bytes() {
-        in_.skip_to_content();
-        return in_.remaining().size();
-    }
-    [[noreturn]] void fail(const std::string& what) const { in_.fail(what); }
-
-    double value(PlyType type) {
-        if (type == PlyType::float64) return in_.number<double>();
-        if (type == PlyType::float32) return in_.number<float>();
-        const auto value = static_cast<double>(in_.number<std::int64_t>());
-        const TypeRange range = range_of(type);
-        if (value < range.low || value > range.high)
-            in_.fail("a value does not fit the type of its property");
-        return value;
-    }
-
-private:
-    TextScanner in_;
-};
-
-/// Reads the values of a binary file. Same interface as AsciiData.
-class BinaryData {
-public:
-    BinaryData(std::span<const std::uint8_t> data, const std::string& file, PlyFormat format)
-        : at_(data.data()),
-          end_(at_ + data.size()),
-          file_(file),
-          swap_((format == PlyFormat::big_endian) != (std::endian::native == std::endian::big)) {}
-
-    std::uint64_t max_row_count(std::uint64_t, std::uint64_t bytes) const {
-        return remaining_bytes() / bytes;
-    }
-    void begin_row() {}
-    void end_row() {}
-    std::uint64_t remaining_bytes() const { return static_cast<std::uint64_t>(end_ - at_); }
-    [[noreturn]] void fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
-
-    double value(PlyType type) {
-        switch (type) {
-            case PlyType::int8:
-                return take<std::int8_t>();
-            case PlyType::uint8:
-                return take<std::uint8_t>();
-            case PlyType::int16:
-                return take<std::int16_t>();
-            case PlyType::uint16:
-                return take<std::uint16_t>();
-            case PlyType::int32:
-                return take<std::int32_t>();
-            case PlyType::uint32:
-                return take<std::uint32_t>();
-            case PlyType::float32:
-                return take<float>();
-            case PlyType::float64:
-                break;
-        }
-        return take<double>();
-    }
-
-private:
-    template <class T>
-    T take() {
-        if (remaining_bytes() < sizeof(T)) fail("unexpected end of the file");
-        std::array<std::uint8_t, sizeof(T)> bytes;
-        std::memcpy(bytes.data(), at_, sizeof(T));
-        at_ += sizeof(T);
-        if (swap_) std::reverse(bytes.begin(), bytes.end());
-        return std::bit_cast<T>(bytes);
-    }
-
-    const std::uint8_t* at_;
-    const std::uint8_t* end_;
-    std::string file_;
-    bool swap_;
-};
 
 // Meaning of a vertex property. Properties with other names are `skipped`.
 enum VertexProperty : std::size_t {
@@ -141,6 +36,9 @@ enum VertexProperty : std::size_t {
     skipped,
     vertex_property_count
 };
+
+/// A value for each property.
+using PlyRow = std::array<double, vertex_property_count>;
 
 VertexProperty vertex_property(const PlyProperty& property) {
     static constexpr std::array<std::array<std::string_view, 3>, skipped> names = {
@@ -163,15 +61,27 @@ VertexProperty vertex_property(const PlyProperty& property) {
     return skipped;
 }
 
-/// Converts the elements of a PLY file to a part.
-/// \tparam Data  AsciiData or BinaryData
+/// Colours stored as floats up to this value are from 0 to 1, possibly overexposed.
+constexpr double largest_unit_color = 2;
+
+/// Divides colours stored as floats from 0 to 255 by 255.
+void rescale_colors(std::vector<Vec4f>& colors) {
+    for (Vec4f& c : colors) {
+        for (std::size_t k = 0; k < 3; ++k)
+            c[k] = static_cast<float>(linear_from_srgb(srgb_from_linear(c[k]) / 255));
+        c[3] = std::min(c[3] / 255, 1.0f);
+    }
+}
+
+/// Reads the elements of a PLY file.
+/// \tparam Data  PlyAsciiData or PlyBinaryData
 template <class Data>
 class PlyReader {
 public:
     PlyReader(const PlyHeader& header, Data data, const std::string& file, std::vector<std::string>& warnings)
         : header_(header), data_(std::move(data)), file_(file), warnings_(warnings) {}
 
-    Part run() {
+    PlyContent run() {
         check_elements();
         for (const PlyElement& element : header_.elements) {
             if (element.count == 0) continue;
@@ -179,17 +89,23 @@ public:
             if (element.name == "vertex")
                 read_vertices(element);
             else if (element.name == "face")
-                read_lists(element, [this](const std::vector<double>& list) { add_face(list); });
+                read_faces(element);
             else if (element.name == "tristrips")
-                read_lists(element, [this](const std::vector<double>& list) { add_strip(list); });
+                read_strips(element);
             else
                 for_each_row(element, [&] { skip(element.properties); });
         }
         if (data_.remaining_bytes())
             warnings_.push_back(pluralized(data_.remaining_bytes(), "byte") +
                                 " after the last element ignored");
-        finish_faces();
-        return std::move(part_);
+        if (largest_float_color_ > largest_unit_color) {
+            warnings_.push_back("colours stored as floats up to " +
+                                std::to_string(static_cast<int>(std::ceil(largest_float_color_))) +
+                                " are divided by 255");
+            rescale_colors(part_.colors);
+            rescale_colors(faces_.colors);
+        }
+        return std::move(content_);
     }
 
 private:
@@ -205,7 +121,6 @@ private:
                                          [](const PlyElement& e) { return e.name == "vertex"; });
         if (vertex == header_.elements.end()) throw InputError(file_, "header", "no element vertex");
         vertex_count_ = vertex->count;
-        if (header_.has_texture_file) warnings_.push_back("the texture file named in a comment is ignored");
     }
 
     void check_row_count(const PlyElement& element) {
@@ -252,10 +167,10 @@ private:
 
     void read_vertices(const PlyElement& element) {
         std::vector<VertexProperty> slots;
-        std::array<double, vertex_property_count> scale = {};  // of colours to [0, 1]; 0: no such property
+        PlyRow scale = {};  // of colours to [0, 1]; 0: no such property
         for (const PlyProperty& p : element.properties) {
             slots.push_back(vertex_property(p));
-            scale[slots.back()] = is_integer(p.type) ? 1 / range_of(p.type).high : 1;
+            scale[slots.back()] = is_integer_type(p.type) ? 1 / ply_type_range(p.type).high : 1;
         }
         const auto has = [&](std::initializer_list<VertexProperty> all) {
             return std::all_of(all.begin(), all.end(), [&](VertexProperty slot) { return scale[slot] > 0; });
@@ -266,7 +181,7 @@ private:
         if (has({red, green, blue})) part_.colors.resize(element.count);
         if (has({s, t})) part_.uvs.emplace_back(element.count);
 
-        std::array<double, vertex_property_count> row = {};
+        PlyRow row = {};
         std::size_t vertex = 0;
         for_each_row(element, [&] {
             for (std::size_t i = 0; i < slots.size(); ++i) {
@@ -279,44 +194,98 @@ private:
         });
     }
 
-    void store_vertex(std::size_t v, const std::array<double, vertex_property_count>& row,
-                      const std::array<double, vertex_property_count>& scale) {
+    void store_vertex(std::size_t v, const PlyRow& row, const PlyRow& scale) {
         part_.positions[v] = {row[x], row[y], row[z]};
         const auto number = [&](VertexProperty slot) { return static_cast<float>(row[slot]); };
-        const auto linear = [&](VertexProperty slot) {
-            return static_cast<float>(linear_from_srgb(row[slot] * scale[slot]));
-        };
         if (!part_.normals.empty()) part_.normals[v] = {number(nx), number(ny), number(nz)};
         if (!part_.uvs.empty()) part_.uvs[0][v] = {number(s), 1 - number(t)};
-        if (part_.colors.empty()) return;
-        const double opacity = scale[alpha] > 0 ? row[alpha] * scale[alpha] : 1;
-        part_.colors[v] = {linear(red), linear(green), linear(blue), static_cast<float>(opacity)};
+        if (!part_.colors.empty()) part_.colors[v] = color(row, scale);
     }
 
-    /// Calls use(indices) with the index list of each row of an element.
-    template <class Use>
-    void read_lists(const PlyElement& element, Use&& use) {
+    Vec4f color(const PlyRow& row, const PlyRow& scale) {
+        const double opacity = scale[alpha] > 0 ? row[alpha] * scale[alpha] : 1;
+        Vec4f result = {0, 0, 0, static_cast<float>(opacity)};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t slot = red + k;
+            result[k] = static_cast<float>(linear_from_srgb(row[slot] * scale[slot]));
+            const bool is_float = scale[slot] == 1;
+            if (is_float && row[slot] <= 255)
+                largest_float_color_ = std::max(largest_float_color_, row[slot]);
+        }
+        return result;
+    }
+
+    /// The property with the vertices of faces or strips.
+    std::size_t index_list(const PlyElement& element) const {
         const auto indices = std::find_if(
             element.properties.begin(), element.properties.end(),
             [](const PlyProperty& p) { return p.name == "vertex_indices" || p.name == "vertex_index"; });
-        if (indices == element.properties.end() || !indices->is_list || !is_integer(indices->type))
+        if (indices == element.properties.end() || !indices->is_list || !is_integer_type(indices->type))
             throw InputError(file_, "element " + element.name,
                              "must have an integer list property vertex_indices");
+        return static_cast<std::size_t>(indices - element.properties.begin());
+    }
+
+    void read_list(const PlyProperty& property, std::vector<double>& list) {
+        list.resize(list_size(property));
+        for (double& value : list) value = data_.value(property.type);
+    }
+
+    void read_strips(const PlyElement& element) {
+        const std::size_t indices = index_list(element);
         for (const PlyProperty& p : element.properties)
             if (p.name == "texcoord" || p.name == "red")
-                warnings_.push_back("'" + p.name + "' of " + element.name +
-                                    " is ignored: only vertex properties are supported");
+                warnings_.push_back("'" + p.name + "' of " + element.name + " is ignored");
         std::vector<double> list;
         for_each_row(element, [&] {
-            for (auto p = element.properties.begin(); p != element.properties.end(); ++p) {
-                if (p != indices) {
-                    skip(*p);
+            for (std::size_t i = 0; i < element.properties.size(); ++i) {
+                if (i != indices) {
+                    skip(element.properties[i]);
                     continue;
                 }
-                list.resize(list_size(*p));
-                for (double& i : list) i = data_.value(p->type);
-                use(list);
+                read_list(element.properties[i], list);
+                add_strip(list);
             }
+        });
+    }
+
+    void read_faces(const PlyElement& element) {
+        const std::size_t indices = index_list(element);
+        const std::vector<PlyProperty>& properties = element.properties;
+        const auto find = [&](std::string_view name, bool is_list) {
+            const auto found = std::find_if(properties.begin(), properties.end(), [&](const PlyProperty& p) {
+                return p.name == name && p.is_list == is_list;
+            });
+            return static_cast<std::size_t>(found - properties.begin());
+        };
+        const std::size_t uvs = find("texcoord", true), texture = find("texnumber", false);
+        std::vector<VertexProperty> slots;
+        PlyRow row = {}, scale = {};
+        for (const PlyProperty& p : properties) {
+            const VertexProperty slot = vertex_property(p);
+            slots.push_back(slot >= red && slot <= alpha ? slot : skipped);
+            scale[slots.back()] = is_integer_type(p.type) ? 1 / ply_type_range(p.type).high : 1;
+        }
+        const bool has_colors = scale[red] > 0 && scale[green] > 0 && scale[blue] > 0;
+        std::vector<double> list, coordinates;
+        double number = 0;
+        for_each_row(element, [&] {
+            for (std::size_t i = 0; i < properties.size(); ++i) {
+                if (i == indices)
+                    read_list(properties[i], list);
+                else if (i == uvs)
+                    read_list(properties[i], coordinates);
+                else if (i == texture)
+                    number = data_.value(properties[i].type);
+                else if (slots[i] != skipped)
+                    row[slots[i]] = data_.value(properties[i].type);
+                else
+                    skip(properties[i]);
+            }
+            add_face(list);
+            if (uvs < properties.size()) add_coordinates(coordinates, list.size());
+            if (texture < properties.size()) faces_.textures.push_back(number);
+            if (has_colors) faces_.colors.push_back(color(row, scale));
         });
     }
 
@@ -328,8 +297,20 @@ private:
     }
 
     void add_face(const std::vector<double>& list) {
-        for (const double i : list) polygons_.vertices.push_back(vertex(i));
-        polygons_.sizes.push_back(static_cast<std::uint32_t>(list.size()));
+        for (const double i : list) faces_.polygons.vertices.push_back(vertex(i));
+        faces_.polygons.sizes.push_back(static_cast<std::uint32_t>(list.size()));
+    }
+
+    /// Adds two texture coordinates for each corner of a face, or none for a face without a texture.
+    void add_coordinates(const std::vector<double>& list, std::size_t corners) {
+        if (!list.empty() && list.size() != 2 * corners)
+            data_.fail("'texcoord' has " + std::to_string(list.size()) + " values instead of " +
+                       std::to_string(2 * corners));
+        faces_.has_uvs.push_back(!list.empty());
+        for (std::size_t c = 0; c < corners; ++c)
+            faces_.uvs.push_back(list.empty() ? Vec2f{0, 0}
+                                              : Vec2f{static_cast<float>(list[2 * c]),
+                                                      1 - static_cast<float>(list[2 * c + 1])});
     }
 
     /// Adds the triangles of strips that are separated by -1. The winding of every second triangle is
@@ -346,47 +327,36 @@ private:
             const Index a = vertex(list[i - 2]), b = vertex(list[i - 1]);
             if (a == b || b == c || c == a) continue;
             const bool is_reversed = (i - first) % 2 == 1;
-            polygons_.vertices.insert(polygons_.vertices.end(),
-                                      {is_reversed ? b : a, is_reversed ? a : b, c});
-            polygons_.sizes.push_back(3);
+            strips_.vertices.insert(strips_.vertices.end(), {is_reversed ? b : a, is_reversed ? a : b, c});
+            strips_.sizes.push_back(3);
         }
-    }
-
-    void finish_faces() {
-        check_index_count(polygons_.sizes.size(), file_, "face");
-        TriangulatedPolygons split = triangulate_polygons(polygons_, part_.positions);
-        if (split.too_few_corners)
-            warnings_.push_back(pluralized(split.too_few_corners, "face") +
-                                " with fewer than three corners left out");
-        check_index_count(split.triangles.size(), file_, "triangle");
-        part_.triangles = std::move(split.triangles);
-        part_.face_material.assign(part_.triangles.size(), no_index);
-        repair_non_finite(part_, file_, split.non_finite, warnings_);
     }
 
     const PlyHeader& header_;
     Data data_;
     const std::string file_;
     std::vector<std::string>& warnings_;
-    Part part_;
-    Polygons polygons_;
+    PlyContent content_;
+    Part& part_ = content_.part;
+    PlyFaces& faces_ = content_.faces;
+    Polygons& strips_ = content_.strips;
     std::uint64_t vertex_count_ = 0;
+    double largest_float_color_ = 0;
 };
 
 }  // namespace
 
 Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
-    Asset asset;
+    std::vector<std::string> warnings;
     const PlyHeader header = read_ply_header(bytes, file.string());
     const std::span<const std::uint8_t> data = bytes.subspan(header.size);
-    asset.parts.push_back(
+    PlyContent content =
         header.format == PlyFormat::ascii
-            ? PlyReader(header, AsciiData(data, file.string(), header.lines), file.string(), asset.warnings)
+            ? PlyReader(header, PlyAsciiData(data, file.string(), header.lines), file.string(), warnings)
                   .run()
-            : PlyReader(header, BinaryData(data, file.string(), header.format), file.string(), asset.warnings)
-                  .run());
-    asset.parts[0].name = file.stem().string();
-    return asset;
+            : PlyReader(header, PlyBinaryData(data, file.string(), header.format), file.string(), warnings)
+                  .run();
+    return ply_asset(std::move(content), header.texture_files, file, std::move(warnings));
 }
 
 Asset read_ply(const std::filesystem::path& file) { return read_ply(read_file(file), file); }

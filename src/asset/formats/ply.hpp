@@ -18,11 +18,12 @@ namespace faqem::detail {
 /// - `vertex`: x y z; nx ny nz; red green blue [alpha] (also r g b a, diffuse_red ...), as integers over
 ///   their full range or floats in [0, 1], where the colour is sRGB and converted to linear, and alpha is
 ///   linear; s t (also u v, texture_u texture_v) with v' = 1 - v
-/// - `face`: the list vertex_indices or vertex_index; polygons are split by triangulate()
+/// - `face`: the list vertex_indices or vertex_index; polygons are split by triangulate(). The list texcoord, two
+///   numbers for each corner, texnumber, and red green blue [alpha]: see ply_asset(), also for `comment TextureFile`
 /// - `tristrips`: the same list, with -1 between strips
 ///
-/// Everything else is ignored, face UVs and face colours with a warning. Faces with fewer than three corners
-/// are left out with a warning. Counts are checked against the size of the file before memory is allocated.
+/// Float colours above 2 are taken as 0 to 255, with a warning. Everything else is ignored. Faces with fewer than three
+/// corners are left out with a warning. Counts are checked against the size of the file before memory is allocated.
 /// \param file  path of the file
 /// \return an asset with one part, and warnings
 /// \throws ReadError   if the file cannot be read

@@ -6,7 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "asset/io/file_finder.hpp"
 #include "asset/text/text_scanner.hpp"
+#include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -89,7 +91,7 @@ PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string
             if (header.elements.empty()) in.fail("a property before the first element");
             header.elements.back().properties.push_back(read_property(in));
         } else if (key == "comment" || key == "obj_info") {
-            header.has_texture_file |= in.accept_word("TextureFile");
+            if (in.accept_word("TextureFile")) header.texture_files.push_back(in.rest_of_line());
             in.next_line();
             continue;
         } else {
@@ -115,12 +117,18 @@ void list_ply_references(const std::filesystem::path& model, ReferenceList& file
     std::ifstream in(model, std::ios::binary);
     in.read(reinterpret_cast<char*>(header.data()), static_cast<std::streamsize>(header.size()));
     header.resize(static_cast<std::size_t>(in.gcount()));
+    FileFinder finder(files.folder());
     for (TextScanner text(header, model.string(), Continuation::no); text.skip_to_content();
          text.next_line()) {
         const std::string_view key = text.word();
         if (key == "end_header") break;
-        if ((key == "comment" || key == "obj_info") && text.accept_word("TextureFile"))
-            files.add(text.rest_of_line(), ReferenceSyntax::file_name, Readable::no);
+        if ((key != "comment" && key != "obj_info") || !text.accept_word("TextureFile")) continue;
+        const std::string name = text.rest_of_line();
+        files.add(name, ReferenceSyntax::file_name, Readable::yes);
+        try {
+            files.add_found(finder.find(name).file);
+        } catch (const InputError&) {  // there is none
+        }
     }
 }
 

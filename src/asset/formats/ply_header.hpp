@@ -36,9 +36,9 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    bool has_texture_file = false;  ///< has a `comment TextureFile`, which some programs write
-    std::size_t size = 0;           ///< size of the header in bytes; the data follow
-    std::uint64_t lines = 0;        ///< number of lines of the header
+    std::vector<std::string> texture_files;  ///< names in comments `TextureFile`, which some programs write
+    std::size_t size = 0;                    ///< size of the header in bytes; the data follow
+    std::uint64_t lines = 0;                 ///< number of lines of the header
 };
 
 /// Reads the header of a PLY file.
@@ -47,7 +47,7 @@ struct PlyHeader {
 /// \throws InputError  with the line, if the header is invalid
 PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);
 
-/// Adds the files of the comments `TextureFile` in the header, which load() does not read.
+/// Adds the files of the comments `TextureFile` in the header.
 /// \param model  path of a regular file, which may be damaged
 void list_ply_references(const std::filesystem::path& model, ReferenceList& files);
 

@@ -145,13 +145,19 @@ TEST_CASE("alternative names and types of PLY colours and UVs are read", "[ply]"
     CHECK(wide.colors.at(0) == Vec4f{1, 0, 0, 1});
 }
 
-TEST_CASE("PLY face colours and face UVs give a warning", "[ply]") {
-    const Asset asset =
-        parse_ply(ascii("", indices + "property list uchar float texcoord\nproperty uchar red\n",
-                        three_vertices + "3 0 1 2 2 0.5 0.5 255\n"));
-    CHECK(asset.warnings.size() == 2);
-    CHECK(any_contains(asset.warnings, "texcoord"));
-    CHECK(any_contains(asset.warnings, "red"));
+TEST_CASE("float colours from 0 to 255 are read with a warning", "[ply]") {
+    const std::string rgb = "property float red\nproperty float green\nproperty float blue\n";
+    const Asset bytes = parse_ply(ascii(rgb + "property float alpha\n", indices,
+                                        "0 0 0 255 127.5 0 51\n1 0 0 0 0 0 255\n1 1 0 0 0 0 255\n3 0 1 2\n"));
+    CHECK(any_contains(bytes.warnings, "divided by 255"));
+    const Vec4f& color = bytes.parts.at(0).colors.at(0);
+    CHECK(color[0] == Approx(1));
+    CHECK(color[1] == Approx(linear_from_srgb(0.5)));
+    CHECK(color[3] == Approx(0.2));
+    const Asset bright =
+        parse_ply(ascii(rgb, indices, "0 0 0 1.5 0.5 0\n1 0 0 0 0 0\n1 1 0 0 0 0\n3 0 1 2\n"));
+    CHECK(bright.warnings.empty());
+    CHECK(bright.parts.at(0).colors[0][1] == static_cast<float>(linear_from_srgb(0.5)));
 }
 
 TEST_CASE("PLY polygons are triangulated, and faces may precede vertices", "[ply]") {
@@ -241,6 +247,18 @@ TEST_CASE("invalid PLY headers are errors that name the line", "[ply]") {
                    "must have an integer list property vertex_indices"));
     CHECK(contains(with("vertex_indices", "indices"), "must have an integer list property"));
     CHECK(contains(ply_error("ply\nformat ascii 1.0\n"), "no end_header"));
+}
+
+TEST_CASE("invalid PLY texture coordinates are errors that name the face", "[ply]") {
+    const std::string face = indices + "property list uchar float texcoord\n";
+    CHECK(contains(ply_error(ascii("", face, three_vertices + "3 0 1 2 4 0 0 0 0\n")),
+                   "'texcoord' has 4 values instead of 6 (face 0)"));
+    CHECK(contains(ply_error(ascii("", face, three_vertices + "3 0 1 2 200 0 0\n")), "(face 0)"));
+    const std::string binary = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n" + xyz +
+                               "element face 1\nproperty list uchar uchar vertex_indices\n"
+                               "property list int float texcoord\nend_header\n" +
+                               std::string(36, '\0') + std::string("\3\0\1\2\xff\xff\xff\x7f", 8);
+    CHECK(contains(ply_error(binary), "the file is too short for a list of 2147483647 (face 0)"));
 }
 
 TEST_CASE("trailing bytes of a PLY file give a warning", "[ply]") {
