@@ -119,7 +119,7 @@ enum class Recording { off, on };
 
 /// How the colours of the simplified model are stored.
 enum class Bake {
-    automatic,     ///< `atlas` or `per_triangle`, chosen per page, see docs/baking.md
+    automatic,     ///< `keep`, `atlas` or `per_triangle`: chosen by mesh and page, see docs/baking.md
     atlas,         ///< a new texture atlas of UV charts with adjacent triangles
     per_triangle,  ///< a new texture atlas with separate triangles (FA-QEM, Sec. 3.2.3)
     vertex,        ///< vertex colours
@@ -161,18 +161,26 @@ enum class UntouchedParts {
 
 /// Encoding of baked images. Images with alpha are always PNG.
 enum class ImageFormat {
-    automatic,  ///< the smallest that is within BakeOptions::image_quality, possibly with fewer texels
+    /// The smallest that is within BakeOptions::image_quality, possibly with fewer texels: PNG or JPEG, and WebP if
+    /// the source has WebP images.
+    automatic,
     png,
     jpeg,    ///< with BakeOptions::jpeg_quality
     source,  ///< JPEG if all images that a channel is baked from are JPEG, else PNG
+    webp,    ///< the smallest WebP within BakeOptions::image_quality, possibly with fewer texels
 };
+
+/// Tests whether BakeOptions::image_quality determines the encoding.
+constexpr bool has_image_quality(ImageFormat format) {
+    return format == ImageFormat::automatic || format == ImageFormat::webp;
+}
 
 /// Whether a new atlas has a normal map. Bake::keep preserves those of the source, the other kinds have none.
 enum class NormalMap {
     /// If the source has one, or if it has other textures and normals differ by more than 5 degrees on average
     /// by area.
     automatic,
-    on,         ///< for every lit material; made from the geometry if the source has no normal map
+    on,  ///< for every lit material; made from the geometry if the source has no normal map
     off,
 };
 

@@ -37,6 +37,8 @@ std::string encoding_name(const BakeOptions& bake) {
             return "JPEG quality " + std::to_string(bake.jpeg_quality);
         case ImageFormat::source:
             return "format of the source";
+        case ImageFormat::webp:
+            return "WebP within " + std::to_string(static_cast<int>(bake.image_quality)) + " dB";
     }
     return {};
 }
@@ -96,7 +98,7 @@ private:
     // Selects the next smaller image quality or size. Returns false if there is none.
     bool reduce_image_size() {
         BakeOptions& bake = options_.bake;
-        if (bake.image_format == ImageFormat::automatic && bake.image_quality > low_image_quality) {
+        if (has_image_quality(bake.image_format) && bake.image_quality > low_image_quality) {
             bake.image_quality = low_image_quality;
             return true;
         }

@@ -21,7 +21,7 @@ constexpr std::array<double, 3> lower_qualities = {low_image_quality, 29, 24};
 std::string give_up_next(detail::UnencodedResult& result, BakeOptions& bake) {
     if (bake.normal_map == NormalMap::automatic && detail::remove_new_normal_maps(result))
         return "the normal map, which the source does not have";
-    if (bake.image_format != ImageFormat::automatic) return {};
+    if (!has_image_quality(bake.image_format)) return {};
     for (const double quality : lower_qualities) {
         if (!(bake.image_quality > quality)) continue;
         bake.image_quality = quality;
@@ -50,11 +50,11 @@ LargerResult larger_result(const BakeOptions& bake, bool allow_larger) {
     return bake.untouched == UntouchedParts::automatic ? LargerResult::gives_up : LargerResult::warns;
 }
 
-SimplifiedAsset simplify_no_larger(const Asset& source, const Options& options, const SizeRule& rule) {
+SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                               const SizeRule& rule) {
     if (source.images.empty() || !makes_atlas(options.bake.kind) || rule.larger == LargerResult::allowed)
-        return simplify(source, options);
-    SimplifiedParts parts = simplify_parts(source, options);
-    detail::UnencodedResult result = detail::bake_unencoded(source, parts, options);
+        return bake(source, simplified, options);
+    detail::UnencodedResult result = detail::bake_unencoded(source, simplified, options);
     Options less = options;
     std::vector<std::string> given_up;
     for (;;) {
@@ -79,9 +79,13 @@ SimplifiedAsset simplify_no_larger(const Asset& source, const Options& options, 
         break;
     }
     if (options.history == Recording::on) {
-        for (SimplifyResult& part : parts.parts) result.asset.histories.push_back(std::move(part.history));
+        for (const SimplifyResult& part : simplified.parts) result.asset.histories.push_back(part.history);
     }
     return std::move(result.asset);
+}
+
+SimplifiedAsset simplify_no_larger(const Asset& source, const Options& options, const SizeRule& rule) {
+    return bake_no_larger(source, simplify_parts(source, options), options, rule);
 }
 
 }  // namespace faqem::cli

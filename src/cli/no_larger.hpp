@@ -27,12 +27,17 @@ struct SizeRule {
 /// \param allow_larger  whether the rule is turned off
 LargerResult larger_result(const BakeOptions& bake, bool allow_larger);
 
-/// Calls simplify(). If the result has new images and its files would have more bytes than those of the source,
-/// these are encoded again with less, until they have not: without the normal map, if the source has none; then with
-/// BakeOptions::image_quality 34, 29 and 24. Nothing is given up if the geometry alone is larger, and untouched parts stay as
-/// they are. A warning says what was given up, and another one if the result is larger nevertheless.
-/// \throws whatever simplify() and model_bytes() throw
-/// Complexity: that of simplify(), and of encoding its images up to four more times.
+/// Calls bake(). If the result has new images and its files would have more bytes than those of the source,
+/// these are encoded again with less, until they have not: without the normal map, if the source has none; then
+/// with BakeOptions::image_quality 34, 29 and 24. Nothing is given up if the geometry alone is larger, and
+/// untouched parts stay as they are. A warning says what was given up, and another one if the result is larger
+/// nevertheless.
+/// \throws whatever bake() and model_bytes() throw
+/// Complexity: that of bake(), and of encoding its images up to four more times.
+SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                               const SizeRule& rule);
+
+/// Calls simplify_parts() and bake_no_larger().
 SimplifiedAsset simplify_no_larger(const Asset& source, const Options& options, const SizeRule& rule);
 
 }  // namespace faqem::cli

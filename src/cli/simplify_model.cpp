@@ -24,9 +24,11 @@ Asset load_model(const std::filesystem::path& file, Strictness strictness) {
 
 BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
                                    const std::filesystem::path& out) {
-    if (requested.kind != Bake::automatic) return requested;
     const detail::FileFormat* format = detail::format_by_name(out);
     if (!format) return requested;
+    if (requested.image_format == ImageFormat::webp && !format->is_gltf)
+        throw OptionError("--image-format webp: the output must be .glb or .gltf");
+    if (requested.kind != Bake::automatic) return requested;
     const auto no_part_has = [&](auto values) {
         return std::all_of(source.parts.begin(), source.parts.end(),
                            [&](const Part& p) { return (p.*values).empty(); });

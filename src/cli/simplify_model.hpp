@@ -43,6 +43,7 @@ auto with_file_in_errors(const std::filesystem::path& file, Work&& work) {
 /// original. Untouched parts are baked if they come from glTF and the output is OBJ or PLY, which lack parts of
 /// its materials. Other kinds and other formats are returned unchanged.
 /// \param out  output file; only its extension is used
+/// \throws OptionError  ImageFormat::webp is asked for, and the output is not glTF
 BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
                                    const std::filesystem::path& out);
 

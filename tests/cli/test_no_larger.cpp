@@ -49,6 +49,21 @@ TEST_CASE("a textured result that would be larger than its input gives up image 
           (size_of(folder, "out.glb") > size_of(folder, "in.glb")));
 }
 
+TEST_CASE("each textured level of lod that would be larger than the input gives something up") {
+    const Folder folder;
+    faqem::save(model_with_small_image(), folder / "in.glb");
+    REQUIRE(run(folder, "lod in.glb larger --levels 0.5,0.2 --allow-larger").code == 0);
+    REQUIRE(run(folder, "lod in.glb out --levels 0.5,0.2").code == 0);
+    for (const char* level : {"in_LOD1.glb", "in_LOD2.glb"}) {
+        INFO(level);
+        REQUIRE(fs::file_size(folder / "larger" / level) > size_of(folder, "in.glb"));
+        CHECK(fs::file_size(folder / "out" / level) < fs::file_size(folder / "larger" / level));
+    }
+    CHECK(read(folder / "out/in_LOD0.glb") == read(folder / "larger/in_LOD0.glb"));
+    CHECK(read(folder / "out/in_LOD.json").find("given up, to have no more bytes than the input: ") !=
+          std::string::npos);
+}
+
 TEST_CASE("images that were asked for are not given up, with a warning") {
     const Folder folder;
     faqem::save(model_with_small_image(), folder / "in.glb");

@@ -14,6 +14,9 @@ done
     --image-format jpeg --quiet
 "$faqem" simplify "$work/normal-map.glb" "$work/kept-normal-map.glb" --ratio 0.5 --bake keep --quiet
 "$faqem" simplify "$work/normal-map.glb" "$work/twice.glb" --ratio 0.5 --texture-size 256 --normals flat --quiet
+"$faqem" simplify "$work/model.glb" "$work/webp.glb" --ratio 0.2 --texture-size 256 --image-format webp --quiet
+"$faqem" simplify "$work/webp.glb" "$work/from-webp.glb" --ratio 0.5 --quiet
+"$faqem" simplify "$work/model.glb" "$work/default.glb" --ratio 0.3 --quiet
 "$faqem" simplify "$work/model.glb" "$work/files.gltf" --ratio 0.2 --texture-size 256 --quiet
 # Via OBJ, so that the scene graph is lost and the materials are created by the OBJ reader.
 "$faqem" simplify "$work/model.glb" "$work/plain.obj" --ratio 0.5 --texture-size 256 --quiet

@@ -142,6 +142,7 @@ PendingImage kept_image(const BakeJob& job, std::span<const KeptPart> parts, Ind
                         image.name,
                         use.is_color ? Content::color : Content::data,
                         !use.is_pixel_art};
+    result.tries_webp = job.tries_webp();
     if (!exceeds(result.pixels, use, texture_size)) result.original = image;
     while (exceeds(result.pixels, use, texture_size)) result.pixels = halved(result.pixels);
     result.known = std::make_shared<const std::vector<std::uint8_t>>(

@@ -51,6 +51,13 @@ public:
     }
     Workers workers() const { return {options.threads, cancellation_check()}; }
 
+    /// Whether images of ImageFormat::automatic may be WebP: glTF needs an extension for it, which the source has then.
+    bool tries_webp() const {
+        return source.source &&
+               std::any_of(source.images.begin(), source.images.end(),
+                           [](const Image& image) { return image.mime_type == "image/webp"; });
+    }
+
     void warn(std::string sentence) { result.report.warnings.push_back(std::move(sentence)); }
 
 private:

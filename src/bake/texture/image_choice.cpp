@@ -15,6 +15,12 @@ namespace {
 // last, PNG is about as small.
 constexpr std::array<std::uint32_t, 10> jpeg_qualities = {50, 60, 68, 75, 80, 85, 90, 93, 95, 98};
 
+// Qualities of lossy WebP that are tried, for the same reasons.
+constexpr std::array<std::uint32_t, 10> webp_qualities = {40, 55, 65, 75, 82, 87, 91, 94, 97, 100};
+
+// Near-lossless WebP that changes values by up to 4: normals keep the resolution that lossy WebP halves.
+constexpr int near_lossless_level = 40;
+
 // A smaller side would not have a texel for every chart of a simple model.
 constexpr std::uint32_t min_side = 8;
 
@@ -71,37 +77,63 @@ std::vector<Interpolation> interpolations(std::uint32_t size, std::uint32_t show
     return result;
 }
 
-// The JPEG of least sufficient quality; nothing if none is sufficient.
-std::optional<Image> smallest_jpeg(const Pixels& original, const Pixels& pixels,
-                                   std::span<const std::uint8_t> known, const std::string& name,
-                                   Content content, double quality, CancellationCheck check_cancelled) {
-    std::optional<Image> best;
-    std::size_t begin = 0, end = jpeg_qualities.size();
-    while (begin < end) {
-        check_cancelled.now();
-        const std::size_t middle = begin + (end - begin) / 2;
-        Image image = encode_jpeg(pixels, name, jpeg_qualities[middle], content);
-        if (is_within(image_loss(original, decode(image), known), quality)) {
-            best = std::move(image);
-            end = middle;
-        } else {
-            begin = middle + 1;
-        }
+// An image that is being encoded with a loss.
+struct LossyEncoding {
+    const Pixels& original;
+    const Pixels& pixels;  // may have fewer texels
+    std::span<const std::uint8_t> known;
+    double quality;
+    CancellationCheck check_cancelled;
+
+    bool allows(const Image& image) const {
+        return is_within(image_loss(original, decode(image), known), quality);
     }
-    return best;
+
+    // The image that encode() makes with the least sufficient of ten qualities; nothing if none is sufficient.
+    template <class Encode>
+    std::optional<Image> least(const std::array<std::uint32_t, 10>& qualities, const Encode& encode) const {
+        std::optional<Image> best;
+        std::size_t begin = 0, end = qualities.size();
+        while (begin < end) {
+            check_cancelled.now();
+            const std::size_t middle = begin + (end - begin) / 2;
+            Image image = encode(qualities[middle]);
+            if (allows(image)) {
+                best = std::move(image);
+                end = middle;
+            } else {
+                begin = middle + 1;
+            }
+        }
+        return best;
+    }
+};
+
+void keep_smaller(std::optional<Image>& best, std::optional<Image> other) {
+    if (other && (!best || other->encoded.size() < best->encoded.size())) best = std::move(other);
 }
 
-// The smaller of the encodings of `pixels`, which may have fewer texels than `original`.
-Image smallest_at(const Pixels& original, const Pixels& pixels, std::span<const std::uint8_t> known,
-                  const std::string& name, Content content, const ImageLimits& limits, bool tries_png,
-                  CancellationCheck check_cancelled) {
+// The smallest of the encodings that are tried. Lossless ones are tried where no other is sufficient, and if
+// `tries_lossless`.
+Image smallest_at(const LossyEncoding& lossy, const std::string& name, Content content,
+                  const ImageLimits& limits, bool tries_lossless) {
+    const Pixels& pixels = lossy.pixels;
+    const auto jpeg = [&](std::uint32_t quality) { return encode_jpeg(pixels, name, quality, content); };
+    const auto webp = [&](WebpMode mode, std::uint32_t level) {
+        return encode_webp(pixels, name, {.mode = mode, .level = static_cast<int>(level)});
+    };
     std::optional<Image> best;
-    if (!pixels.has_alpha)
-        best = smallest_jpeg(original, pixels, known, name, content, limits.quality, check_cancelled);
-    if (tries_png || !best) {
-        Image png = encode_png(pixels, name);
-        if (!best || png.encoded.size() < best->encoded.size()) best = std::move(png);
+    if (limits.tries_core && !pixels.has_alpha) best = lossy.least(jpeg_qualities, jpeg);
+    if (limits.tries_webp) {
+        keep_smaller(best, lossy.least(webp_qualities, [&](std::uint32_t quality) {
+            return webp(WebpMode::lossy, quality);
+        }));
+        Image near_lossless = webp(WebpMode::near_lossless, near_lossless_level);
+        if (lossy.allows(near_lossless)) keep_smaller(best, std::move(near_lossless));
     }
+    if (!tries_lossless && best) return *std::move(best);
+    if (limits.tries_core) keep_smaller(best, encode_png(pixels, name));
+    if (limits.tries_webp) keep_smaller(best, webp(WebpMode::lossless, 100));
     return *std::move(best);
 }
 
@@ -178,13 +210,16 @@ Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known,
         if (!is_within(image_loss(pixels, next, known), limits.quality)) break;
         smaller.push_back(std::move(next));
     }
-    const Pixels& least = smaller.empty() ? pixels : smaller.back();
-    Image best = smallest_at(pixels, least, known, name, content, limits, true, check_cancelled);
+    const auto encoded = [&](const Pixels& at, bool tries_lossless) {
+        return smallest_at({pixels, at, known, limits.quality, check_cancelled}, name, content, limits,
+                           tries_lossless);
+    };
+    Image best = encoded(smaller.empty() ? pixels : smaller.back(), true);
     if (smaller.empty()) return best;
-    // PNG is tried there too if it was the smaller one: images with few colours stay so at any resolution.
-    const bool was_png = best.mime_type == "image/png";
-    const Pixels& larger = smaller.size() == 1 ? pixels : smaller[smaller.size() - 2];
-    Image other = smallest_at(pixels, larger, known, name, content, limits, was_png, check_cancelled);
+    // Lossless encodings are tried there too if one was the smallest: images with few colours stay so at any
+    // resolution.
+    const bool was_lossless = best.mime_type != "image/jpeg";
+    Image other = encoded(smaller.size() == 1 ? pixels : smaller[smaller.size() - 2], was_lossless);
     if (bytes_for_fewer_texels * static_cast<double>(other.encoded.size()) <
         static_cast<double>(best.encoded.size()))
         best = std::move(other);

@@ -17,6 +17,8 @@ namespace faqem::detail {
 struct ImageLimits {
     double quality;          ///< least PSNR in dB
     bool may_shrink = true;  ///< whether the result may have fewer texels
+    bool tries_core = true;  ///< whether PNG and JPEG are tried, which glTF has without extensions
+    bool tries_webp = false;
 };
 
 /// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 6 less for normals and
@@ -47,8 +49,8 @@ Pixels halved(const Pixels& pixels);
 
 /// Encodes an image in few bytes, so that image_loss() of the decoded result is within `limits.quality`.
 /// The resolution is halved as long as this loss alone is within the limit. At the least resolution and at
-/// twice that, PNG and the JPEG of least sufficient quality are tried, and the result with the fewest bytes is
-/// taken; of two that differ by less than 10%, that with fewer texels.
+/// twice that, PNG and the JPEG or WebP of least sufficient quality are tried, and the result with the fewest bytes
+/// is taken; of two that differ by less than 10%, that with fewer texels.
 /// \param pixels   at least one texel
 /// \param known    by texel: nonzero if the texel shows a triangle
 /// \param name     Image::name of the result

@@ -1,6 +1,8 @@
 #include "bake/texture/page_material.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -12,11 +14,15 @@
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
 #include "bake/texture/constant_image.hpp"
+#include "bake/texture/image_choice.hpp"
 
 namespace faqem::detail {
 namespace {
 
 using TextureMember = TextureRef Material::*;
+
+// Normal maps of this side and less are not halved.
+constexpr std::uint32_t min_new_map_side = 64;
 
 // Adds the images of one page to the result, to be encoded later.
 class PageImageList {
@@ -82,6 +88,25 @@ void add_layers(PageImageList& list, const Material& source, std::span<const Ext
             result.extension_textures.push_back({texture.extension, texture.name, ref});
         }
     }
+}
+
+// Whether a normal map that shows the geometry of the source gets half the sides of the page: the surface varies
+// less than its colours.
+bool may_halve_new_map(const BakeOptions& bake, const PendingImage& image) {
+    return has_image_quality(bake.image_format) && bake.normal_map == NormalMap::automatic &&
+           image.may_shrink && std::min(image.pixels.width, image.pixels.height) > min_new_map_side;
+}
+
+void halve(PendingImage& image) {
+    const std::size_t width = image.pixels.width;
+    image.pixels = halved(image.pixels);
+    std::vector<std::uint8_t> known(std::size_t{image.pixels.width} * image.pixels.height);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        const std::uint8_t* const first =
+            image.known->data() + 2 * (i / image.pixels.width) * width + 2 * (i % image.pixels.width);
+        known[i] = first[0] | first[1] | first[width] | first[width + 1];
+    }
+    image.known = std::make_shared<const std::vector<std::uint8_t>>(std::move(known));
 }
 
 // Linear value of a constant sRGB channel.
@@ -159,8 +184,11 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
                                                uses({&Material::emissive_texture}));
     }
     if (channels.normal && !is_flat_normal_map(images.normal, images.known)) {
-        result.normal_texture = list.add(std::move(images.normal), known, "_normal", Content::data,
-                                         uses({&Material::normal_texture}));
+        const std::vector<TextureRef> from = uses({&Material::normal_texture});
+        result.normal_texture = list.add(std::move(images.normal), known, "_normal", Content::data, from);
+        job.pending.back().is_new_map = from.empty();
+        if (from.empty() && may_halve_new_map(job.options.bake, job.pending.back()))
+            halve(job.pending.back());
     }
     add_layers(list, group.material, channels.layers ? layers : std::span<const ExtensionLayer>(), images,
                result);

@@ -11,10 +11,10 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, Cancel
     const Pixels& pixels = pending.pixels;
     if (bake.image_format == ImageFormat::automatic) {
         Image smallest =
-            encode_smallest(pixels, *pending.known, pending.name, pending.content,
-                            {least_psnr(bake, pending.content), pending.may_shrink}, check_cancelled);
-        const bool keeps_original =
-            pending.original && smallest.encoded.size() >= pending.original->encoded.size();
+            encode_smallest(pixels, *pending.known, pending.name, pending.content, limits, check_cancelled);
+        const bool keeps_original = pending.original &&
+                                    (!is_webp || pending.original->mime_type == "image/webp") &&
+                                    smallest.encoded.size() >= pending.original->encoded.size();
         return keeps_original ? *pending.original : std::move(smallest);
     }
     const bool is_jpeg =

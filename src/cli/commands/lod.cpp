@@ -13,12 +13,14 @@
 #include "cli/commands/lod_manifest.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/no_larger.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/protected_files.hpp"
+#include "cli/simplify_model.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/error.hpp"
 #include "faqem/save_levels.hpp"
@@ -34,7 +36,7 @@ struct LodArguments : SimplifyArguments {
     std::string in, out, history, format = default_format(), textures = "each";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     ViewSettings view_settings;
-    bool without_original = false, one_file = false, force = false, quiet = false;
+    bool without_original = false, one_file = false, allow_larger = false, force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
     LevelTextures level_textures() const {
@@ -120,7 +122,12 @@ class LodWriter {
 public:
     LodWriter(const LodArguments& arguments, const Outputs& outputs, const Asset& source,
               const std::vector<Level>& levels, const Options& options)
-        : arguments_(arguments), outputs_(outputs), source_(source), levels_(levels), options_(options) {}
+        : arguments_(arguments),
+          outputs_(outputs),
+          source_(source),
+          levels_(levels),
+          options_(options),
+          larger_(larger_result(options.bake, arguments.allow_larger)) {}
 
     ExitCode operator()() {
         size_ = detail::scene_size(source_);
@@ -163,13 +170,14 @@ private:
             write_histories(arguments_, levels);
         }
         write_original();
+        const SizeRule rule = {outputs_.models[0], input_bytes(arguments_.in), larger_};
         for (SimplifiedPartsLevel& level : levels) {
             const auto before = static_cast<double>(&level - levels.data()),
                        count = static_cast<double>(levels.size());
             const Options step =
                 detail::step_options(options_, Phase::bake, before / count, (before + 1) / count);
-            SimplifiedAsset simplified =
-                with_file_in_errors(arguments_.in, [&] { return bake(source_, level.result, step); });
+            SimplifiedAsset simplified = with_file_in_errors(
+                arguments_.in, [&] { return bake_no_larger(source_, level.result, step, rule); });
             level.result = {};
             if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return exit_cancelled;
             write_level(std::move(simplified), level.distance, level.error);
@@ -247,6 +255,7 @@ private:
     const Asset& source_;
     const std::vector<Level>& levels_;
     const Options& options_;
+    LargerResult larger_;  // of the options as they were given
     std::vector<Report> reports_;
     std::vector<std::string> warnings_;
     std::vector<WrittenLevel> written_;
@@ -326,7 +335,8 @@ CommandInfo lod_command() {
     add_options(command.options, table_options(detail::in_lod, arguments->options));
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
     add_options(command.options,
-                {profile_option(), flag_option("--force", arguments->force, "Overwrite existing files"),
+                {allow_larger_option(arguments->allow_larger), profile_option(),
+                 flag_option("--force", arguments->force, "Overwrite existing files"),
                  flag_option("--quiet", arguments->quiet, "Print no summary and no progress bar")});
     command.run = [arguments] { return run(*arguments); };
     return command;

@@ -127,6 +127,43 @@ TEST_CASE("images with alpha, and images with few colours, stay PNG") {
     CHECK(smallest(waves(64), 80, false).mime_type == "image/png");
 }
 
+TEST_CASE("WebP images are within the limit, with alpha as it was") {
+    const Pixels glass = paint(64, 64, [](std::uint32_t x, std::uint32_t y) {
+        return Rgba{static_cast<std::uint8_t>(3 * x), static_cast<std::uint8_t>(2 * x + y), 90,
+                    static_cast<std::uint8_t>(255 - 2 * x)};
+    });
+    for (const Pixels& pixels : {noise(64), glass, ramp(64)}) {
+        for (const Content content : {Content::color, Content::data}) {
+            for (const double quality : {25.0, 40.0, 60.0}) {
+                const ImageLimits limits{quality, false, false, true};
+                const Image webp = encode_smallest(pixels, all_known(pixels), "page", content, limits);
+                CHECK(webp.mime_type == "image/webp");
+                const Pixels decoded = decode(webp);
+                CHECK(is_within(image_loss(pixels, decoded, all_known(pixels)), quality));
+                for (std::size_t i = 3; i < pixels.rgba.size(); i += 4)
+                    REQUIRE(decoded.rgba[i] == pixels.rgba[i]);
+                const ImageLimits both{quality, false, true, true};
+                CHECK(encode_smallest(pixels, all_known(pixels), "page", content, both).encoded.size() <=
+                      webp.encoded.size());
+            }
+        }
+    }
+}
+
+TEST_CASE("automatic formats are WebP only if a glTF source has WebP images") {
+    Asset asset = textured_square(paint(256, 256, [](std::uint32_t x, std::uint32_t y) {
+        return Rgba{static_cast<std::uint8_t>(120 + 100 * std::sin(0.3 * x)),
+                    static_cast<std::uint8_t>(120 + 100 * std::sin(0.2 * y)), 90, 255};
+    }));
+    Options options;
+    options.bake.kind = Bake::atlas;
+    const auto mime_type = [&] { return bake(asset, unchanged(asset), options).asset.images[0].mime_type; };
+    asset.images[0] = encode_webp(decode(asset.images[0]), "wave", {.mode = WebpMode::lossless});
+    CHECK(mime_type() != "image/webp");
+    options.bake.image_format = ImageFormat::webp;
+    CHECK(mime_type() == "image/webp");
+}
+
 TEST_CASE("baked images are chosen by loss unless a format, a density or a correspondence is requested") {
     const Asset asset = textured_square(ramp(256));
     const auto width = [&](const BakeOptions& bake) {

@@ -22,7 +22,7 @@ inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::bake, &BakeOptions::kind>(
         {.name = "bake",
          .choices = "auto|atlas|per-triangle|vertex|keep|none",
-         .help = "Where colours are stored: auto (atlas or per-triangle, see docs/baking.md), atlas "
+         .help = "Where colours are stored: auto (keep, atlas or per-triangle, see docs/baking.md), atlas "
                  "(charts), per-triangle, vertex, keep, none",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::texture_size>(
@@ -59,9 +59,10 @@ inline constexpr OptionRow appearance_rows[] = {
          .help = "Angle between normals above which smooth normals split a vertex"}),
     option_row<&Options::bake, &BakeOptions::image_format>(
         {.name = "image-format",
-         .choices = "auto|png|jpeg|source",
+         .choices = "auto|png|jpeg|source|webp",
          .help = "Format of baked images: auto (the smallest within --image-quality), png, jpeg or "
-                 "jpeg:QUALITY (1 to 100, default 90), source (that of the images they are baked from)",
+                 "jpeg:QUALITY (1 to 100, default 90), source (that of the images they are baked from), webp "
+                 "(within --image-quality; viewers need EXT_texture_webp)",
          .suffix_choice = "jpeg",
          .suffix_option = "jpeg-quality",
          .entry_points = in_all}),
@@ -70,7 +71,8 @@ inline constexpr OptionRow appearance_rows[] = {
          .range = {.min = 20, .max = 80},
          .unit = "dB",
          .value_name = "DB",
-         .help = "Least PSNR of baked colours with --image-format auto; of normals and other data 6 dB less",
+         .help = "Least PSNR of baked colours with --image-format auto or webp; of normals and other data 6 "
+                 "dB less",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::jpeg_quality>(
         {.name = "jpeg-quality",

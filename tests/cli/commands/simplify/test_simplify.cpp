@@ -240,3 +240,19 @@ TEST_CASE("SIGTERM and SIGINT end simplify with 8 and no temporary files") {
         CHECK(files_in(folder) == 1);
     }
 }
+
+TEST_CASE("simplify writes WebP images to glTF only") {
+    const Folder folder;
+    faqem::save(sheet(20), folder / "in.glb");
+    REQUIRE(run(folder, "simplify in.glb colored.glb --faces 400 --bake atlas --texture-size 64").code == 0);
+    const Outcome webp =
+        run(folder, "simplify colored.glb out.glb --faces 100 --image-format webp --bake atlas --quiet");
+    CHECK(webp.code == 0);
+    const faqem::Asset asset = faqem::load(folder / "out.glb");
+    REQUIRE_FALSE(asset.images.empty());
+    for (const faqem::Image& image : asset.images) CHECK(image.mime_type == "image/webp");
+    const Outcome obj = run(folder, "simplify colored.glb out.obj --faces 100 --image-format webp");
+    CHECK(obj.code == 2);
+    CHECK(obj.err.find("--image-format webp") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "out.obj"));
+}
