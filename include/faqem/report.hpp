@@ -18,10 +18,11 @@ FAQEM_NAMESPACE_BEGIN
 
 /// Why the collapse loop ended.
 enum class StopReason {
-    reached_target,     ///< the face count is at most the target
-    no_legal_collapse,  ///< all rungs of the starvation ladder were tried, and no collapse is legal
-    reached_max_error,  ///< no smaller mesh within Options::max_error was found
-    cancelled,          ///< the progress callback returned Continue::cancel
+    reached_target,      ///< the face count is at most the target
+    no_legal_collapse,   ///< all rungs of the starvation ladder were tried, and no collapse is legal
+    reached_max_error,   ///< no smaller mesh within Options::max_error was found
+    cancelled,           ///< the progress callback returned Continue::cancel
+    reached_time_limit,  ///< Options::max_seconds was over before the target was reached
 };
 
 /// Why a collapse was rejected.

@@ -75,15 +75,14 @@ public:
 
     /// Collapses pairs until the target face count is reached or no legal collapse is left.
     /// \param options  see LoopOptions
-    /// \return what was done; the stop reason is `cancelled` if `options.progress` returned
-    ///     Continue::cancel
-    /// \throws whatever `options.progress` throws. The mesh is consistent then, and after cancellation
+    /// \return what was done, and why it ended
+    /// \throws whatever `options.progress` throws. The mesh is consistent then, and when stopped
     /// O(n log n) in the number of pairs, for bounded valence and HeapQueue.
     LoopResult run(const LoopOptions& options) {
         rules_ = options.rules;
         distance_weight_ = options.distance_weight;
         set_progress(options);
-        if (options.progress) check_cancelled_ = CancellationCheck(monitor_);
+        monitor_.set_deadline(options.deadline);
         return run_cancellable([&] {
             degenerate_ = DegenerateFaces(mesh_);
             if (distance_weight_ > 0) boundary_loops_.emplace(mesh_, pairs_, options.first_context_vertex);
@@ -124,8 +123,9 @@ private:
     LoopResult run_cancellable(Work&& work) {
         try {
             work();
-        } catch (const Cancelled&) {
-            result_.stop = StopReason::cancelled;
+        } catch (const Cancelled& stopped) {
+            if (stopped.reason == StopReason::cancelled || mesh_.face_count() > target_face_count_)
+                result_.stop = stopped.reason;
         }
         return result_;
     }
@@ -316,6 +316,8 @@ private:
         if (curves_) curves_->before_collapse(survivor, removed);
         if (boundary_loops_) boundary_loops_->before_collapse(pairs_, survivor, removed, pair);
         mesh_.collapse(survivor, removed, p);
+        ++result_.collapses;
+        result_.components_collapsed += mesh_.degree(survivor) == 0;
         legality_.after_collapse(mesh_, survivor);
         locked_[survivor] |= locked_[removed];
         killed_.clear();
@@ -323,8 +325,6 @@ private:
         for (const Index killed : killed_) queue_.erase(killed);
         if (boundary_loops_) boundary_loops_->after_collapse(mesh_, pairs_, survivor);
         metric_.after_collapse(mesh_, pairs_, survivor, changes_);
-        ++result_.collapses;
-        result_.components_collapsed += mesh_.degree(survivor) == 0;
         for (const PairTable::Change& change : changes_) {
             if (change.neighbour.pair != no_index) reevaluate(change.neighbour.pair);
         }
@@ -440,8 +440,8 @@ private:
     std::size_t face_count_at_last_pass_ = 0;  // when all pairs were last evaluated
     std::size_t target_face_count_ = 0;
     std::function<Continue(double)> progress_;
-    ProgressMonitor monitor_{[this] { return report_progress(); }};
-    CancellationCheck check_cancelled_;
+    ProgressMonitor monitor_{[this] { return progress_ ? report_progress() : Continue::yes; }};
+    CancellationCheck check_cancelled_{monitor_};
     std::vector<Index> killed_;
     std::vector<PairTable::Change> changes_;
 };

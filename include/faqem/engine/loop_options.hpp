@@ -9,6 +9,7 @@
 
 #include "faqem/engine/constraints/legality.hpp"
 #include "faqem/engine/mesh/vector.hpp"
+#include "faqem/engine/util/cancellation.hpp"
 #include "faqem/export.hpp"
 #include "faqem/progress.hpp"
 #include "faqem/report.hpp"
@@ -41,6 +42,8 @@ struct LoopOptions {
     /// Called on the calling thread after every few thousand operations with the fraction of faces removed,
     /// in [0, 1]; may be empty. If it cancels or throws, the mesh stays consistent.
     std::function<Continue(double)> progress = {};
+    /// The loop stops at this time. It is checked with `progress`, and the mesh stays consistent.
+    Deadline deadline = no_deadline;
 };
 
 /// Result of the collapse loop; totals over all calls of one engine.

@@ -16,8 +16,8 @@ namespace detail {
 // Names of the enumerators, in the order of their enum.
 inline constexpr std::array<std::string_view, all_presets.size()> preset_names = {"qem",  "paper",    "stmw",
                                                                                   "fast", "balanced", "best"};
-inline constexpr std::array<std::string_view, 4> stop_names = {"reached_target", "no_legal_collapse",
-                                                               "reached_max_error", "cancelled"};
+inline constexpr std::array<std::string_view, 5> stop_names = {
+    "reached_target", "no_legal_collapse", "reached_max_error", "cancelled", "reached_time_limit"};
 inline constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "fold", "locked", "seam", "group", "zero_length", "last_faces"};
 inline constexpr std::array<std::string_view, rung_kinds> rung_names = {
