@@ -71,7 +71,9 @@ struct SimplifiedAsset {
 /// run with Preset::fast per part if several parts have faces.
 FAQEM_EXPORT SimplifiedParts simplify_parts(const Asset& source, const Options& options);
 
-/// Appearance stage: gives the simplified parts normals, UVs, materials and images.
+/// Appearance stage: gives the simplified parts normals, UVs, materials and images. If Options::max_seconds, which counts
+/// from the start of the call, is over before new textures are complete, the parts have the images of the source and
+/// UVs that are read from it; the report has a warning.
 /// \param source      the asset that `simplified` was made from
 /// \param simplified  result of simplify_parts() with the same options
 /// \param options     see Options::bake
@@ -80,11 +82,13 @@ FAQEM_EXPORT SimplifiedParts simplify_parts(const Asset& source, const Options& 
 /// \throws OptionError  an option is out of range, or a correspondence is requested without a new atlas
 /// \throws InputError  an image is damaged, or `simplified` does not match `source`
 /// \throws UnsupportedError  an image that is needed has a format that decode() does not support
+/// \throws TimeLimitError  max_seconds was over before the texture of a requested correspondence was complete
 FAQEM_EXPORT SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified,
                                   const Options& options);
 
 /// Simplifies an asset and bakes its appearance: simplify_parts(), then bake().
-/// \throws OptionError, InputError, UnsupportedError  as both stages
+/// Options::max_seconds holds for both together.
+/// \throws OptionError, InputError, UnsupportedError, TimeLimitError  as both stages
 FAQEM_EXPORT SimplifiedAsset simplify(const Asset& source, const Options& options = {});
 
 }  // namespace faqem

@@ -35,7 +35,7 @@ enum class LevelTextures {
 /// \param levels   from fine to coarse. Face counts are totals over all parts and are distributed according
 ///                 to Options::budget, but no part gets more faces than in the previous level. Distances are
 ///                 in scene units
-/// \param options  as for simplify_parts(); target and max_error must be unset
+/// \param options  as for simplify_parts(); target, max_error and max_seconds must be unset
 /// \return one result per level, each with the history that bake() needs. If the progress callback cancels,
 ///         report.stop of the last result is StopReason::cancelled, and results may be missing
 /// \throws OptionError, InputError  as simplify_parts() and simplify_levels()

@@ -47,6 +47,12 @@ public:
     using InputError::InputError;
 };
 
+/// Options::max_seconds was over before there was a result that the options allow. Exit code 12 of the command.
+class FAQEM_EXCEPTION TimeLimitError : public Error {
+public:
+    using Error::Error;
+};
+
 /// A file could not be written. An existing file with the same name is unchanged. Exit code 7 of the command.
 class FAQEM_EXCEPTION WriteError : public Error {
 public:

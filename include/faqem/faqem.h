@@ -38,7 +38,8 @@ typedef enum faqem_status FAQEM_ENUM {
     FAQEM_ERROR_UNSUPPORTED = 4, /**< the input is valid, but of a kind that this build does not support */
     FAQEM_ERROR_WRITE = 7,       /**< a file could not be written */
     FAQEM_ERROR_CANCELLED = 8,   /**< the progress callback returned nonzero */
-    FAQEM_ERROR_NO_MEMORY = 11
+    FAQEM_ERROR_NO_MEMORY = 11,
+    FAQEM_ERROR_TIME_LIMIT = 12 /**< "max-seconds" was over before there was a result that the options allow */
 } faqem_status;
 
 /** Status and message of a call. Belongs to the caller; need not be initialised. */
@@ -207,7 +208,8 @@ FAQEM_API const uint32_t* faqem_result_face_origin(const faqem_result* result);
 typedef enum faqem_stop FAQEM_ENUM {
     FAQEM_STOP_REACHED_TARGET = 0,
     FAQEM_STOP_NO_LEGAL_COLLAPSE = 1,
-    FAQEM_STOP_REACHED_MAX_ERROR = 2
+    FAQEM_STOP_REACHED_MAX_ERROR = 2,
+    FAQEM_STOP_REACHED_TIME_LIMIT = 4
 } faqem_stop;
 
 /** The most important fields of a report; the JSON report has all of them. */

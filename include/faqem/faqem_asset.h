@@ -57,7 +57,7 @@ typedef enum faqem_level_textures FAQEM_ENUM {
  * Simplifies a model to several levels of detail and bakes each, see faqem::simplify_levels(const Asset&,
  * ...).
  * \param asset        the model; unchanged
- * \param options      null: the defaults; ratio, faces and max_error must be unset
+ * \param options      null: the defaults; ratio, faces, max_error and max_seconds must be unset
  * \param levels       level_count targets, as for faqem_simplify_levels(); distances are in scene units
  * \param level_count  number of levels
  * \param textures     whether the levels share textures

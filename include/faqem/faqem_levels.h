@@ -32,7 +32,7 @@ typedef struct faqem_level {
  * Simplifies a mesh to several levels of detail, see faqem::simplify_levels(). Each level continues from the
  * previous one and is measured against the original.
  * \param mesh         any triangle soup
- * \param options      null: the defaults; ratio, faces and max_error must be unset
+ * \param options      null: the defaults; ratio, faces, max_error and max_seconds must be unset
  * \param levels       level_count targets, from fine to coarse: face counts must not increase, distances must
  *                     not decrease
  * \param level_count  number of levels

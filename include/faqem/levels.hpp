@@ -33,7 +33,7 @@ struct SimplifiedLevel {
 /// \param levels   from fine to coarse: face counts (ratios refer to the original's faces) must not increase,
 ///                 distances must not decrease. A face count above that of the previous level repeats that
 ///                 level; so does a distance that the previous level exceeds, with a warning
-/// \param options  as for simplify(); target and max_error must be unset
+/// \param options  as for simplify(); target, max_error and max_seconds must be unset
 /// \return one result per level; for an empty mesh, empty results. If the progress callback cancels,
 ///         report.stop of the last result is StopReason::cancelled, any results before it are complete, and
 ///         results may be missing

@@ -66,6 +66,11 @@ struct Options {
     /// target, one run is made and measured. In both cases the upper bound of the distance decides, see
     /// Report::max_error.
     std::optional<MaxError> max_error = {};
+    /// Time for simplification and baking in seconds of wall-clock time, finite and > 0; unset: unlimited. When it
+    /// is over, the collapses stop (StopReason::reached_time_limit), and a bake that is not finished keeps the
+    /// images of the source instead; see docs/cli.md, "Time limit". The result then depends on the machine. Must be
+    /// unset for levels of detail.
+    std::optional<double> max_seconds = {};
     Preset preset = Preset::balanced;
     Weights weights = {};
     Topology topology = {};

@@ -6,7 +6,8 @@ namespace faqem::capi {
 
 static_assert(has_same_value(FAQEM_STOP_REACHED_TARGET, StopReason::reached_target) &&
               has_same_value(FAQEM_STOP_NO_LEGAL_COLLAPSE, StopReason::no_legal_collapse) &&
-              has_same_value(FAQEM_STOP_REACHED_MAX_ERROR, StopReason::reached_max_error));
+              has_same_value(FAQEM_STOP_REACHED_MAX_ERROR, StopReason::reached_max_error) &&
+              has_same_value(FAQEM_STOP_REACHED_TIME_LIMIT, StopReason::reached_time_limit));
 
 faqem_report to_c_report(const Report& report) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();

@@ -8,6 +8,7 @@
 #include "asset/file_format.hpp"
 #include "asset/io/file_names.hpp"
 #include "cli/output_file.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 
 namespace faqem::cli {
 
@@ -56,8 +57,13 @@ public:
         const std::uint64_t images = baked ? budget_.bytes - budget_.bytes / 2 : size_.images;
         reduce_faces(images < budget_.bytes ? budget_.bytes - images : 0);
         if (baked) {
-            while (!is_done() && reduce_image_size()) bake_again();
+            while (!is_done() && !is_late() && reduce_image_size()) bake_again();
             if (!is_done()) reduce_faces(size_.images < budget_.bytes ? budget_.bytes - size_.images : 0);
+        }
+        if (!is_done() && is_late()) {
+            throw TimeLimitError(
+                "--max-seconds was over before a result within --max-bytes was found; the last one has " +
+                std::to_string(size_.total()) + " bytes: " + summary());
         }
         if (!is_done()) {
             throw BudgetError("the smallest result has " + std::to_string(size_.total()) +
@@ -70,21 +76,22 @@ public:
 
 private:
     bool is_cancelled() const { return result_.report.stop == StopReason::cancelled; }
+    bool is_late() const { return engine::is_over(deadline_); }
     bool is_done() const { return is_cancelled() || size_.total() <= budget_.bytes; }
 
     void simplify_again() {
-        simplified_parts_ = simplify_parts(source_, options_);
+        simplified_parts_ = simplify_parts(source_, detail::with_time_left(options_, deadline_));
         bake_again();
     }
 
     void bake_again() {
-        result_ = bake(source_, simplified_parts_, options_);
+        result_ = bake(source_, simplified_parts_, detail::with_time_left(options_, deadline_));
         if (!is_cancelled()) size_ = model_bytes(result_.asset, budget_.file);
     }
 
     // Lowers the face target until the geometry fits into `bytes` or the face count no longer decreases.
     void reduce_faces(std::uint64_t bytes) {
-        for (int run = 0; run < max_runs && !is_cancelled() && size_.geometry > bytes; ++run) {
+        for (int run = 0; run < max_runs && !is_cancelled() && !is_late() && size_.geometry > bytes; ++run) {
             const std::uint64_t faces = result_.report.faces_out;
             const double share =
                 safety_factor * static_cast<double>(bytes) / static_cast<double>(size_.geometry);
@@ -120,6 +127,7 @@ private:
     const Asset& source_;
     Options options_;  // of the current run
     const ByteBudget& budget_;
+    detail::Deadline deadline_ = detail::deadline_of(options_);
     SimplifiedParts simplified_parts_;
     SimplifiedAsset result_;
     ModelBytes size_;

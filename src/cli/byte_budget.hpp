@@ -49,6 +49,7 @@ ModelBytes model_bytes(const Asset& asset, const std::filesystem::path& file);
 /// quarter of the texels of the previous one.
 /// \param options  target and texture size are upper limits; max_error must be unset
 /// \throws BudgetError  no result fits
+/// \throws TimeLimitError  Options::max_seconds, which holds for all runs together, was over before a result fitted
 /// \throws whatever simplify() and model_bytes() throw
 SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& options, const ByteBudget& budget);
 

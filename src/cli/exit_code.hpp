@@ -23,6 +23,7 @@ enum ExitCode : int {
     exit_batch_incomplete = 9,
     exit_too_large = 10,
     exit_no_memory = 11,
+    exit_time_limit = 12,
 };
 
 /// Thrown if the estimated memory exceeds the limit. The command exits with code 11.

@@ -8,6 +8,7 @@
 
 #include "bake/scene/unencoded_result.hpp"
 #include "cli/byte_budget.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 
 namespace faqem::cli {
 
@@ -54,17 +55,18 @@ SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simpl
                                const SizeRule& rule) {
     if (source.images.empty() || !makes_atlas(options.bake.kind) || rule.larger == LargerResult::allowed)
         return bake(source, simplified, options);
+    const detail::Deadline deadline = detail::deadline_of(options);
     detail::UnencodedResult result = detail::bake_unencoded(source, simplified, options);
     Options less = options;
     std::vector<std::string> given_up;
     for (;;) {
-        detail::encode_images(result, less);
+        detail::encode_images(result, detail::with_time_left(less, deadline));
         Report& report = result.asset.report;
         if (report.stop == StopReason::cancelled || report.faces_out == 0) break;
         const ModelBytes size = model_bytes(result.asset.asset, rule.out);
         const bool is_larger = size.total() > rule.bytes_in;
         if (is_larger && rule.larger == LargerResult::gives_up && !result.pending.empty() &&
-            size.geometry < rule.bytes_in) {
+            !engine::is_over(deadline) && size.geometry < rule.bytes_in) {
             const std::string next = give_up_next(result, less.bake);
             if (!next.empty()) {
                 add_given_up(given_up, next);
@@ -85,7 +87,9 @@ SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simpl
 }
 
 SimplifiedAsset simplify_no_larger(const Asset& source, const Options& options, const SizeRule& rule) {
-    return bake_no_larger(source, simplify_parts(source, options), options, rule);
+    const detail::Deadline deadline = detail::deadline_of(options);
+    const SimplifiedParts simplified = simplify_parts(source, options);
+    return bake_no_larger(source, simplified, detail::with_time_left(options, deadline), rule);
 }
 
 }  // namespace faqem::cli

@@ -126,6 +126,20 @@ static void the_progress_callback_is_called_and_may_cancel(void) {
     faqem_options_destroy(options);
 }
 
+static void a_time_limit_is_a_stop_reason(void) {
+    faqem_options* options = faqem_options_create();
+    const faqem_mesh mesh = flat_grid(20);
+    faqem_result* result = NULL;
+    faqem_report report;
+    CHECK(faqem_options_set(options, "max-seconds", "0", NULL) == FAQEM_ERROR_OPTION);
+    CHECK(faqem_options_set(options, "max-seconds", "1e-9", NULL) == FAQEM_OK);
+    CHECK(faqem_simplify(&mesh, options, &result, NULL) == FAQEM_OK);
+    CHECK(faqem_result_report(result, &report) == FAQEM_OK);
+    CHECK(report.stop == FAQEM_STOP_REACHED_TIME_LIMIT && report.faces_out == 800);
+    faqem_result_destroy(result);
+    faqem_options_destroy(options);
+}
+
 static void the_version_has_three_numbers(void) {
     int major = -1, minor = -1, patch = -1;
     char rest = 0;
@@ -139,5 +153,6 @@ void test_options(void) {
     errors_name_the_option_and_suggest_one();
     the_names_of_all_options_can_be_listed();
     the_progress_callback_is_called_and_may_cancel();
+    a_time_limit_is_a_stop_reason();
     the_version_has_three_numbers();
 }

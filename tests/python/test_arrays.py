@@ -45,6 +45,15 @@ class Arrays(unittest.TestCase):
                 assert_array_equal(out.vertices, expected.vertices)
                 assert_array_equal(out.triangles, expected.triangles)
 
+    def test_a_time_limit_is_a_stop_reason(self):
+        vertices, triangles = flat_grid(20)
+        out = faqem.simplify(vertices, triangles, max_seconds=1e-9)
+        self.assertEqual(out.report["stop_reason"], "reached_time_limit")
+        self.assertEqual(len(out.triangles), 800)
+        for wrong in (0, -1, float("nan")):
+            with self.assertRaisesRegex(faqem.OptionError, "max_seconds"):
+                faqem.simplify(vertices, triangles, max_seconds=wrong)
+
     def test_views_and_lists_are_accepted(self):
         vertices, triangles = flat_grid(10)
         out = faqem.simplify(vertices, triangles, faces=40)

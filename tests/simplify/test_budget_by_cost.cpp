@@ -21,7 +21,7 @@ CostCurve curve_of(const TriangleMesh& mesh, const Options& options = {}) {
 
 // A curve from 12 faces to 4 in steps of two with the given costs.
 CostCurve stairs(std::array<double, 4> costs, double diagonal = 1) {
-    return {{{12, costs[0]}, {10, costs[1]}, {8, costs[2]}, {6, costs[3]}}, 4, diagonal, true};
+    return {{{12, costs[0]}, {10, costs[1]}, {8, costs[2]}, {6, costs[3]}}, 4, diagonal};
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ CostCurve stairs(std::array<double, 4> costs, double diagonal = 1) {
 TEST_CASE("cost curve: face counts descend and costs ascend") {
     const TriangleMesh mesh = test::shaken(test::torus(14, 9), 0.05, 1);
     const CostCurve curve = curve_of(mesh);
-    REQUIRE(curve.is_complete);
+    REQUIRE(curve.stop == StopReason::reached_target);
     CHECK(curve.steps.front().faces == mesh.triangles.size());
     CHECK(curve.min_faces <= 4);
     for (std::size_t i = 1; i < curve.steps.size(); ++i) {
@@ -59,7 +59,7 @@ TEST_CASE("cost curve: locked vertices limit the number of steps") {
 TEST_CASE("cost curve: a cancelled curve is incomplete") {
     Options options;
     options.progress = [](Phase, double) { return Continue::cancel; };
-    CHECK_FALSE(curve_of(test::icosphere(4), options).is_complete);
+    CHECK(curve_of(test::icosphere(4), options).stop == StopReason::cancelled);
 }
 
 TEST_CASE("face budget: the cheapest steps of all meshes are taken first") {
@@ -85,7 +85,7 @@ TEST_CASE("face budget: the budget is used completely") {
 TEST_CASE("face budget: each mesh keeps at least four faces") {
     std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
     curves[0].min_faces = 2;
-    curves.push_back({{}, 2, 1, true});  // a mesh of two faces
+    curves.push_back({{}, 2, 1});  // a mesh of two faces
     const std::vector<double> weights = {1, 1, 1};
     CHECK(distribute_face_budget(curves, weights, 0) == Shares{4, 4, 2});
 }

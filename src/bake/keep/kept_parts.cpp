@@ -18,7 +18,7 @@ public:
         : job_(job),
           materials_(job.source.materials.size(), no_index),
           images_(job.source.images.size(), no_index) {
-        if (job.options.bake.kind != Bake::keep) return;
+        if (job.options.bake.kind != Bake::keep && !job.is_late) return;
         for (Index m = 0; m < materials_.size(); ++m) materials_[m] = m;  // bake_keep() has added all
     }
 
@@ -76,7 +76,7 @@ void add_kept_parts(BakeJob& job, std::span<const std::uint8_t> untouched, KeptU
         if (keeps_vertices) job.result.report.untouched_parts.push_back(part_title(job.source, part.index));
         kept_parts.push_back({part.index, keeps_vertices});
     }
-    add_kept_images(job, kept_parts);
+    if (!job.is_late) add_kept_images(job, kept_parts);
 }
 
 }  // namespace faqem::detail

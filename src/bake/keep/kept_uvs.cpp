@@ -175,6 +175,27 @@ void accept(BakeJob& job, const SimplifiedParts& simplified, Index part) {
     job.skipped[part] = 1;
 }
 
+// Compares pictures of the sets, and accepts those that are as good with UVs.
+// \param kept      the job that kept the UVs of all sets
+// \return the accepted parts
+std::vector<Index> good_parts(BakeJob& job, const BakeJob& kept,
+                              const std::vector<std::vector<Index>>& sets) {
+    const Channels seen{.base = true, .normal = true};
+    const SourceSampler sampler(job.source, seen, job.workers(), job.skipped, &job.images);
+    const SourceSampler kept_sampler(kept.result.asset, seen, job.workers(), kept.skipped, &job.images);
+    const ExpectedPages pages = expected_pages(job, sampler);
+    const ComparedScenes scenes{job,          sampler,      kept.result.asset,
+                                kept_sampler, pages.texels, pages.has_normal_map};
+    const double side = view_points / std::sqrt(static_cast<double>(sets.size()));
+    const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
+    std::vector<Index> result;
+    for (const std::vector<Index>& set : sets) {
+        if (is_as_good(compare_pictures(scenes, set, size)))
+            result.insert(result.end(), set.begin(), set.end());
+    }
+    return result;
+}
+
 }  // namespace
 
 bool may_keep_uvs(const Options& options) {
@@ -185,7 +206,7 @@ bool may_keep_uvs(const Options& options) {
 }
 
 KeptUvs choose_kept_uvs(BakeJob& job, const SimplifiedParts& simplified) {
-    KeptUvs result{{}, std::vector<std::uint8_t>(job.parts.size(), 0)};
+    KeptUvs result;
     if (job.options.bake.kind != Bake::automatic || simplified.kept.size() != job.parts.size()) return result;
     const std::vector<std::vector<Index>> sets = candidate_sets(job, simplified);
     if (sets.empty()) return result;
@@ -194,27 +215,23 @@ KeptUvs choose_kept_uvs(BakeJob& job, const SimplifiedParts& simplified) {
     how.bake.kind = Bake::keep;
     BakeJob kept(job.source, how);
     kept.skipped.assign(job.parts.size(), 1);
-    for (const std::vector<Index>& set : sets)
+    for (const std::vector<Index>& set : sets) {
+        result.candidates.insert(result.candidates.end(), set.begin(), set.end());
         for (const Index p : set) kept.skipped[p] = 0;
+    }
     map_parts(kept, simplified.kept);
     bake_keep(kept);
-
-    const Channels seen{.base = true, .normal = true};
-    const SourceSampler sampler(job.source, seen, job.workers(), job.skipped, &job.images);
-    const SourceSampler kept_sampler(kept.result.asset, seen, job.workers(), kept.skipped, &job.images);
-    const ExpectedPages pages = expected_pages(job, sampler);
-    const ComparedScenes scenes{job,          sampler,      kept.result.asset,
-                                kept_sampler, pages.texels, pages.has_normal_map};
-    const double side = view_points / std::sqrt(static_cast<double>(sets.size()));
-    const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
-    for (const std::vector<Index>& set : sets) {
-        const bool is_accepted = is_as_good(compare_pictures(scenes, set, size));
-        for (const Index p : set) result.accepted[p] = is_accepted ? 1 : 0;
-    }
-    for (Index p = 0; p < result.accepted.size(); ++p)
-        if (result.accepted[p]) accept(job, simplified, p);
+    std::vector<Index> good;
+    job.run_in_time([&] { good = good_parts(job, kept, sets); });
+    std::sort(good.begin(), good.end());
+    for (const Index p : good) accept(job, simplified, p);
     result.asset = std::move(kept.result.asset);
     return result;
+}
+
+void keep_all_candidates(BakeJob& job, const SimplifiedParts& simplified, const KeptUvs& kept) {
+    for (const Index p : kept.candidates)
+        if (!job.skipped[p]) accept(job, simplified, p);
 }
 
 }  // namespace faqem::detail

@@ -2,7 +2,6 @@
 /// \file
 /// Parts that keep the UVs of the source because their pictures are as good as with new images.
 
-#include <cstdint>
 #include <vector>
 
 #include "bake/texture/bake_job.hpp"
@@ -14,21 +13,26 @@ namespace faqem::detail {
 /// or about the collapses.
 bool may_keep_uvs(const Options& options);
 
-/// The parts that keep their UVs.
+/// The parts that could keep their UVs.
 struct KeptUvs {
-    Asset asset;                         ///< the parts, with the materials and images of the source
-    std::vector<std::uint8_t> accepted;  ///< by part: whether it keeps its UVs
+    Asset asset;                    ///< the candidates, with the materials and images of the source
+    std::vector<Index> candidates;  ///< the parts that could keep their UVs
 };
 
 /// Compares pictures of SimplifiedParts::kept with those of perfect new images. Parts that share images are accepted
 /// together: if each of them has reached the face count of its simplification without UVs and lost no more
 /// faces and components, and if pictures of them have a PSNR at most 0.8 dB lower, and 0.2 dB in the mean (unlit and lit, small
 /// and large pictures).
-/// Accepted parts are skipped in the job, and their simplified meshes and reports are those with UVs.
+/// Accepted parts are skipped in the job, and their simplified meshes and reports are those with UVs. If the time is
+/// over before the comparison is complete, no part is accepted.
 /// \param job         after map_parts()
 /// \param simplified  must outlive the job
 /// \throws engine::Cancelled
 /// Complexity: that of bake_keep() and of compare_pictures() for each set of parts that share images.
 KeptUvs choose_kept_uvs(BakeJob& job, const SimplifiedParts& simplified);
+
+/// Accepts all candidates without comparing pictures, for lack of time.
+/// \param simplified, kept  argument and result of choose_kept_uvs()
+void keep_all_candidates(BakeJob& job, const SimplifiedParts& simplified, const KeptUvs& kept);
 
 }  // namespace faqem::detail

@@ -30,7 +30,8 @@ std::string part_warning(const std::string& title, const std::string& warning) {
 
 void add_part_report(Report& sum, const Report& part, const std::string& title) {
     for_each_count(sum, part, [](std::uint64_t& total, std::uint64_t own) { total += own; });
-    if (part.stop != StopReason::reached_target && sum.stop != StopReason::cancelled) sum.stop = part.stop;
+    const bool is_stopped = sum.stop == StopReason::cancelled || sum.stop == StopReason::reached_time_limit;
+    if (part.stop != StopReason::reached_target && !is_stopped) sum.stop = part.stop;
     for (const std::string& warning : part.warnings) sum.warnings.push_back(part_warning(title, warning));
     sum.seconds.weld += part.seconds.weld;
     sum.seconds.simplify += part.seconds.simplify;

@@ -1,5 +1,6 @@
 #include "faqem/bake.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "bake/scene/check_asset.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/bake_job.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -46,12 +48,30 @@ std::string layout_unit(Bake kind) {
     return kind == Bake::atlas ? "charts" : "charts or triangles";
 }
 
-void bake_by_kind(BakeJob& job) {
+// Bakes new textures. If the time is over before they are complete, keeps the UVs and images of the source.
+// \return false as bake_pages()
+bool bake_pages_in_time(BakeJob& job, const SimplifiedParts& simplified, const KeptUvs& kept) {
+    if (std::count(job.skipped.begin(), job.skipped.end(), 0) == 0) return bake_pages(job);
+    const SimplifiedAsset before = job.result;
+    bool is_baked = false;
+    if (job.run_in_time([&] { is_baked = bake_pages(job); })) return is_baked;
+    if (job.options.bake.correspondence == Recording::on)
+        throw TimeLimitError("max_seconds was over before the texture of the correspondence was complete");
+    job.result = before;
+    job.pending.clear();
+    job.is_late = true;
+    job.warn("max_seconds was over before new textures were complete: the images are those of the source");
+    keep_all_candidates(job, simplified, kept);
+    bake_keep(job);
+    return true;
+}
+
+void bake_by_kind(BakeJob& job, const SimplifiedParts& simplified, const KeptUvs& kept) {
     switch (job.options.bake.kind) {
         case Bake::automatic:
         case Bake::atlas:
         case Bake::per_triangle:
-            if (bake_pages(job)) return;
+            if (bake_pages_in_time(job, simplified, kept)) return;
             job.warn("more " + layout_unit(job.options.bake.kind) +
                      " than texels: the base colour was baked into vertex colours instead");
             return bake_vertex(job);
@@ -97,7 +117,7 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
         map_parts(job, simplified.parts);
         seconds.map = watch.seconds();
         KeptUvs kept = choose_kept_uvs(job, simplified);
-        bake_by_kind(job);
+        bake_by_kind(job, simplified, kept);
         add_kept_parts(job, untouched, std::move(kept));
         set_file_orders(job, untouched);
         job.report_progress(Phase::bake, 1);
@@ -113,8 +133,9 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
 }  // namespace detail
 
 SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
+    const detail::Deadline deadline = detail::deadline_of(options);
     detail::UnencodedResult result = detail::bake_unencoded(source, simplified, options);
-    detail::encode_images(result, options);
+    detail::encode_images(result, detail::with_time_left(options, deadline));
     if (options.history == Recording::on) {
         for (const SimplifyResult& part : simplified.parts) result.asset.histories.push_back(part.history);
     }
@@ -122,9 +143,11 @@ SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, con
 }
 
 SimplifiedAsset simplify(const Asset& source, const Options& options) {
+    const detail::Deadline deadline = detail::deadline_of(options);
     SimplifiedParts simplified = simplify_parts(source, options);
-    detail::UnencodedResult result = detail::bake_unencoded(source, simplified, options);
-    detail::encode_images(result, options);
+    detail::UnencodedResult result =
+        detail::bake_unencoded(source, simplified, detail::with_time_left(options, deadline));
+    detail::encode_images(result, detail::with_time_left(options, deadline));
     if (options.history == Recording::on) {
         for (SimplifyResult& part : simplified.parts)
             result.asset.histories.push_back(std::move(part.history));

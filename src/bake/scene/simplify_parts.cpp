@@ -19,6 +19,7 @@
 #include "bake/texture/bake_job.hpp"
 #include "bake/transfer/material_groups.hpp"
 #include "faqem/bake.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
 #include "faqem/detail/simplify/run.hpp"
@@ -123,7 +124,11 @@ private:
             results_.resize(1);
             results_.front().report.stop = StopReason::cancelled;
         } else {
-            for (SimplifiedParts& level : results_) detail::report_removed_components(source_, level);
+            for (SimplifiedParts& level : results_) {
+                detail::report_removed_components(source_, level);
+                if (level.report.stop == StopReason::reached_time_limit)
+                    level.report.warnings.push_back("max_seconds was over before the target was reached");
+            }
         }
         for (SimplifiedParts& level : results_) level.report.seconds.total = level.report.seconds.simplify;
         return std::move(results_);
@@ -131,7 +136,7 @@ private:
 
     void compute_visibility() try {
         const detail::Stopwatch watch;
-        const detail::MeasurementMonitor monitor(options_, 0);
+        const detail::MeasurementMonitor monitor(options_, 0, deadline_);
         detail::VertexVisibility seen =
             detail::vertex_visibility(source_, {options_.threads, monitor.cancellation_check()});
         weights_ = std::move(seen.weights);
@@ -141,8 +146,8 @@ private:
             if (!warning.empty()) level.report.warnings.push_back(warning);
         }
         results_.front().report.seconds.simplify += watch.seconds();
-    } catch (const engine::Cancelled&) {
-        is_cancelled_ = true;
+    } catch (const engine::Cancelled& stopped) {
+        is_cancelled_ = stopped.reason == StopReason::cancelled;
     }
 
     // Face counts by part and target; in descending order for every part.
@@ -151,9 +156,9 @@ private:
         const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
                                           [](const Part& part) { return !part.triangles.empty(); });
         // Without a target below the number of faces there is nothing to distribute.
-        const bool by_cost =
+        bool by_cost =
             options_.budget == Budget::scene && filled >= 2 && static_cast<double>(targets.back()) < faces_;
-        if (by_cost) compute_cost_curves();
+        if (by_cost) by_cost = compute_cost_curves();
         std::vector<std::vector<std::uint64_t>> result(source_.parts.size());
         for (const std::uint64_t target : targets) {
             const std::uint64_t target_faces = std::min(target, static_cast<std::uint64_t>(faces_));
@@ -169,13 +174,15 @@ private:
         return result;
     }
 
-    void compute_cost_curves() {
+    // Returns false if the time is over; then there are no curves.
+    bool compute_cost_curves() {
         passes_ = 2;
         curves_.resize(source_.parts.size());
         for_each_part([&](std::size_t p, const MeshView& view, const Options& own) {
             curves_[p] = detail::cost_curve(view, own);
-            is_cancelled_ = !curves_[p].is_complete;
+            is_cancelled_ = curves_[p].stop == StopReason::cancelled;
         });
+        return !engine::is_over(deadline_);
     }
 
     bool keeps_groups() const { return options_.topology.group_boundaries == GroupBoundaries::kept; }
@@ -197,7 +204,8 @@ private:
             const Part& part = source_.parts[p];
             if (part.triangles.empty() || is_cancelled_) continue;
             const double size = static_cast<double>(part.triangles.size());
-            Options own = detail::part_options(options_, size_, size_.scales[p]);
+            Options own =
+                detail::with_time_left(detail::part_options(options_, size_, size_.scales[p]), deadline_);
             if (options_.progress) {
                 own.progress = [this, size](Phase phase, double fraction) {
                     const double of_part = phase == Phase::simplify ? fraction * size : 0;
@@ -217,6 +225,7 @@ private:
     std::optional<detail::MaterialGroups> groups_;
     std::vector<SimplifiedParts> results_;
     std::vector<detail::CostCurve> curves_;
+    detail::Deadline deadline_ = detail::deadline_of(options_);
     bool is_cancelled_ = false;
     detail::SceneSize size_;
     std::vector<std::vector<float>> weights_;  // by part and vertex; empty: equal weights
@@ -243,11 +252,13 @@ bool has_appearance(const Asset& source) {
 }
 
 // Simplifies all parts again, with UVs, to the face counts that they have.
-void add_kept_parts(const Asset& source, const Options& options, SimplifiedParts& simplified) {
+void add_kept_parts(const Asset& source, const Options& options, detail::Deadline deadline,
+                    SimplifiedParts& simplified) {
     Options own = detail::step_options(options, Phase::simplify, 0.5, 1);
     own.bake.kind = Bake::keep;
     std::vector<std::uint64_t> counts;
     for (const SimplifyResult& part : simplified.parts) counts.push_back(part.mesh.triangles.size());
+    own = detail::with_time_left(own, deadline);
     SimplifiedParts kept = PartsRun(source, own).to_face_counts(counts);
     simplified.report.seconds.simplify += kept.report.seconds.simplify;
     simplified.report.seconds.total += kept.report.seconds.simplify;
@@ -266,10 +277,12 @@ SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
     std::uint64_t faces = 0;
     for (const Part& part : source.parts) faces += part.triangles.size();
     const std::uint64_t target = detail::target_face_count(options.target, static_cast<double>(faces));
+    const detail::Deadline deadline = detail::deadline_of(options);
     const bool tries_uvs = detail::may_keep_uvs(options) && has_appearance(source) && target < faces;
     const Options own = detail::step_options(options, Phase::simplify, 0, tries_uvs ? 0.5 : 1);
     SimplifiedParts result = std::move(detail::simplify_parts_to_targets(source, {&target, 1}, own).front());
-    if (tries_uvs && result.report.stop != StopReason::cancelled) add_kept_parts(source, options, result);
+    if (tries_uvs && result.report.stop != StopReason::cancelled && !engine::is_over(deadline))
+        add_kept_parts(source, options, deadline, result);
     return result;
 }
 

@@ -9,6 +9,7 @@
 #include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/material_groups.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -51,6 +52,24 @@ bool needs_tangents(const Asset& asset, const Part& part) {
                        [&](Index m) { return tangent_texture(material_or_default(asset, m)) != nullptr; });
 }
 
+// Encodes the pending images. Without time for the choice of ImageFormat::automatic, they get the format of the source.
+void encode_in_time(UnencodedResult& result, const Options& options, engine::ProgressMonitor& monitor) {
+    const Workers workers{options.threads, CancellationCheck(monitor)};
+    std::vector<Image>& images = result.asset.asset.images;
+    BakeOptions bake = options.bake;
+    if (bake.image_format == ImageFormat::automatic) monitor.set_deadline(deadline_of(options));
+    try {
+        return encode_pending_images(result.pending, bake, workers, images);
+    } catch (const engine::Cancelled& stopped) {
+        if (stopped.reason == StopReason::cancelled) throw;
+    }
+    monitor.set_deadline(no_deadline);
+    bake.image_format = ImageFormat::source;
+    encode_pending_images(result.pending, bake, workers, images);
+    result.asset.report.warnings.push_back(
+        "max_seconds was over before the smallest images were found: they have the formats of the source");
+}
+
 }  // namespace
 
 void set_cancelled(SimplifiedAsset& result) {
@@ -65,11 +84,10 @@ void encode_images(UnencodedResult& result, const Options& options) {
     Report& report = result.asset.report;
     if (report.stop == StopReason::cancelled) return;
     const Stopwatch watch;
-    engine::ProgressMonitor monitor([&] { return options.progress(Phase::bake, 1); });
-    const CancellationCheck check = options.progress ? CancellationCheck(monitor) : CancellationCheck();
+    engine::ProgressMonitor monitor(
+        [&] { return options.progress ? options.progress(Phase::bake, 1) : Continue::yes; });
     try {
-        encode_pending_images(result.pending, options.bake, {options.threads, check},
-                              result.asset.asset.images);
+        encode_in_time(result, options, monitor);
         report_images(result.asset.asset, report);
     } catch (const engine::Cancelled&) {
         set_cancelled(result.asset);

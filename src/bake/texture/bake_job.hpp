@@ -16,6 +16,7 @@
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
@@ -36,19 +37,19 @@ public:
     DecodedImages images;  ///< those of the source that were needed
     SimplifiedAsset result;
     std::vector<PendingImage> pending;  ///< images of the result that are not encoded yet
+    /// Whether the UVs and images of the source are kept because the time was over before new textures were complete.
+    bool is_late = false;
 
     /// Calls the progress callback.
     /// \param fraction  of the phase, 0 to 1
-    /// \throws engine::Cancelled if the callback cancels, and whatever it throws
+    /// \throws engine::Cancelled if the callback cancels or the time is over, and whatever it throws
     void report_progress(Phase phase, double fraction) const {
         phase_ = phase;
         fraction_ = fraction;
         cancellation_check().now();
     }
     /// Check for loops on the calling thread. It passes on the progress that was reported last.
-    CancellationCheck cancellation_check() const {
-        return options.progress ? CancellationCheck(monitor_) : CancellationCheck();
-    }
+    CancellationCheck cancellation_check() const { return CancellationCheck(monitor_); }
     Workers workers() const { return {options.threads, cancellation_check()}; }
 
     /// Whether images of ImageFormat::automatic may be WebP: glTF needs an extension for it, which the source has then.
@@ -58,13 +59,33 @@ public:
                            [](const Image& image) { return image.mime_type == "image/webp"; });
     }
 
+    /// Does work that Options::max_seconds may stop; other work is always completed.
+    /// \return false if the time was over before the work was complete
+    /// \throws engine::Cancelled if the callback cancels, and whatever it and `work` throw
+    template <class Work>
+    bool run_in_time(Work&& work) {
+        bool is_complete = true;
+        monitor_.set_deadline(deadline_);
+        try {
+            cancellation_check().now();
+            work();
+        } catch (const engine::Cancelled& stopped) {
+            if (stopped.reason == StopReason::cancelled) throw;
+            is_complete = false;
+        }
+        monitor_.set_deadline(no_deadline);
+        return is_complete;
+    }
+
     void warn(std::string sentence) { result.report.warnings.push_back(std::move(sentence)); }
 
 private:
+    Deadline deadline_ = deadline_of(options);
     // Arguments of the next call of the callback.
     mutable Phase phase_ = Phase::map;
     mutable double fraction_ = 0;
-    mutable engine::ProgressMonitor monitor_{[this] { return options.progress(phase_, fraction_); }};
+    mutable engine::ProgressMonitor monitor_{
+        [this] { return options.progress ? options.progress(phase_, fraction_) : Continue::yes; }};
 };
 
 /// Makes the surface maps and the normals of all parts that are not skipped.
@@ -99,7 +120,7 @@ bool bake_pages(BakeJob& job);
 void bake_vertex(BakeJob& job);
 
 /// Keeps the source's UVs, vertex colours and images.
-/// \throws InputError if the simplified mesh has no UVs and vertex colours
+/// \throws InputError if the simplified mesh has no UVs and vertex colours, unless job.is_late
 void bake_keep(BakeJob& job);
 
 /// Removes UVs, vertex colours and images.

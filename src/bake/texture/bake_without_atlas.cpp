@@ -5,6 +5,7 @@
 
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"
+#include "bake/transfer/corner_transfer.hpp"
 #include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/texture_sampling.hpp"
 #include "bake/transfer/vertex_attributes.hpp"
@@ -56,21 +57,25 @@ bool leave_empty(BakeJob& job, const BakePart& part) {
     return job.skipped[part.index] != 0;
 }
 
-std::vector<Index> kept_materials(const BakePart& part) {
+// By face of the result: the material of a face of the source.
+std::vector<Index> materials_of(const BakePart& part, const std::vector<Index>& faces) {
     std::vector<Index> result;
-    for (Index f : part.simplified->history.kept_faces) result.push_back(face_material(*part.source, f));
+    for (Index f : faces) result.push_back(face_material(*part.source, f));
     return result;
+}
+
+std::vector<Index> kept_materials(const BakePart& part) {
+    return materials_of(part, part.simplified->history.kept_faces);
 }
 
 // Tangents of the faces whose material has a normal map. Tangents stored in a file are assumed to be computed
 // from the UVs without the texture transform; viewers compute missing ones from the transformed UVs.
 std::vector<Vec4f> kept_tangents(const BakeJob& job, const BakePart& part,
+                                 const std::vector<Index>& materials,
                                  const std::vector<std::vector<Vec2f>>& uvs) {
     std::vector<Vec4f> result;
     std::map<Index, std::vector<Index>> faces_of;
-    for (Index f = 0; f < part.faces(); ++f) {
-        faces_of[face_material(*part.source, part.simplified->history.kept_faces[f])].push_back(f);
-    }
+    for (Index f = 0; f < part.faces(); ++f) faces_of[materials[f]].push_back(f);
     for (const auto& [material, faces] : faces_of) {
         const TextureRef* texture_ref = tangent_texture(material_or_default(job.source, material));
         if (!texture_ref || texture_ref->uv_set >= uvs.size()) continue;
@@ -117,30 +122,41 @@ void bake_vertex(BakeJob& job) {
 void bake_keep(BakeJob& job) {
     job.result.asset.materials = job.source.materials;
     job.result.asset.images = job.source.images;
+    std::uint64_t crossing_faces = 0;
     for (const BakePart& part : job.parts) {
         job.cancellation_check().now();
         if (leave_empty(job, part)) continue;
         const std::size_t sets = part.source->uvs.size();
         const bool colors = !part.source->colors.empty();
         const std::size_t width = 2 * sets + (colors ? 4 : 0), corners = 3 * part.faces();
-        const CornerAttributes& from = part.simplified->mesh.attributes;
-        if (from.values.size() != corners * width) {
+        const std::vector<float>& own = part.simplified->mesh.attributes.values;
+        const bool has_own = own.size() == corners * width;
+        if (!has_own && !job.is_late) {
             throw InputError(
                 "", part_title(job.source, part.index),
                 "the simplified mesh must have the source's UVs and vertex colours as attributes, which "
                 "simplify_parts() transfers if bake.kind is Bake::keep");
         }
+        const TransferredCorners transferred =
+            has_own ? TransferredCorners{} : transfer_corners(part, job.workers());
+        crossing_faces += transferred.crossing_faces;
+        const std::vector<float>& from = has_own ? own : transferred.values;
+        std::vector<Index> materials = has_own ? kept_materials(part) : materials_of(part, transferred.faces);
         CornerValues values{job.normals[part.index].normals, std::vector<std::vector<Vec2f>>(sets), {}};
         for (std::size_t c = 0; c < corners; ++c) {
-            const float* corner = from.values.data() + c * width;
+            const float* corner = from.data() + c * width;
             for (std::size_t s = 0; s < sets; ++s)
                 values.uvs[s].push_back({corner[2 * s], corner[2 * s + 1]});
             if (!colors) continue;
             corner += 2 * sets;
             values.colors.push_back({corner[0], corner[1], corner[2], corner[3]});
         }
-        values.tangents = kept_tangents(job, part, values.uvs);
-        finish_part(job, part, values, kept_materials(part));
+        values.tangents = kept_tangents(job, part, materials, values.uvs);
+        finish_part(job, part, values, std::move(materials));
+    }
+    if (crossing_faces > 0) {
+        job.warn(std::to_string(crossing_faces) +
+                 " faces cross borders of the source's UV charts: the image is stretched there");
     }
 }
 

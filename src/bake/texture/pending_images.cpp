@@ -17,6 +17,7 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, Cancel
                                     smallest.encoded.size() >= pending.original->encoded.size();
         return keeps_original ? *pending.original : std::move(smallest);
     }
+    if (bake.image_format == ImageFormat::source && pending.original) return *pending.original;
     const bool is_jpeg =
         bake.image_format == ImageFormat::source ? pending.was_jpeg : bake.image_format == ImageFormat::jpeg;
     return is_jpeg && !pixels.has_alpha

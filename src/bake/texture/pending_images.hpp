@@ -28,7 +28,8 @@ struct PendingImage {
     bool was_jpeg = false;    ///< whether ImageFormat::source means JPEG
     bool is_new_map = false;  ///< a normal map of a material without one in the source
     bool tries_webp = false;  ///< whether ImageFormat::automatic tries WebP
-    /// The image of the source, if the pixels are its own: ImageFormat::automatic takes it if it is not larger.
+    /// The image of the source, if the pixels are its own: ImageFormat::automatic takes it if it is not larger,
+    /// ImageFormat::source in any case.
     std::optional<Image> original = {};
 };
 

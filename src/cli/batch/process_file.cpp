@@ -17,6 +17,7 @@
 #include "cli/simplify_model.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -65,8 +66,9 @@ Result cancelled_result() { return {exit_cancelled, "cancelled", "cancelled", 0,
 
 Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchEntry entry,
                          Overwrite overwrite) {
+    const detail::Deadline deadline = detail::deadline_of(work.options);
     Asset source = load_model(file.in, work.strictness);
-    Options options = work.options;
+    Options options = detail::with_time_left(work.options, deadline);
     const SizeRule rule = {file.out, input_bytes(file.in),
                            larger_result(work.options.bake, work.allow_larger)};
     options.bake = resolve_automatic_bake(options.bake, source, file.out);

@@ -44,7 +44,8 @@ CommandTree command_tree() {
     tree.exit_codes =
         "Exit codes: 0 success, 1 internal error, 2 usage, 3 bad input, 4 unsupported input,\n"
         "5 target missed (with --strict-target), 6 --max-error exceeded, 7 cannot write, 8 cancelled,\n"
-        "9 not all models of a batch are done, 10 --max-bytes exceeded, 11 not enough memory.";
+        "9 not all models of a batch are done, 10 --max-bytes exceeded, 11 not enough memory,\n"
+        "12 --max-seconds was over before there was a result.";
     tree.options = {
         help_option,
         {{"--version"}, "", "Display program version information and exit", detail::OptionKind::flag}};

@@ -27,6 +27,7 @@
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report_json.hpp"
 
@@ -166,6 +167,7 @@ std::optional<ByteBudget> byte_budget(const SimplifyCommandArguments& arguments)
 
 int run(const SimplifyCommandArguments& arguments) {
     Options options = make_options(arguments.options);
+    const detail::Deadline deadline = detail::deadline_of(options);
     if (!arguments.history.empty()) options.history = Recording::on;
     if (!arguments.correspondence.empty()) {
         if (!makes_atlas(options.bake.kind))
@@ -193,6 +195,7 @@ int run(const SimplifyCommandArguments& arguments) {
                                larger_result(options.bake, arguments.allow_larger)};
         options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
         require_memory(arguments.in, estimated_peak_memory(source, options), allowed);
+        options = detail::with_time_left(options, deadline);
         simplified = simplify_model(source, arguments.in, options, rule, byte_budget(arguments));
         simplified.report.seconds.load = seconds.load;
         simplified.report.bytes_in = rule.bytes_in;

@@ -11,7 +11,7 @@ from ._library import version as _version
 from ._levels import History, simplify_levels
 from ._model import Model, Part, bake, bake_truncated, bake_levels, load, save, save_levels
 from ._simplify import Simplified, simplify
-from .errors import Error, InputError, InternalError, OptionError, UnsupportedError, WriteError
+from .errors import Error, InputError, InternalError, OptionError, TimeLimitError, UnsupportedError, WriteError
 
 __version__ = _version()
 
@@ -24,6 +24,7 @@ __all__ = [
     "OptionError",
     "Part",
     "Simplified",
+    "TimeLimitError",
     "UnsupportedError",
     "WriteError",
     "bake",

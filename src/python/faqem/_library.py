@@ -127,6 +127,7 @@ _exceptions = {
     7: errors.WriteError,
     8: errors.Error,  # cancelled by an exception in the progress callback, which Options.run() raises instead
     11: MemoryError,
+    12: errors.TimeLimitError,
 }
 
 

@@ -21,5 +21,9 @@ class WriteError(Error, OSError):
     """A file could not be written. An existing file is unchanged."""
 
 
+class TimeLimitError(Error):
+    """max_seconds was over before there was a result that the options allow."""
+
+
 class InternalError(Error):
     """A defect in faqem."""

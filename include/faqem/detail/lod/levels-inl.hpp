@@ -54,6 +54,7 @@ FAQEM_INLINE std::vector<detail::LevelTarget> detail::level_targets(const std::v
                                                                     double diagonal) {
     if (options.target.kind != Target::Kind::unset || options.max_error)
         throw OptionError("target and max_error must be unset; set them per level");
+    if (options.max_seconds) throw OptionError("max_seconds must be unset: levels have no time limit");
     std::vector<LevelTarget> level_targets;
     LevelTarget last{std::numeric_limits<std::uint64_t>::max(), 0};
     for (std::size_t i = 0; i < levels.size(); ++i) {

@@ -27,7 +27,7 @@ struct LevelTarget {
 
 /// Checks the levels and converts ratios to face counts and all distances to model units.
 /// \param levels    from fine to coarse
-/// \param options   target and max_error must be unset
+/// \param options   target, max_error and max_seconds must be unset
 /// \param faces     number of faces of the original
 /// \param diagonal  bounding box diagonal of the original, model units
 /// \throws OptionError  see simplify_levels()

@@ -71,6 +71,14 @@ inline constexpr OptionRow geometry_rows[] = {
          .help = "Maximum distance from the original, in model units or with % of the diagonal. Finds the "
                  "smallest mesh within it; with --ratio or --faces the distance is only checked",
          .entry_points = in_simplify_and_batch}),
+    option_row<&Options::max_seconds>(
+        {.name = "max-seconds",
+         .range = {.excludes_min = true},
+         .value_name = "S",
+         .help =
+             "Stop after this time: the collapses end above the target, and images that are not baked yet "
+             "are kept. Results then depend on the machine",
+         .entry_points = in_simplify_and_batch}),
     option_row<&Options::preset>({.name = "preset",
                                   .choices = "qem|paper|stmw|fast|balanced|best",
                                   .help = "Metric and rules",

@@ -372,7 +372,7 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
     std::vector<BlockResult> results(input.block_count());
     parallel_blocks(
         results.size(), 1, workers, [&](std::size_t b, std::size_t, CancellationCheck check_cancelled) {
-            if (progress.is_cancelled()) return;
+            if (progress.is_cancelled() || engine::is_over(loop.deadline)) return;
             Block block(input, b, block_faces[b]);
             const auto simplify = [&](auto metric) {
                 return simplify_block(block, std::move(metric), loop, share, patches, progress,

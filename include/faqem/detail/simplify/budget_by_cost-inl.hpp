@@ -30,7 +30,7 @@ FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const C
     std::vector<std::uint64_t> share;
     std::uint64_t sum = 0;
     for (std::size_t m = 0; m < curves.size(); ++m) {
-        const auto& [steps, min_faces, diagonal, is_complete] = curves[m];
+        const auto& [steps, min_faces, diagonal, stop] = curves[m];
         const double relative = largest > 0 ? size[m] / largest : 0;
         const double unit = relative * relative * relative * relative;
         share.push_back(steps.empty() ? min_faces : steps.front().faces);

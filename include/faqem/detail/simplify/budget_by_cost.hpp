@@ -9,6 +9,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/option_types.hpp"
+#include "faqem/report.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -24,7 +25,8 @@ struct CostCurve {
     std::vector<Step> steps;      ///< face counts descend, costs ascend
     std::uint64_t min_faces = 0;  ///< number of faces after the last step
     double diagonal = 0;          ///< bounding-box diagonal of the mesh, model units
-    bool is_complete = true;      ///< false if the progress callback cancelled
+    /// The curve is incomplete if this is `cancelled` or `reached_time_limit`.
+    StopReason stop = StopReason::no_legal_collapse;
 };
 
 /// Simplifies a copy of the mesh with preset fast as far as its locks and seams permit, and records the

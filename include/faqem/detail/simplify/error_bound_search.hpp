@@ -12,6 +12,7 @@
 
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/detail/simplify/face_count_search.hpp"
@@ -88,9 +89,14 @@ class MeasurementMonitor {
 public:
     /// \param options   must outlive this object
     /// \param fraction  of Phase::simplify, in [0, 1]: passed to the callback
-    MeasurementMonitor(const Options& options, double fraction)
-        : monitor_([&options, fraction] { return options.progress(Phase::simplify, fraction); }),
-          check_cancelled_(options.progress ? CancellationCheck(monitor_) : CancellationCheck()) {}
+    /// \param deadline  when the measurement is stopped
+    MeasurementMonitor(const Options& options, double fraction, Deadline deadline = no_deadline)
+        : monitor_([&options, fraction] {
+              return options.progress ? options.progress(Phase::simplify, fraction) : Continue::yes;
+          }) {
+        monitor_.set_deadline(deadline);
+        if (options.progress || deadline != no_deadline) check_cancelled_ = CancellationCheck(monitor_);
+    }
 
     CancellationCheck cancellation_check() const { return check_cancelled_; }
 
@@ -155,6 +161,10 @@ public:
         error_.bound = distance_.bound;
         best->report.max_error = error_;
         if (is_searching_) report_search(best->report, undecided_count_);
+        if (is_late_) {
+            best->report.stop = StopReason::reached_time_limit;
+            best->report.warnings.push_back("max_seconds was over before the search was complete");
+        }
         best->report.seconds.simplify = best->report.seconds.total = watch.seconds();
         return std::move(*best);
     }
@@ -162,13 +172,16 @@ public:
 private:
     static bool is_cancelled(const Result& result) { return result.report.stop == StopReason::cancelled; }
 
-    // The smallest result within the error; nothing if there is none, or the result that was cancelled.
+    // The smallest result within the error that was found in time; nothing if there is none, or the result that was
+    // cancelled.
     std::optional<Result> search() {
         std::optional<Result> best;
         FaceCountSearch search(faces_, error_.allowed);
         while (const auto target = search.next()) {
             Result result = attempt(faqem::faces(*target), MeasureMode::decide_only);
             if (is_cancelled(result)) return result;
+            is_late_ = result.report.stop == StopReason::reached_time_limit;
+            if (is_late_) break;
             const std::uint64_t count = result.report.faces_out;
             const bool within = distance_.within(error_.allowed);
             search.add_result(count, distance_.value, within);
@@ -180,7 +193,7 @@ private:
     // One run and its measurement.
     Result attempt(const Target& target, MeasureMode mode) {
         run_options_.target = target;
-        Result result = run_(std::as_const(run_options_));
+        Result result = run_(with_time_left(run_options_, deadline_));
         if (is_cancelled(result) || !measure(result, mode)) return result;
         undecided_count_ += distance_.undecided_count;
         cancel_if_requested(result, progress_at(1));
@@ -188,14 +201,16 @@ private:
         return result;
     }
 
-    // Returns false if the measurement was cancelled.
+    // Returns false if the measurement was cancelled or, during the search, the time is over. The distance of the
+    // final result is measured in any case.
     bool measure(Result& result, MeasureMode mode) {
         try {
-            const MeasurementMonitor monitor(options_, progress_at(0.5));
+            const MeasurementMonitor monitor(options_, progress_at(0.5),
+                                             mode == MeasureMode::full ? no_deadline : deadline_);
             distance_ = measure_(std::as_const(result), mode, monitor.cancellation_check());
             return true;
-        } catch (const engine::Cancelled&) {
-            result.report.stop = StopReason::cancelled;
+        } catch (const engine::Cancelled& stopped) {
+            result.report.stop = stopped.reason;
             return false;
         }
     }
@@ -220,6 +235,8 @@ private:
     MeasuredError error_;
     MeasuredDistance distance_;  // of the last result that was measured
     std::uint64_t undecided_count_ = 0;
+    Deadline deadline_ = deadline_of(options_);
+    bool is_late_ = false;  // the search ended early
 };
 
 /// Simplifies and measures: once if the options have a target, otherwise with the targets of FaceCountSearch.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
@@ -27,6 +28,9 @@ public:
     Run(const MeshView& mesh, const Options& options)
         : mesh_(mesh), options_(options), settings_(settings(options)) {
         if (options_.progress) check_cancelled_ = CancellationCheck(monitor_);
+        loop_.deadline = deadline_of(options);
+        timed_monitor_.set_deadline(loop_.deadline);
+        check_time_ = loop_.deadline == no_deadline ? check_cancelled_ : CancellationCheck(timed_monitor_);
     }
     Run(const Run&) = delete;
 
@@ -58,9 +62,9 @@ public:
             const engine::LoopResult loop_result =
                 collapse(work, recorder, [](const engine::LoopResult&) { return false; });
             return {std::move(steps), work.collapse_mesh.face_count(), settings_.diagonal / prepared_.scale,
-                    loop_result.stop != StopReason::cancelled};
-        } catch (const engine::Cancelled&) {
-            return {{}, 0, 0, false};
+                    loop_result.stop};
+        } catch (const engine::Cancelled& stopped) {
+            return {{}, 0, 0, stopped.reason};
         }
     }
 
@@ -143,7 +147,7 @@ private:
 
     bool reduce_in_blocks(std::size_t least, const BlockTracking* tracking) {
         const std::size_t faces = state_.mesh().triangles.size();
-        if (faces <= least) return true;
+        if (faces <= least || engine::is_over(loop_.deadline)) return true;
         engine::LoopOptions loop = loop_;
         const double share = (1 - done_in_blocks_) * static_cast<double>(faces - least) /
                              static_cast<double>(faces - loop.target_faces);
@@ -213,7 +217,7 @@ private:
             work.curves = engine::FeatureCurves(collapse_mesh, work.groups);
         }
         work.importance = vertex_importance(mesh_, prepared_, state_.mesh());
-        return run_engine(work, pairs, settings_, recorder, loop_, state_, check_cancelled_, should_continue);
+        return run_engine(work, pairs, settings_, recorder, loop_, state_, check_time_, should_continue);
     }
 
     // If the mesh may be split into blocks, each target has its own engine, which uses the right distance
@@ -255,7 +259,6 @@ private:
         result.report = totals_;
         add_counts(loop_result, result.report);
         result.report.stop = loop_result.stop;
-        const bool is_cancelled = loop_result.stop == StopReason::cancelled;
         const std::vector<Index> slots =
             build_result(mesh_, prepared_, state_.mesh(), work.collapse_mesh, work.wedges,
                          state_.source_vertices_of(trace.source_slots()), result);
@@ -269,9 +272,7 @@ private:
                            is_last ? std::move(prepared_.positions) : prepared_.positions,
                            is_last ? std::move(prepared_.triangles) : prepared_.triangles, result);
         }
-        // Without a collapse the mesh equals the original.
-        if (settings_.fit_vertices && !is_cancelled && result.report.collapses > 0)
-            fit_result(state_, prepared_, settings_.min_normal_cosine, work, slots, workers(), result);
+        if (settings_.fit_vertices) fit(work, slots, result);
         finish_report(options_, settings_, prepared_, result);
         result.report.seconds.simplify = result.report.seconds.total = stopwatch_.seconds();
         stopwatch_ = {};
@@ -279,12 +280,29 @@ private:
         results_.push_back(std::move(result));
     }
 
+    // Fits the vertices, unless the run was stopped or the time is over. Without a collapse the mesh equals the
+    // original.
+    void fit(const EngineInput& work, const std::vector<Index>& slots, SimplifyResult& result) try {
+        Report& report = result.report;
+        if (report.stop == StopReason::cancelled || report.stop == StopReason::reached_time_limit) return;
+        if (report.collapses == 0) return;
+        fit_result(state_, prepared_, settings_.min_normal_cosine, work, slots,
+                   {options_.threads, check_time_}, result);
+    } catch (const engine::Cancelled& stopped) {
+        if (stopped.reason == StopReason::cancelled) throw;
+        result.report.warnings.push_back("max_seconds was over before the vertices were fitted");
+    }
+
+    Continue ask() const { return options_.progress ? options_.progress(phase_, fraction_) : Continue::yes; }
+
     const MeshView& mesh_;
     const Options& options_;
     Phase phase_ = Phase::weld;
     double fraction_ = 0;  // of the phase, as last reported
-    engine::ProgressMonitor monitor_{[this] { return options_.progress(phase_, fraction_); }};
+    // The time limit does not stop steps without which there is no result.
+    engine::ProgressMonitor monitor_{[this] { return ask(); }}, timed_monitor_{[this] { return ask(); }};
     CancellationCheck check_cancelled_;  // does nothing without a callback
+    CancellationCheck check_time_;       // with the time limit as well
     Settings settings_;
     PreprocessedMesh prepared_;
     RunState state_;
