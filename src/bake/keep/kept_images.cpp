@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/gltf/source_document.hpp"
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "bake/keep/uv_texels.hpp"
@@ -81,6 +82,15 @@ std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> p
     return result;
 }
 
+// Whether animations may move textures, so that other texels are shown than those of the UVs.
+bool may_move_textures(const Asset& source) {
+    if (!source.source) return false;
+    const Json& document = source.source->document;
+    const auto used = document.find("extensionsUsed");
+    return used != document.end() &&
+           std::find(used->begin(), used->end(), "KHR_animation_pointer") != used->end();
+}
+
 // By texel of an image: whether a part shows it.
 std::vector<std::uint8_t> texels_of_parts(const Asset& asset, std::span<const KeptPart> parts, Index image,
                                           const Pixels& pixels) {
@@ -146,7 +156,9 @@ PendingImage kept_image(const BakeJob& job, std::span<const KeptPart> parts, Ind
     if (!exceeds(result.pixels, use, texture_size)) result.original = image;
     while (exceeds(result.pixels, use, texture_size)) result.pixels = halved(result.pixels);
     result.known = std::make_shared<const std::vector<std::uint8_t>>(
-        texels_of_parts(job.result.asset, parts, index, result.pixels));
+        may_move_textures(job.source)
+            ? std::vector<std::uint8_t>(std::size_t{result.pixels.width} * result.pixels.height, 1)
+            : texels_of_parts(job.result.asset, parts, index, result.pixels));
     return result;
 }
 

@@ -175,6 +175,17 @@ void accept(BakeJob& job, const SimplifiedParts& simplified, Index part) {
     job.skipped[part] = 1;
 }
 
+// Whether a part of a set shows single texels, without filter: a new page would blur them.
+bool shows_single_texels(const Asset& asset, const std::vector<Index>& set) {
+    return std::any_of(set.begin(), set.end(), [&](Index p) {
+        const std::vector<Index>& materials = asset.parts[p].face_material;
+        return std::any_of(materials.begin(), materials.end(), [&](Index m) {
+            const TextureRef& texture = material_or_default(asset, m).base_color_texture;
+            return texture && texture.filter == Filter::nearest;
+        });
+    });
+}
+
 // Compares pictures of the sets, and accepts those that are as good with UVs.
 // \param kept      the job that kept the UVs of all sets
 // \return the accepted parts
@@ -190,7 +201,7 @@ std::vector<Index> good_parts(BakeJob& job, const BakeJob& kept,
     const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
     std::vector<Index> result;
     for (const std::vector<Index>& set : sets) {
-        if (is_as_good(compare_pictures(scenes, set, size)))
+        if (shows_single_texels(job.source, set) || is_as_good(compare_pictures(scenes, set, size)))
             result.insert(result.end(), set.begin(), set.end());
     }
     return result;

@@ -107,9 +107,9 @@ std::vector<std::vector<Vec2f>> corner_uvs(const BakeJob& job, const std::vector
     return result;
 }
 
-// Pages whose texel density is a smaller fraction of the source's cause a warning. The usual reason is a
-// tiled texture that does not fit on a page.
-constexpr double min_relative_density = 0.2;
+// Pages whose texel density is a smaller fraction of the source's cause a warning. The usual reasons are a
+// tiled texture that does not fit on a page, and many textures on one page.
+constexpr double min_relative_density = 0.5;
 
 // Texel density of the page divided by that of the source, both root mean squares over the simplified
 // surface.

@@ -42,7 +42,7 @@ public:
         const BakeOptions& bake = job_.options.bake;
         const bool may_shrink = !bake.texel_density && bake.correspondence == Recording::off;
         job_.pending.push_back({ref.image, std::move(pixels), std::move(known), name_ + suffix, content,
-                                may_shrink, is_from_jpeg(from), from.empty()});
+                                may_shrink, is_from_jpeg(from), false, job_.tries_webp()});
         return ref;
     }
 

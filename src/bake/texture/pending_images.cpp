@@ -9,7 +9,10 @@ namespace {
 
 Image encoded_image(const PendingImage& pending, const BakeOptions& bake, CancellationCheck check_cancelled) {
     const Pixels& pixels = pending.pixels;
-    if (bake.image_format == ImageFormat::automatic) {
+    if (has_image_quality(bake.image_format)) {
+        const bool is_webp = bake.image_format == ImageFormat::webp;
+        const ImageLimits limits{least_psnr(bake, pending.content), pending.may_shrink, !is_webp,
+                                 is_webp || pending.tries_webp};
         Image smallest =
             encode_smallest(pixels, *pending.known, pending.name, pending.content, limits, check_cancelled);
         const bool keeps_original = pending.original &&

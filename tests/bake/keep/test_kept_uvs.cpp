@@ -102,6 +102,17 @@ TEST_CASE("kept UVs: parts that share an image keep it together or not at all") 
           result.report.faces_out);
 }
 
+TEST_CASE("kept UVs: textures without filter stay whole, whatever the pictures") {
+    Asset asset = textured_square(weave(64));
+    asset.parts = {tiled_sheet(24, 1)};
+    for (Vec2f& uv : asset.parts[0].uvs[0]) uv[0] = uv[0] * uv[0];  // does not survive the simplification well
+    asset.materials[0].base_color_texture.filter = Filter::nearest;
+    const SimplifiedAsset result = simplify(asset, tenth());
+    CHECK(result.report.kept_uvs.size() == 1);
+    CHECK(result.asset.materials[0].base_color_texture.filter == Filter::nearest);
+    CHECK(decode(result.asset.images.at(0)).width == 64);
+}
+
 TEST_CASE("kept UVs: none are tried when an option is about the atlas or the collapses") {
     const Asset asset = tiled_cloth();
     const auto kept = [&](Options options) { return simplify_parts(asset, options).kept.size(); };
