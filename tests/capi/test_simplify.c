@@ -134,7 +134,7 @@ static void groups_locks_and_weights_are_used(void) {
     mesh.vertex_locks = locks;
     mesh.vertex_weights = weights;
     faqem_options* options = faqem_options_create();
-    faqem_options_set(options, "boundary", "kept", NULL);
+    faqem_options_set(options, "boundary", "locked", NULL);
     faqem_result* result = NULL;
     CHECK(faqem_simplify(&mesh, options, &result, NULL) == FAQEM_OK);
     CHECK(faqem_result_face_count(result) == 128);  // all vertices are locked

@@ -124,7 +124,7 @@ class Arrays(unittest.TestCase):
         for preset in ("qem", "paper", "stmw", "fast", "balanced", "best"):
             out = faqem.simplify(vertices, triangles, preset=preset, threads=1)
             self.assertEqual(out.report["preset"], preset)
-        out = faqem.simplify(vertices, triangles, link="strict", boundary="kept", group_boundaries="kept",
+        out = faqem.simplify(vertices, triangles, link="strict", boundary="locked", group_boundaries="kept",
                              weld_distance=1e-9, virtual_edges=0.01, prune="1%")
         self.assertEqual(len(out.triangles), 38)  # a triangulation of the polygon with the 40 boundary vertices
 
@@ -158,7 +158,7 @@ class Arrays(unittest.TestCase):
         self.assertIn("w_area", names)
         for name in names:
             faqem.simplify(vertices, triangles, **{name: None})
-        faqem.simplify(vertices, triangles, link="as_preset", boundary="kept", w_area=100, virtual_edges=True,
+        faqem.simplify(vertices, triangles, link="as_preset", boundary="locked", w_area=100, virtual_edges=True,
                        bake="automatic", weld_distance=0, max_error="5%", threads=numpy.uint8(1))
 
     def test_invalid_arrays_are_rejected_by_name(self):

@@ -98,8 +98,8 @@ inline constexpr OptionRow geometry_rows[] = {
          .entry_points = in_all_but_truncate}),
     option_row<&Options::topology, &Topology::boundary>({.name = "boundary",
                                                          .command_name = "lock-boundary",
-                                                         .choices = "free|kept",
-                                                         .flag_value = "kept",
+                                                         .choices = "free|locked",
+                                                         .flag_value = "locked",
                                                          .help = "Do not move boundary vertices",
                                                          .entry_points = in_all_but_truncate}),
     option_row<&Options::topology, &Topology::group_boundaries>(
