@@ -85,7 +85,7 @@ struct ExpectedPages {
 };
 
 ExpectedPages expected_pages(const BakeJob& job, const SourceSampler& sampler) {
-    const MaterialGroups groups = group_materials(job.source, Bake::per_triangle, job.skipped);
+    const MaterialGroups groups = group_materials(job.source, job.options.bake, job.skipped);
     std::vector<std::vector<PageFace>> faces(groups.groups.size());
     std::vector<double> needed(groups.groups.size(), 0);  // texels
     std::vector<double> area(job.parts.size(), 0), texels(job.parts.size(), 0);

@@ -79,7 +79,7 @@ public:
     PartsRun(const Asset& source, const Options& options) : source_(source), options_(options) {
         const Bake kind = options.bake.kind;
         const bool merged = kind != Bake::keep && kind != Bake::none;
-        if (merged) groups_ = detail::group_materials(source, options.bake.kind);
+        if (merged) groups_ = detail::group_materials(source, options.bake);
         if (options.topology.prune)
             size_ = detail::scene_size(source);
         else
@@ -278,7 +278,9 @@ SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
     for (const Part& part : source.parts) faces += part.triangles.size();
     const std::uint64_t target = detail::target_face_count(options.target, static_cast<double>(faces));
     const detail::Deadline deadline = detail::deadline_of(options);
-    const bool tries_uvs = detail::may_keep_uvs(options) && has_appearance(source) && target < faces;
+    // Plain materials are kept anyway.
+    const bool tries_uvs = detail::may_keep_uvs(options) && has_appearance(source) &&
+                           !detail::has_plain_materials(source, options.bake) && target < faces;
     const Options own = detail::step_options(options, Phase::simplify, 0, tries_uvs ? 0.5 : 1);
     SimplifiedParts result = std::move(detail::simplify_parts_to_targets(source, {&target, 1}, own).front());
     if (tries_uvs && result.report.stop != StopReason::cancelled && !engine::is_over(deadline))

@@ -204,7 +204,7 @@ void remove_unused_uvs(const BakeJob& job, const std::vector<GroupPage>& pages,
 }  // namespace
 
 bool bake_pages(BakeJob& job) {
-    const MaterialGroups groups = group_materials(job.source, Bake::per_triangle, job.skipped);
+    const MaterialGroups groups = group_materials(job.source, job.options.bake, job.skipped);
     std::vector<GroupPage> pages = group_pages(job, groups);
     Channels wanted;
     for (const GroupPage& page : pages) wanted = wanted | page.channels;

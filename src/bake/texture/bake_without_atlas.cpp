@@ -95,7 +95,9 @@ std::vector<Vec4f> kept_tangents(const BakeJob& job, const BakePart& part,
 }  // namespace
 
 void bake_vertex(BakeJob& job) {
-    const MaterialGroups groups = group_materials(job.source, Bake::vertex, job.skipped);
+    BakeOptions bake = job.options.bake;
+    bake.kind = Bake::vertex;  // also if an atlas was requested, but has too few texels
+    const MaterialGroups groups = group_materials(job.source, bake, job.skipped);
     Channels wanted;
     wanted.base = true;
     const SourceSampler sampler(job.source, wanted, job.workers(), job.skipped);

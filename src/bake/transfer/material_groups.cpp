@@ -2,8 +2,15 @@
 
 #include <algorithm>
 
+#include "asset/scene/material_textures.hpp"
+
 namespace faqem::detail {
 namespace {
+
+bool has_equal_factors(const Material& a, const Material& b) {
+    return a.base_color == b.base_color && a.metallic == b.metallic && a.roughness == b.roughness &&
+           a.emissive == b.emissive;
+}
 
 bool can_merge(const Material& a, const Material& b, Bake kind) {
     if (!a.extensions.empty() || !b.extensions.empty()) return false;
@@ -16,6 +23,16 @@ bool can_merge(const Material& a, const Material& b, Bake kind) {
 }
 
 }  // namespace
+
+bool has_plain_materials(const Asset& asset, const BakeOptions& bake) {
+    if (bake.kind != Bake::automatic || bake.normal_map == NormalMap::on ||
+        bake.correspondence == Recording::on)
+        return false;
+    return std::none_of(asset.materials.begin(), asset.materials.end(),
+                        [](const Material& material) { return has_textures(material); }) &&
+           std::none_of(asset.parts.begin(), asset.parts.end(),
+                        [](const Part& part) { return !part.colors.empty(); });
+}
 
 const Material& material_or_default(const Asset& asset, Index material) {
     static const Material standard;
@@ -34,7 +51,9 @@ std::vector<bool> used_materials(const Asset& asset, std::span<const std::uint8_
     return used;
 }
 
-MaterialGroups group_materials(const Asset& asset, Bake kind, std::span<const std::uint8_t> skipped_parts) {
+MaterialGroups group_materials(const Asset& asset, const BakeOptions& bake,
+                               std::span<const std::uint8_t> skipped_parts) {
+    const bool is_plain = has_plain_materials(asset, bake);
     const std::size_t count = asset.materials.size();
     const std::vector<bool> used = used_materials(asset, skipped_parts);
     MaterialGroups result;
@@ -44,7 +63,10 @@ MaterialGroups group_materials(const Asset& asset, Bake kind, std::span<const st
         const Index index = m == count ? no_index : static_cast<Index>(m);
         const Material& material = material_or_default(asset, index);
         std::size_t g = 0;
-        while (g < result.groups.size() && !can_merge(result.groups[g].material, material, kind)) ++g;
+        const auto fits = [&](const Material& first) {
+            return can_merge(first, material, bake.kind) && (!is_plain || has_equal_factors(first, material));
+        };
+        while (g < result.groups.size() && !fits(result.groups[g].material)) ++g;
         if (g == result.groups.size()) result.groups.push_back({material, {}});
         result.groups[g].materials.push_back(index);
         result.group_of_material[m] = static_cast<Index>(g);

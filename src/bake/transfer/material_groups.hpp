@@ -8,7 +8,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
-#include "faqem/option_types.hpp"
+#include "faqem/options.hpp"
 
 namespace faqem::detail {
 
@@ -44,13 +44,18 @@ inline Index face_material(const Part& part, std::size_t face) {
 /// \param skipped_parts  by part: whether its faces are ignored; empty: none are
 std::vector<bool> used_materials(const Asset& asset, std::span<const std::uint8_t> skipped_parts = {});
 
+/// Whether all materials show one colour each, without textures and vertex colours, and `bake` requests neither an atlas
+/// nor anything else that a page would hold, such as a normal map. Then no page is baked, and materials with
+/// different factors are not merged. O(materials + parts)
+FAQEM_EXPORT bool has_plain_materials(const Asset& asset, const BakeOptions& bake);
+
 /// Groups the materials of an asset. Materials are merged if they agree in alpha mode (and cutoff), in
 /// double-sidedness and in being unlit. A material with other extensions is a group of its own, since
 /// extensions cannot be merged. With Bake::vertex, which bakes the base colour only, the other factors must
-/// agree too.
+/// agree too. They must agree also if has_plain_materials().
 /// \param skipped_parts  as in used_materials()
 /// Complexity: O(faces + materials^2).
-FAQEM_EXPORT MaterialGroups group_materials(const Asset& asset, Bake kind,
+FAQEM_EXPORT MaterialGroups group_materials(const Asset& asset, const BakeOptions& bake,
                                             std::span<const std::uint8_t> skipped_parts = {});
 
 }  // namespace faqem::detail

@@ -84,7 +84,9 @@ double page_bytes(const Asset& asset, const BakeOptions& bake) {
     const double texels = static_cast<double>(bake.texture_size) * bake.texture_size;
     const double held =
         page_bytes_per_texel + (bake.correspondence == Recording::on ? correspondence_bytes_per_texel : 0);
-    const auto pages = static_cast<double>(detail::group_materials(asset, bake.kind).groups.size());
+    const auto pages = detail::has_plain_materials(asset, bake)
+                           ? 0.0
+                           : static_cast<double>(detail::group_materials(asset, bake).groups.size());
     std::size_t layers = 0;
     for (const Material& material : asset.materials)
         layers = std::max(layers, material.extension_textures.size());
