@@ -110,6 +110,10 @@ struct Part {
     std::vector<std::array<std::uint16_t, 4>> joints;  ///< empty or V
     std::vector<Vec4f> weights;                        ///< joint weights, empty or V
     std::vector<MorphTarget> morph_targets;
+    /// The objects that a file divides the part into. They are simplified as one mesh, so that edges which they share
+    /// stay closed; save() writes a mesh or object for each of them in formats that have these.
+    std::vector<Index> face_object;         ///< empty or F, indices into object_names; no_index: the part itself
+    std::vector<std::string> object_names;  ///< names of the objects
     /// Mesh of the source document whose name, extras, points and lines are written too; no_index: none.
     Index source = no_index;
     /// bake() sets FileOrder::for_gpu for parts that lost faces. Their arrays are in the order of the history.

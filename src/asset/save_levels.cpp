@@ -1,11 +1,13 @@
 #include "faqem/save_levels.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "asset/file_format.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "asset/scene/objects.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -56,6 +58,16 @@ void append_level(Asset& to, Asset&& level) {
     }
 }
 
+/// Makes a part of each object of a level.
+void divide_into_objects(SavedLevel& level) {
+    std::optional<detail::DividedAsset> divided = detail::divided_into_objects(level.asset);
+    if (!divided) return;
+    std::vector<double> coverage;
+    for (const std::size_t part : divided->part) coverage.push_back(level.coverage[part]);
+    level.asset = std::move(divided->asset);
+    level.coverage = std::move(coverage);
+}
+
 /// Values of MSFT_screencoverage for one part, one per level: the coverage below which the next level is
 /// used, non-increasing and at most 1. The last value is 0.
 std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size_t part) {
@@ -78,6 +90,8 @@ std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::p
         throw UnsupportedError(file.string(), "",
                                "cannot hold levels: the name must end in " +
                                    detail::listed_extensions(detail::FormatUse::write_levels));
+    check_levels(levels);
+    for (SavedLevel& level : levels) divide_into_objects(level);
     check_levels(levels);
     const std::size_t parts = levels[0].asset.parts.size();
     detail::LeveledAsset leveled;

@@ -38,7 +38,8 @@ struct ObjStatements {
     std::vector<Index> face_material;  // indices into material_names
     std::vector<std::string> material_names;
     std::vector<std::string> libraries;
-    std::string object;
+    std::vector<Index> face_object;  // indices into objects; no_index before the first one
+    std::vector<std::string> objects;
 };
 
 /// Parser of an OBJ file.
@@ -68,11 +69,11 @@ private:
         else if (key == "vn")
             normal();
         else if (key == "usemtl")
-            use_material(in_.rest_of_line());
+            material_ = number_of(in_.rest_of_line(), material_numbers_, out_.material_names);
         else if (key == "mtllib")
             out_.libraries.push_back(in_.rest_of_line());
         else if (key == "o")
-            name_object(in_.rest_of_line());
+            object_ = number_of(in_.rest_of_line(), object_numbers_, out_.objects);
         else if (key == "l" || key == "p")
             ++lines_and_points_;
         else if (key != "g" && key != "s" && unknown_++ == 0)
@@ -127,6 +128,7 @@ private:
             check_index_count(count, in_.file(), "line " + std::to_string(in_.line()) + ": corner");
         out_.sizes.push_back(static_cast<std::uint32_t>(count));
         out_.face_material.push_back(material_);
+        out_.face_object.push_back(object_);
     }
 
     /// Parses v, v/t, v//n or v/t/n. Some exporters write `v/` and `v/t/`, where the index after the last
@@ -177,15 +179,13 @@ private:
                 out_of_range(kind, highest_[kind].number, count_of(kind), highest_[kind].line);
     }
 
-    void use_material(const std::string& name) {
-        const auto [entry, is_new] =
-            material_indices_.try_emplace(name, static_cast<Index>(out_.material_names.size()));
-        if (is_new) out_.material_names.push_back(name);
-        material_ = entry->second;
-    }
+    using Numbers = std::map<std::string, Index>;
 
-    void name_object(const std::string& name) {
-        if (out_.object.empty()) out_.object = name;
+    /// Index of a name; new ones are appended.
+    static Index number_of(const std::string& name, Numbers& numbers, std::vector<std::string>& names) {
+        const auto [entry, is_new] = numbers.try_emplace(name, static_cast<Index>(names.size()));
+        if (is_new) names.push_back(name);
+        return entry->second;
     }
 
     void add_warnings() {
@@ -208,8 +208,8 @@ private:
     TextScanner in_;
     std::vector<std::string>& warnings_;
     ObjStatements out_;
-    std::map<std::string, Index> material_indices_;
-    Index material_ = no_index;
+    Numbers material_numbers_, object_numbers_;
+    Index material_ = no_index, object_ = no_index;
     std::array<ForwardReference, 3> highest_;  // largest forward reference of each kind
     std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0;
     std::string first_unknown_;
@@ -234,6 +234,26 @@ void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& co
         if (c[1] != no_index) part.uvs[0][v] = in.uvs[c[1]];
         if (c[2] != no_index) part.normals[v] = in.normals[c[2]];
     }
+}
+
+/// Adds the objects that have faces, in the order of their first faces, if there are several. Faces before the first
+/// object belong to one with the name of the file.
+void add_objects(Part& part, const ObjStatements& in, const std::vector<Index>& source_polygon,
+                 const std::string& stem) {
+    const auto slot = [&](Index object) { return std::min<std::size_t>(object, in.objects.size()); };
+    std::vector<Index> number(in.objects.size() + 1, no_index);
+    for (const Index p : source_polygon) {
+        const Index object = in.face_object[p];
+        if (number[slot(object)] != no_index) continue;
+        number[slot(object)] = static_cast<Index>(part.object_names.size());
+        part.object_names.push_back(object == no_index ? stem : in.objects[object]);
+    }
+    if (part.object_names.size() < 2) {
+        part.object_names.clear();
+        return;
+    }
+    part.face_object.reserve(source_polygon.size());
+    for (const Index p : source_polygon) part.face_object.push_back(number[slot(in.face_object[p])]);
 }
 
 /// Adds the used materials in the order of their first use by a face.
@@ -271,7 +291,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     ObjStatements in = ObjParser(text, file.string(), asset.warnings).run();
     check_index_count(in.positions.size(), file.string(), "v");
     check_index_count(in.sizes.size(), file.string(), "f");
-    part.name = in.object.empty() ? file.stem().string() : in.object;
+    part.name = in.objects.empty() || in.objects[0].empty() ? file.stem().string() : in.objects[0];
 
     CornerVertices corner_vertices(in.positions.size());
     Polygons polygons;
@@ -291,6 +311,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     check_index_count(part.triangles.size(), file.string(), "triangle");
     part.face_material.reserve(part.triangles.size());
     for (const Index p : split.source_polygon) part.face_material.push_back(in.face_material[p]);
+    add_objects(part, in, split.source_polygon, file.stem().string());
     repair_non_finite(part, file.string(), split.non_finite, asset.warnings);
     add_materials(asset, in, file);
     return asset;

@@ -16,7 +16,7 @@ namespace faqem::detail {
 /// Reads an OBJ file.
 ///
 /// All objects are read as one part, so that no cracks open between them; the part has the name of the first
-/// object. Vertex i of the part is position i (`v`) with the vt and vn of its first corner. Corners of
+/// object, and Part::face_object if several have faces. Vertex i of the part is position i (`v`) with the vt and vn of its first corner. Corners of
 /// position i with another vt or vn get additional vertices after all positions, in the order of the faces.
 /// Polygons are split by triangulate(). Colours after a position are sRGB values in [0, 1] and are converted
 /// to linear; vertices without a colour are white. UVs are converted by v' = 1 - v. See read_mtl() for

@@ -2,6 +2,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
 #include <string>
 
 #include "asset/formats/mtl_writer.hpp"
@@ -10,6 +13,8 @@
 #include "asset/io/file_names.hpp"
 #include "asset/io/file_set.hpp"
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/messages.hpp"
+#include "asset/scene/objects.hpp"
 #include "asset/scene/value_numbers.hpp"
 #include "asset/text/text_buffer.hpp"
 
@@ -153,11 +158,46 @@ void append_corner(TextBuffer& text, const std::array<std::uint64_t, 3>& numbers
     text.put_number(numbers[2]);
 }
 
+/// An object of the file: a name and its first face.
+struct ObjObject {
+    std::string name;
+    std::size_t first_face = 0;
+};
+
+/// The instances as objects with unique names, which readers join otherwise; those without faces are left out with a
+/// warning.
+std::vector<ObjObject> objects_of(const Asset& asset, const std::vector<Instance>& all,
+                                  const std::string& stem, std::vector<std::string>& losses) {
+    std::vector<ObjObject> objects;
+    std::set<std::string> taken;
+    std::map<std::string, std::size_t> next_number;
+    std::size_t faces = 0, empty = 0;
+    for (const Instance& instance : all) {
+        const Part& part = asset.parts[instance.part];
+        if (part.triangles.empty() && all.size() > 1) {
+            ++empty;
+            continue;
+        }
+        const std::string name = sanitized_name(part.name, stem);
+        std::string unique = name;
+        std::size_t& number = next_number[name];
+        for (number = std::max<std::size_t>(number, 2); !taken.insert(unique).second; ++number)
+            unique = name + "_" + std::to_string(number);
+        objects.push_back({std::move(unique), faces});
+        faces += part.triangles.size();
+    }
+    if (empty) losses.push_back(pluralized(empty, "object") + " without faces left out");
+    return objects;
+}
+
 TextBuffer faces_text(const Part& part, VertexLines& lines, const UsedMaterials& used,
-                      const MtlLibrary& library) {
+                      const MtlLibrary& library, const std::vector<ObjObject>& objects) {
     TextBuffer text;
     Index current = no_index;
+    auto next = objects.begin();
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        if (objects.size() > 1 && next != objects.end() && next->first_face == f)
+            text.put("o " + next++->name + "\n");
         const Index material = part.face_material[f];
         const Index slot = used.slot_of(material);
         if (!used.materials.empty() && slot != current) text.put("usemtl " + library.names[slot] + "\n");
@@ -178,7 +218,10 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
 std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::path& file,
                                    Overwrite overwrite) {
     std::vector<std::string> losses = flattening_losses(asset, "OBJ");
-    const Part flat = flatten(asset);
+    const std::optional<DividedAsset> divided = divided_into_objects(asset);
+    const Asset& parts = divided ? divided->asset : asset;
+    const std::vector<Instance> all = instances(parts);
+    const Part flat = flatten(parts, all);
     const std::string stem = file.stem().string();
     const UsedMaterials used = used_materials(flat, asset.materials.size());
     const MtlLibrary library = make_mtl(asset, used.materials, stem, losses);
@@ -186,11 +229,12 @@ std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::pa
         losses.push_back("OBJ cannot hold the alpha of vertex colours");
 
     VertexLines lines(asset, flat);
-    const TextBuffer faces = faces_text(flat, lines, used, library);
+    const std::vector<ObjObject> objects = objects_of(parts, all, stem, losses);
+    const TextBuffer faces = faces_text(flat, lines, used, library, objects);
     for (Index v = 0; v < flat.positions.size(); ++v) lines.position(v);
     TextBuffer text;
     if (!used.materials.empty()) text.put("mtllib " + library_file_name(stem) + "\n");
-    text.put("o " + sanitized_name(flat.name, stem) + "\n");
+    if (objects.size() < 2) text.put("o " + (objects.empty() ? stem : objects[0].name) + "\n");
     lines.write(text);
     text.put(faces.view());
 

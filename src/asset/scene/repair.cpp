@@ -40,11 +40,13 @@ std::uint64_t drop_faces(Part& part, const std::vector<Index>& renumbered) {
         if (std::find(t.begin(), t.end(), no_index) != t.end()) continue;
         part.triangles[kept] = t;
         if (!part.face_material.empty()) part.face_material[kept] = part.face_material[f];
+        if (!part.face_object.empty()) part.face_object[kept] = part.face_object[f];
         ++kept;
     }
     const std::uint64_t dropped = part.triangles.size() - kept;
     part.triangles.resize(kept);
     if (!part.face_material.empty()) part.face_material.resize(kept);
+    if (!part.face_object.empty()) part.face_object.resize(kept);
     return dropped;
 }
 

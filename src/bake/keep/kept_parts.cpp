@@ -55,9 +55,11 @@ Part part_with_kept_faces(const Part& source, const std::vector<Index>& kept) {
     for (std::size_t f = 0; f < kept.size(); ++f) {
         part.triangles[f] = source.triangles[kept[f]];
         if (!part.face_material.empty()) part.face_material[f] = source.face_material[kept[f]];
+        if (!part.face_object.empty()) part.face_object[f] = source.face_object[kept[f]];
     }
     part.triangles.resize(kept.size());
     if (!part.face_material.empty()) part.face_material.resize(kept.size());
+    if (!part.face_object.empty()) part.face_object.resize(kept.size());
     return part;
 }
 

@@ -94,6 +94,18 @@ void set_file_orders(BakeJob& job, std::span<const std::uint8_t> untouched) {
     }
 }
 
+// The faces of the result belong to the objects of the faces that they were.
+void keep_objects(BakeJob& job, std::span<const std::uint8_t> untouched) {
+    for (const BakePart& part : job.parts) {
+        if (untouched[part.index] || part.source->face_object.empty()) continue;
+        Part& to = job.result.asset.parts[part.index];
+        to.object_names = part.source->object_names;
+        to.face_object.clear();
+        for (const Index f : part.simplified->history.kept_faces)
+            to.face_object.push_back(part.source->face_object[f]);
+    }
+}
+
 }  // namespace
 
 UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
@@ -120,6 +132,7 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
         bake_by_kind(job, simplified, kept);
         add_kept_parts(job, untouched, std::move(kept));
         set_file_orders(job, untouched);
+        keep_objects(job, untouched);
         job.report_progress(Phase::bake, 1);
     } catch (const engine::Cancelled&) {
         set_cancelled(job.result);

@@ -73,6 +73,12 @@ private:
         for (std::size_t f = 0; f < materials.size(); ++f)
             if (materials[f] != no_index && !(materials[f] < asset_.materials.size()))
                 fail("face " + std::to_string(f), "material index out of range");
+        const std::vector<Index>& objects = part_.face_object;
+        if (!objects.empty() && objects.size() != part_.triangles.size())
+            fail("face_object", "needs one entry per face or none");
+        for (std::size_t f = 0; f < objects.size(); ++f)
+            if (objects[f] != no_index && !(objects[f] < part_.object_names.size()))
+                fail("face " + std::to_string(f), "object index out of range");
     }
 
     const Asset& asset_;

@@ -182,13 +182,33 @@ TEST_CASE("weights other than 1 give a warning", "[obj]") {
                        "1 position with a weight"));
 }
 
-TEST_CASE("all objects and groups are joined to one part named after the first object", "[obj]") {
+TEST_CASE("all objects and groups are one part named after the first object", "[obj]") {
     const Asset asset = parse_obj("g group\no first one\n" + square_vertices +
                                   "f 1 2 3\no second\ng x\ns 1\nf 1 3 4\ns off\n");
     REQUIRE(asset.parts.size() == 1);
-    CHECK(asset.parts[0].name == "first one");
-    CHECK(asset.parts[0].positions.size() == 4);
+    const Part& part = asset.parts[0];
+    CHECK(part.name == "first one");
+    CHECK(part.positions.size() == 4);
+    CHECK(part.object_names == std::vector<std::string>{"first one", "second"});
+    CHECK(part.face_object == std::vector<Index>{0, 1});
     CHECK(asset.warnings.empty());
+}
+
+TEST_CASE("objects have faces, and are continued by an equal name", "[obj]") {
+    const auto read = [](const std::string& text) {
+        return parse_obj(square_vertices + "v 0 0 nan\n" + text).parts.at(0);
+    };
+    Part part = read("o empty\no b\nf 1 2 3 4\no a\nf 1 2 3\no b\nf 1 3 4\n");
+    CHECK(part.name == "empty");
+    CHECK(part.object_names == std::vector<std::string>{"b", "a"});
+    CHECK(part.face_object == std::vector<Index>{0, 0, 1, 0});  // one for each triangle
+    part = read("f 1 2 3\no b\nf 1 2 3\n");
+    CHECK(part.object_names == std::vector<std::string>{"a", "b"});  // the first is named after the file
+    part = read("o empty\no b\nf 1 2 3\n");
+    CHECK(part.face_object.empty());
+    CHECK(part.object_names.empty());
+    part = read("o a\nf 1 2 5\nf 1 2 3\no b\nf 1 3 4\n");  // a face with a non-finite position is left out
+    CHECK(part.face_object == std::vector<Index>{0, 1});
 }
 
 TEST_CASE("warnings count lines, points and unknown statements", "[obj]") {

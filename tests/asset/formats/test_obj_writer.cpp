@@ -163,6 +163,22 @@ TEST_CASE("a mesh without materials has no library, a face without a material ge
     CHECK(contains(get(folder / "b.obj"), "usemtl default\nf 1 2 3\nusemtl default_2\nf 3 2 1\n"));
 }
 
+TEST_CASE("an OBJ file has an object for each mesh with a unique name", "[obj_writer]") {
+    const TemporaryFolder folder;
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
+    asset.parts[0].name = "a";
+    asset.parts.push_back(asset.parts[0]);
+    asset.parts.push_back({});  // without faces
+    asset.parts.push_back(asset.parts[0]);
+    asset.parts[3].name = "a_2";
+    const std::vector<std::string> losses = write_obj(asset, folder / "m.obj", Overwrite::no);
+    CHECK(any_contains(losses, "1 object without faces"));
+    CHECK(get(folder / "m.obj") ==
+          "v 0 0 0\nv 1 0 0\nv 1 1 0\no a\nf 1 2 3\no a_2\nf 1 2 3\no a_2_2\nf 1 2 3\n");
+    CHECK(read_obj(folder / "m.obj").parts.at(0).object_names ==
+          std::vector<std::string>{"a", "a_2", "a_2_2"});
+}
+
 TEST_CASE("names that are invalid in OBJ statements are replaced", "[obj_writer]") {
     const TemporaryFolder folder;
     Asset asset = textured();

@@ -366,3 +366,51 @@ TEST_CASE("an asset without faces is accepted") {
         CHECK(simplified.asset.images.empty());
     }
 }
+
+// A ball of two halves with a colour each, which share edges.
+TEST_CASE("a model without textures keeps its materials and objects at any ratio") {
+    Asset source;
+    source.materials.resize(3);
+    for (std::size_t m = 0; m < 3; ++m) {
+        source.materials[m].name = std::string(1, static_cast<char>('a' + m));
+        source.materials[m].base_color[m] = 0.25f;
+    }
+    source.materials[2].base_color = source.materials[0].base_color;  // merged with the first one
+    const TriangleMesh ball = icosphere(3);
+    Part part;
+    part.positions = ball.positions;
+    part.triangles = ball.triangles;
+    part.object_names = {"low", "high"};
+    for (const Triangle& t : part.triangles) {
+        const bool is_high = part.positions[t[0]][2] + part.positions[t[1]][2] + part.positions[t[2]][2] > 0;
+        const bool is_east = part.positions[t[0]][0] + part.positions[t[1]][0] + part.positions[t[2]][0] > 0;
+        part.face_object.push_back(is_high);
+        part.face_material.push_back(is_high ? 1 : is_east ? 0 : 2);
+    }
+    source.parts = {part};
+    Options options;
+    options.target = ratio(GENERATE(1.0, 0.3, 0.05));
+    const Asset result = simplify(source, options).asset;
+    CHECK(result.images.empty());
+    REQUIRE(result.materials.size() == 2);
+    CHECK(result.materials[0].name == "a");
+    CHECK(result.materials[1].base_color == source.materials[1].base_color);
+    const Part& after = result.parts.at(0);
+    CHECK(after.object_names == part.object_names);
+    REQUIRE(after.face_object.size() == after.triangles.size());
+    for (std::size_t f = 0; f < after.triangles.size(); ++f)
+        CHECK(after.face_material[f] == after.face_object[f]);
+    CHECK(std::count(after.face_object.begin(), after.face_object.end(), 1) > 0);
+    CHECK(std::count(after.face_object.begin(), after.face_object.end(), 0) > 0);
+    options.bake.normal_map = NormalMap::on;  // needs a page anyway
+    CHECK(simplify(source, options).asset.materials.size() == 1);
+}
+
+TEST_CASE("wrong objects of faces are rejected") {
+    Asset asset = textured_square(ramp(4));
+    asset.parts[0].face_object = {0};
+    asset.parts[0].object_names = {"a"};
+    CHECK_THROWS_AS(simplify(asset, {}), InputError);
+    asset.parts[0].face_object = {0, 1};
+    CHECK_THROWS_AS(simplify(asset, {}), InputError);
+}

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "asset/image/image.hpp"
 #include "asset/io/file_names.hpp"
 #include "asset/io/file_set.hpp"
+#include "asset/scene/objects.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -162,14 +164,16 @@ Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use) {
 }
 
 std::vector<std::string> write_gltf(const Asset& asset, const fs::path& file, Overwrite overwrite) {
-    GltfWriter writer = make_writer(asset);
+    const std::optional<DividedAsset> divided = divided_into_objects(asset);
+    GltfWriter writer = make_writer(divided ? divided->asset : asset);
     write_meshes_and_scene(writer);
     write_output(writer, file, overwrite);
     return std::move(writer.warnings);
 }
 
 std::vector<std::uint8_t> encode_glb(const Asset& asset) {
-    GltfWriter writer = make_writer(asset);
+    const std::optional<DividedAsset> divided = divided_into_objects(asset);
+    GltfWriter writer = make_writer(divided ? divided->asset : asset);
     write_meshes_and_scene(writer);
     write_extension_lists(writer);
     return glb_bytes(writer, "the model in memory");
