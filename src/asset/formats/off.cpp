@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "asset/formats/face_colors.hpp"
 #include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
@@ -48,6 +49,22 @@ Keyword read_keyword(TextScanner& in) {
         throw UnsupportedError(in.file(), "line " + std::to_string(in.line()), "binary OFF is not supported");
     return keyword;
 }
+
+/// The components of a colour: integers in [0, 255], or floats in [0, 1] if one has a decimal point.
+struct ColorWords {
+    std::array<double, 4> rgba = {0, 0, 0, 1};
+    std::size_t size = 0;
+    bool integers = true;
+
+    /// \pre size is 3 or 4
+    Vec4f linear() const {
+        const double unit = integers ? 255 : 1;
+        Vec4f color;
+        for (std::size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(linear_from_srgb(rgba[k] / unit));
+        color[3] = static_cast<float>(size == 3 ? 1 : rgba[3] / unit);
+        return color;
+    }
+};
 
 /// Parser of an OFF file.
 class OffReader {
@@ -102,22 +119,20 @@ private:
         in_.finish_line();
     }
 
-    /// Reads three or four components: integers in [0, 255], or floats in [0, 1] if one has a decimal point.
     void read_color(Vec4f& color) {
-        std::array<double, 4> rgba = {0, 0, 0, 1};
-        bool integers = true;
-        std::size_t size = 0;
-        while (size < 4 && !at_color_end()) {
-            const std::string_view before = in_.remaining();
-            rgba[size++] = in_.number<double>();
-            const std::string_view word = before.substr(0, before.size() - in_.remaining().size());
-            integers &= word.find_first_of(".eE") == std::string_view::npos;
-        }
-        if (size < 3) in_.fail("a colour must have three or four components");
-        for (std::size_t k = 0; k < size; ++k) rgba[k] /= integers ? 255 : 1;
-        if (size == 3) rgba[3] = 1;
-        for (std::size_t k = 0; k < 3; ++k) color[k] = static_cast<float>(linear_from_srgb(rgba[k]));
-        color[3] = static_cast<float>(rgba[3]);
+        ColorWords words;
+        while (words.size < 4 && !at_color_end()) read_component(words);
+        if (words.size < 3) in_.fail("a colour must have three or four components");
+        color = words.linear();
+    }
+
+    void read_component(ColorWords& words) {
+        const std::string_view before = in_.remaining();
+        const auto value = in_.number<double>();
+        const std::string_view word = before.substr(0, before.size() - in_.remaining().size());
+        words.integers &= word.find_first_of(".eE") == std::string_view::npos;
+        if (words.size < 4) words.rgba[words.size] = value;
+        ++words.size;
     }
 
     /// Whether the colour ends here: at the end of the line or, if the file has UVs, before its last two
@@ -146,13 +161,23 @@ private:
             polygons_.vertices.push_back(static_cast<Index>(v));
         }
         polygons_.sizes.push_back(size);
-        face_colors_ += !in_.at_line_end();
-        while (!in_.at_line_end()) in_.number<double>();
+        ColorWords words;
+        while (!in_.at_line_end()) read_component(words);
         in_.finish_line();
+        const bool is_color = words.size == 3 || words.size == 4;
+        colored_faces_ += is_color;
+        unknown_colors_ += words.size > 0 && !is_color;
+        face_colors_.push_back(is_color ? words.linear() : Vec4f{1, 1, 1, 1});
     }
 
     void finish() {
-        if (face_colors_) warnings_.push_back("colours of " + pluralized(face_colors_, "face") + " ignored");
+        if (unknown_colors_)
+            warnings_.push_back("colours of " + pluralized(unknown_colors_, "face") +
+                                " ignored: they have neither three nor four numbers");
+        if (colored_faces_ && !part_.colors.empty())
+            warnings_.push_back("face colours are ignored beside vertex colours");
+        else if (colored_faces_)
+            set_face_colors(part_, polygons_, face_colors_, in_.file());
         TriangulatedPolygons split = triangulate_polygons(polygons_, part_.positions);
         if (split.too_few_corners)
             warnings_.push_back(pluralized(split.too_few_corners, "face") +
@@ -168,7 +193,8 @@ private:
     Keyword keyword_;
     Part part_;
     Polygons polygons_;
-    std::uint64_t face_colors_ = 0;
+    std::vector<Vec4f> face_colors_;  // by face
+    std::uint64_t colored_faces_ = 0, unknown_colors_ = 0;
 };
 
 }  // namespace

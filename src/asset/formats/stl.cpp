@@ -10,6 +10,7 @@
 #include <limits>
 #include <string_view>
 
+#include "asset/formats/stl_binary.hpp"
 #include "asset/io/file.hpp"
 #include "asset/io/file_set.hpp"
 #include "asset/io/little_endian.hpp"
@@ -22,52 +23,64 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::size_t stl_header_bytes = 84, facet_bytes = 50;
-
-/// Builds a part from facets and merges vertices at equal positions.
+/// Builds a part from facets and merges vertices at equal positions and with equal colours.
 class Welder {
 public:
-    void add(const std::array<Vec3, 3>& corners) {
+    /// \param color  linear; equal for all facets if the file has no colours
+    void add(const std::array<Vec3, 3>& corners, const Vec4f& color = {1, 1, 1, 1}) {
+        const double number = colors_.insert(color);
         Triangle t;
         for (int c = 0; c < 3; ++c) {
             const Vec3& p = corners[c];
-            t[c] = vertices_.insert({p[0] + 0.0, p[1] + 0.0, p[2] + 0.0});  // -0 becomes 0
+            t[c] = vertices_.insert({p[0] + 0.0, p[1] + 0.0, p[2] + 0.0, number});  // -0 becomes 0
         }
         triangles_.push_back(t);
     }
 
+    std::size_t facets() const { return triangles_.size(); }
+
     Part part(const std::string& file) {
-        check_index_count(vertices_.values().size(), file, "vertices");
+        const std::vector<std::array<double, 4>>& vertices = vertices_.values();
+        check_index_count(vertices.size(), file, "vertices");
         check_index_count(triangles_.size(), file, "facets");
         Part part;
-        part.positions = std::move(vertices_.values());
+        part.positions.reserve(vertices.size());
+        for (const auto& v : vertices) part.positions.push_back({v[0], v[1], v[2]});
+        const std::vector<Vec4f>& colors = colors_.values();
+        if (std::any_of(colors.begin(), colors.end(), [](const Vec4f& c) { return c != Vec4f{1, 1, 1, 1}; }))
+            for (const auto& v : vertices) part.colors.push_back(colors[static_cast<std::size_t>(v[3])]);
         part.triangles = std::move(triangles_);
         part.face_material.assign(part.triangles.size(), no_index);
         return part;
     }
 
 private:
-    UniqueValues<Vec3> vertices_;
+    UniqueValues<std::array<double, 4>> vertices_;  // position and number of the colour
+    UniqueValues<Vec4f> colors_;
     std::vector<Triangle> triangles_;
 };
 
-Part read_binary(std::span<const std::uint8_t> bytes, const std::string& file,
-                 std::vector<std::string>& warnings) {
-    const std::string_view header(reinterpret_cast<const char*>(bytes.data()), 80);
-    if (header.find("COLOR=") != std::string_view::npos) warnings.push_back("facet colours are ignored");
-    const std::size_t count = (bytes.size() - stl_header_bytes) / facet_bytes;
-    Welder welder;
-    for (std::size_t f = 0; f < count; ++f) {
-        std::size_t at = stl_header_bytes + f * facet_bytes + 12;
-        std::array<Vec3, 3> corners;
-        for (Vec3& p : corners)
-            for (double& x : p) {
-                x = std::bit_cast<float>(u32_at(bytes, at));
-                at += 4;
-            }
-        welder.add(corners);
+bool equals_lower_case(std::string_view word, std::string_view lower) {
+    return std::equal(word.begin(), word.end(), lower.begin(), lower.end(), [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+    });
+}
+
+/// Makes the solids that have facets objects of the part, if there are several.
+void add_solids(Part& part, const std::vector<std::string>& names, const std::vector<Index>& solids,
+                const std::string& file) {
+    std::vector<Index> number(names.size(), no_index);
+    for (const Index solid : solids) {
+        if (number[solid] != no_index) continue;
+        number[solid] = static_cast<Index>(part.object_names.size());
+        part.object_names.push_back(names[solid].empty() ? std::filesystem::path(file).stem().string()
+                                                         : names[solid]);
     }
-    return welder.part(file);
+    if (part.object_names.size() < 2) {
+        part.object_names.clear();
+        return;
+    }
+    for (const Index solid : solids) part.face_object.push_back(number[solid]);
 }
 
 /// Reads the next word of the file, which must equal `expected`, ignoring case.
@@ -75,10 +88,7 @@ Part read_binary(std::span<const std::uint8_t> bytes, const std::string& file,
 void expect(TextScanner& in, std::string_view expected) {
     in.skip_to_content();
     const std::string_view word = in.word();
-    const bool same = std::equal(
-        word.begin(), word.end(), expected.begin(), expected.end(),
-        [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; });
-    if (same) return;
+    if (equals_lower_case(word, expected)) return;
     if (word.empty()) in.fail("the file ends where " + TextScanner::quoted(expected) + " is expected");
     in.fail(TextScanner::quoted(word) + " instead of " + TextScanner::quoted(expected));
 }
@@ -90,11 +100,23 @@ bool next_starts_with(TextScanner& in, char letter) {
     return rest.starts_with(letter) || rest.starts_with(static_cast<char>(letter - 'a' + 'A'));
 }
 
-Part read_ascii(std::span<const std::uint8_t> text, const std::string& file) {
+/// Whether the text after the last solid is no solid, but junk that has no facets.
+bool is_junk(TextScanner in) {
+    const std::string_view rest = in.remaining();
+    const std::string_view word = in.word();
+    return !equals_lower_case(word, "solid") && rest.find("facet") == std::string_view::npos &&
+           rest.find("FACET") == std::string_view::npos;
+}
+
+Part read_ascii(std::span<const std::uint8_t> text, const std::string& file,
+                std::vector<std::string>& warnings) {
     TextScanner in(text, file, Continuation::no);
     Welder welder;
+    std::vector<std::string> names;
+    std::vector<Index> solids;  // by facet
     do {
         expect(in, "solid");
+        names.push_back(in.rest_of_line());
         in.next_line();
         while (next_starts_with(in, 'f')) {
             expect(in, "facet");
@@ -109,21 +131,19 @@ Part read_ascii(std::span<const std::uint8_t> text, const std::string& file) {
             expect(in, "endloop");
             expect(in, "endfacet");
             welder.add(corners);
+            solids.push_back(static_cast<Index>(names.size() - 1));
         }
         expect(in, "endsolid");
         in.next_line();
-    } while (in.skip_to_content());
-    return welder.part(file);
-}
-
-[[noreturn]] void fail_binary(std::span<const std::uint8_t> bytes, const std::string& file) {
-    if (bytes.size() < stl_header_bytes)
-        throw InputError(file, "header", "is neither ASCII STL nor long enough for binary STL");
-    const std::uint64_t facets = u32_at(bytes, 80);
-    throw InputError(file, "header",
-                     pluralized(facets, "facet") + " need " +
-                         std::to_string(stl_header_bytes + facet_bytes * facets) + " bytes, the file has " +
-                         std::to_string(bytes.size()));
+        if (!in.skip_to_content()) break;
+        if (welder.facets() > 0 && is_junk(in)) {
+            warnings.push_back(pluralized(in.remaining().size(), "byte") + " after the last solid ignored");
+            break;
+        }
+    } while (true);
+    Part part = welder.part(file);
+    add_solids(part, names, solids, file);
+    return part;
 }
 
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
@@ -150,14 +170,22 @@ void put_facet(std::vector<std::uint8_t>& bytes, const std::array<Vec3, 3>& p) {
 
 Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
     Asset asset;
-    const bool is_binary = bytes.size() >= stl_header_bytes &&
-                           bytes.size() == stl_header_bytes + facet_bytes * std::uint64_t{u32_at(bytes, 80)};
-    if (!is_binary && !looks_like_text(bytes)) fail_binary(bytes, file.string());
-    asset.parts.push_back(is_binary ? read_binary(bytes, file.string(), asset.warnings)
-                                    : read_ascii(bytes, file.string()));
-    Part& part = asset.parts[0];
+    const bool has_binary_size =
+        bytes.size() >= stl_header_bytes &&
+        bytes.size() == stl_header_bytes + facet_bytes * std::uint64_t{u32_at(bytes, 80)};
+    Part part;
+    if (has_binary_size || !looks_like_text(bytes)) {
+        const BinaryStl content = read_binary_stl(bytes, file.string(), asset.warnings);
+        Welder welder;
+        for (std::size_t f = 0; f < content.facets; ++f)
+            welder.add(content.corners(f), content.colors.empty() ? Vec4f{1, 1, 1, 1} : content.colors[f]);
+        part = welder.part(file.string());
+    } else {
+        part = read_ascii(bytes, file.string(), asset.warnings);
+    }
     part.name = file.stem().string();
     repair_non_finite(part, file.string(), 0, asset.warnings);
+    asset.parts.push_back(std::move(part));
     return asset;
 }
 

@@ -63,13 +63,28 @@ TEST_CASE("OFF normals, colours and UVs are read in the order N, C, ST", "[off]"
     CHECK(all.uvs.at(0).at(1) == Vec2f{1, 1});
 }
 
-TEST_CASE("OFF polygons are triangulated, face colours ignored and faces with two corners left out",
-          "[off]") {
-    const Asset asset = parse_off(
-        "OFF\n4 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n3 0 1 2 0.5 0.5 0.5 1\n2 0 1\n1 0\n");
+TEST_CASE("OFF polygons are triangulated and faces with two corners left out", "[off]") {
+    const Asset asset = parse_off("OFF\n4 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n3 0 1 2\n2 0 1\n1 0\n");
     CHECK(asset.parts[0].triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}});
-    CHECK(any_contains(asset.warnings, "colours of 2 faces ignored"));
     CHECK(any_contains(asset.warnings, "2 faces with fewer than three"));
+}
+
+TEST_CASE("colours of OFF faces become vertex colours that are constant on each face", "[off]") {
+    const std::string vertices = "OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    const Asset asset = parse_off(vertices + "3 0 1 2 255 0 0\n3 0 2 3 0.0 1.0 0.0 0.5\n3 1 3 2\n");
+    CHECK(asset.warnings.empty());
+    const Part& part = asset.parts.at(0);
+    CHECK(part.positions.size() == 9);
+    const std::array<Vec4f, 3> expected = {{{1, 0, 0, 1}, {0, 1, 0, 0.5f}, {1, 1, 1, 1}}};
+    for (std::size_t f = 0; f < 3; ++f)
+        for (const Index v : part.triangles.at(f)) CHECK(part.colors.at(v) == expected[f]);
+    const Asset map = parse_off(vertices + "3 0 1 2 7\n3 0 2 3 1 2\n3 1 3 2\n");
+    CHECK(map.parts.at(0).colors.empty());
+    CHECK(any_contains(map.warnings, "colours of 2 faces ignored"));
+    const Asset both =
+        parse_off("COFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n3 0 1 2 0 0 255\n");
+    CHECK(any_contains(both.warnings, "face colours are ignored beside vertex colours"));
+    CHECK(both.parts.at(0).colors.at(0) == Vec4f{1, 0, 0, 1});
 }
 
 TEST_CASE("other kinds of OFF are reported as unsupported", "[off]") {
