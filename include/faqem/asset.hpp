@@ -112,7 +112,7 @@ struct Part {
     std::vector<MorphTarget> morph_targets;
     /// The objects that a file divides the part into. They are simplified as one mesh, so that edges which they share
     /// stay closed; save() writes a mesh or object for each of them in formats that have these.
-    std::vector<Index> face_object;         ///< empty or F, indices into object_names; no_index: the part itself
+    std::vector<Index> face_object;  ///< empty or F, indices into object_names; no_index: the part itself
     std::vector<std::string> object_names;  ///< names of the objects
     /// Mesh of the source document whose name, extras, points and lines are written too; no_index: none.
     Index source = no_index;
@@ -167,9 +167,9 @@ enum class Overwrite { no, yes };
 FAQEM_EXPORT std::vector<std::string> save(const Asset& asset, const std::filesystem::path& file,
                                            Overwrite overwrite = Overwrite::no);
 
-/// Decodes a PNG, JPEG or WebP image, or a TGA whose media type is image/x-tga or image/tga, by OpenImageIO in a
-/// plugin. The size is limited to 16384 x 16384
-/// pixels and 1 GiB, and is checked before memory is allocated.
+/// Decodes a PNG, JPEG or WebP image or, by OpenImageIO in a plugin, a BMP, TIFF or GIF, or a TGA whose media type is
+/// image/x-tga or image/tga. Of several pictures the first is decoded. The size is limited to 16384 x 16384 pixels and
+/// 1 GiB, and is checked before memory is allocated.
 /// \throws InputError  the image is damaged or too large
 /// \throws UnsupportedError  the image has another format (KTX2, DDS ...)
 /// \throws Error  the plugin cannot be loaded

@@ -19,22 +19,40 @@ namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// No format that is read expands a byte to more pixels: TGA packs at most 128 pixels into two bytes.
-constexpr std::uint64_t max_pixels_per_byte = 64;
-
-/// Checks the image that the decoder is about to produce, before memory is allocated.
+/// Checks the image that the decoder is about to produce, before memory is allocated: the header may describe it otherwise
+/// than the decoder understands it.
 void check_spec(const Image& image, const OIIO::ImageSpec& spec) {
+    constexpr int max_channels = 8;
+    constexpr std::size_t max_channel_bytes = 4;
     if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
         fail_image(image, "is not a two-dimensional image");
-    const ImageSize size{static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)};
-    check_image_size(image, size);
-    if (size.pixels() / max_pixels_per_byte > image.encoded.size()) fail_truncated_image(image, size);
+    check_image_size(image,
+                     {static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)});
+    constexpr auto max_tile_side = static_cast<int>(max_image_side);
+    if (spec.nchannels > max_channels || spec.format.size() > max_channel_bytes ||
+        spec.tile_width > max_tile_side || spec.tile_height > max_tile_side || spec.tile_depth > 1)
+        throw UnsupportedError(image.uri, image_title(image),
+                               "has more than 8 channels, more than 32 bits per channel, or too large tiles");
+}
+
+/// Whether the last of 2 or 4 channels is alpha. Of TGA it always is.
+bool has_alpha_channel(const OIIO::ImageSpec& spec, int channels, const std::string& format) {
+    if (channels != 2 && channels != 4) return false;
+    return format == "targa" || spec.alpha_channel == channels - 1;
+}
+
+/// BMP and TGA files whose fourth channel is not used have zeros there.
+void show_unused_alpha(Pixels& pixels) {
+    for (std::size_t i = 3; i < pixels.rgba.size(); i += 4)
+        if (pixels.rgba[i] != 0) return;
+    for (std::size_t i = 3; i < pixels.rgba.size(); i += 4) pixels.rgba[i] = 255;
 }
 
 /// Expands 1 to 4 channels (grey, grey and alpha, RGB, RGBA) to RGBA.
-void expand_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t channels, std::uint8_t* to) {
+/// \param alpha  whether the last channel is alpha; otherwise a second or fourth channel is ignored
+void expand_to_rgba(const std::uint8_t* from, std::size_t pixels, std::size_t channels, bool alpha,
+                    std::uint8_t* to) {
     const bool grey = channels < 3;
-    const bool alpha = channels == 2 || channels == 4;
     for (std::size_t i = 0; i < pixels; ++i) {
         std::array<std::uint8_t, 4> pixel = {};
         std::memcpy(pixel.data(), from + i * channels, channels);
@@ -61,14 +79,15 @@ Pixels decode_as(const Image& image, const std::string& format) {
     const std::size_t count = std::size_t{pixels.width} * pixels.height;
     const int channels = std::min(spec.nchannels, 4);
     std::vector<std::uint8_t> stored(count * static_cast<std::size_t>(channels));
-    const bool read =
-        input->read_scanlines(0, 0, 0, spec.height, 0, 0, channels, OIIO::TypeDesc::UINT8, stored.data());
+    const bool read = input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, stored.data());
     const bool closed = input->close();
     const std::string error = input->geterror();
     if (!read || !closed || !error.empty())
         fail_image(image, error.empty() ? "is damaged" : "is damaged: " + first_line(error));
     pixels.rgba.resize(count * 4);
-    expand_to_rgba(stored.data(), count, static_cast<std::size_t>(channels), pixels.rgba.data());
+    expand_to_rgba(stored.data(), count, static_cast<std::size_t>(channels),
+                   has_alpha_channel(spec, channels, format), pixels.rgba.data());
+    if (format == "targa" || format == "bmp") show_unused_alpha(pixels);
     pixels.has_alpha = has_transparent_pixel(pixels);
     return pixels;
 }

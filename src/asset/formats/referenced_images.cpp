@@ -4,6 +4,7 @@
 
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
+#include "asset/io/file_names.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
@@ -27,6 +28,8 @@ ReferencedImage* ReferencedImages::read(const std::string& owner, const std::str
         image.name = found.file.stem().string();
         image.encoded = read_file(found.file);
         image.mime_type = sniff_mime_type(image.encoded);
+        if (image.mime_type.empty() && lower_case_extension(found.file) == ".tga")
+            image.mime_type = tga_media_type;
         known = std::make_unique<ReferencedImage>(ReferencedImage{std::move(image), no_index, {}});
         return known.get();
     } catch (const InputError& error) {

@@ -24,28 +24,31 @@ struct FileSignature {
     const char* extension;
 };
 
-constexpr std::array<FileSignature, 7> file_signatures = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
+constexpr std::array<FileSignature, 9> file_signatures = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
                                                            {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
                                                            {{"WEBP", 4}, 8, "image/webp", ".webp"},
                                                            {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
                                                            {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
                                                            {{"GIF8", 4}, 0, "image/gif", ".gif"},
+                                                           {{"II*\0", 4}, 0, "image/tiff", ".tif"},
+                                                           {{"MM\0*", 4}, 0, "image/tiff", ".tif"},
                                                            {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
 
-/// OpenImageIO's name of the format of an image that the plugin decodes; empty for others. TGA has no signature,
-/// so only the declared media type counts.
+/// OpenImageIO's name of the format of an image that the plugin decodes; empty for others.
 std::string plugin_format(const Image& image) {
-    const bool is_tga = image.mime_type == "image/x-tga" || image.mime_type == "image/tga";
-    return is_tga && sniff_mime_type(image.encoded).empty() ? "targa" : "";
+    const std::string type = media_type(image);
+    if (type == tga_media_type) return "targa";
+    if (type == "image/bmp" || type == "image/gif" || type == "image/tiff") return type.substr(6);
+    return "";
 }
 
 /// Checks the size in the header before a decoder is called: decoders allocate memory according to the
 /// header, some of them as soon as they open an image.
 void check_header(const Image& image) {
-    const std::optional<ImageSize> size = declared_size(image.encoded);
+    const std::optional<ImageSize> size = declared_size(image);
     if (!size) fail_image(image, "is damaged: its header has no image size");
     check_image_size(image, *size);
-    if (!is_plausible_size(image.encoded, *size)) fail_truncated_image(image, *size);
+    if (!is_plausible_size(image, *size)) fail_truncated_image(image, *size);
 }
 
 }  // namespace
@@ -59,6 +62,14 @@ std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
     return "";
 }
 
+std::string media_type(const Image& image) {
+    const std::string type = sniff_mime_type(image.encoded);
+    const bool is_tga = image.mime_type == tga_media_type || image.mime_type == "image/tga";
+    return type.empty() && is_tga ? tga_media_type : type;
+}
+
+bool needs_plugin(const Image& image) { return !plugin_format(image).empty(); }
+
 bool can_decode_image(const std::string& mime_type) {
     return mime_type == "image/png" || mime_type == "image/jpeg" || mime_type == "image/webp";
 }
@@ -66,21 +77,21 @@ bool can_decode_image(const std::string& mime_type) {
 std::string file_extension(const std::string& mime_type) {
     for (const FileSignature& kind : file_signatures)
         if (mime_type == kind.mime_type) return kind.extension;
-    return ".bin";
+    return mime_type == tga_media_type ? ".tga" : ".bin";
 }
 
 }  // namespace detail
 
 Pixels decode(const Image& image) {
-    const std::string type = detail::sniff_mime_type(image.encoded);
-    if (const std::string format = detail::plugin_format(image); !format.empty())
-        return detail::image_plugin().decode(image, format);
-    if (!detail::can_decode_image(type))
+    const std::string type = detail::media_type(image);
+    const std::string format = detail::plugin_format(image);
+    if (format.empty() && !detail::can_decode_image(type))
         throw UnsupportedError(
             image.uri, detail::image_title(image),
-            (type.empty() ? std::string("has an unknown format") : type + " is not supported") + "; only " +
-                detail::decodable_format_names + " are supported");
+            (type.empty() ? std::string("has an unknown format") : type + " is not supported") +
+                "; only PNG, JPEG, WebP, TGA, BMP, TIFF and GIF are supported");
     detail::check_header(image);
+    if (!format.empty()) return detail::image_plugin().decode(image, format);
     if (type == "image/png") return detail::read_png(image);
     if (type == "image/jpeg") return detail::read_jpeg(image);
     return detail::read_webp(image);

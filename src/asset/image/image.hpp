@@ -11,13 +11,22 @@
 namespace faqem::detail {
 
 /// Detects the media type from the magic bytes: image/png, image/jpeg, image/webp, image/ktx2,
-/// image/vnd-ms.dds, image/gif or image/bmp; empty if the format is unknown.
+/// image/vnd-ms.dds, image/gif, image/bmp or image/tiff; empty if the format is unknown.
 FAQEM_EXPORT std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
 
-/// Whether decode() supports the media type, which is that of PNG, JPEG or WebP.
+/// Media type of TGA, which has no magic bytes: Image::mime_type says what it is.
+inline constexpr const char* tga_media_type = "image/x-tga";
+
+/// Media type of an image: from the magic bytes or, for TGA, as declared (also image/tga); empty if it is unknown.
+FAQEM_EXPORT std::string media_type(const Image& image);
+
+/// Whether decode() uses the plugin: for TGA, BMP, TIFF and GIF. glTF cannot hold such images.
+FAQEM_EXPORT bool needs_plugin(const Image& image);
+
+/// Whether glTF images of the media type, which is that of PNG, JPEG or WebP, are read.
 bool can_decode_image(const std::string& mime_type);
 
-/// Names of the formats that decode() supports, for error messages.
+/// Names of the formats of can_decode_image(), for error messages.
 inline constexpr const char* decodable_format_names = "PNG, JPEG and WebP";
 
 /// Usual file name extension of a media type, including the dot; ".bin" for unknown types.

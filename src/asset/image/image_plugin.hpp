@@ -14,8 +14,9 @@ struct ImagePlugin {
     const char* version;
     /// Decodes an image.
     /// \param format  the name that OpenImageIO has for the format, for example targa
-    /// \throws InputError  the image is damaged, or too short for its pixels; the latter is found before memory
-    ///                     is allocated
+    /// \throws InputError        the image is damaged
+    /// \throws UnsupportedError  it has more than 8 channels, or more than 32 bits per channel
+    /// \pre the size in the header is plausible
     Pixels (*decode)(const Image& image, const std::string& format);
 };
 

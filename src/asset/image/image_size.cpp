@@ -1,5 +1,6 @@
 #include "asset/image/image_size.hpp"
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,7 +12,8 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::uint64_t max_jpeg_pixels_per_byte = 512;  // one bit per block of 8 x 8 pixels
-constexpr std::uint64_t max_webp_pixels_per_byte = 4096, max_unchecked_webp_pixels = 1 << 24;
+constexpr std::uint64_t max_tga_pixels_per_byte = 64, max_bmp_pixels_per_byte = 128;
+constexpr std::uint64_t max_other_pixels_per_byte = 4096, max_unchecked_pixels = 1 << 24;
 
 /// An unsigned integer of `size` bytes at the position `at`.
 /// \pre at + size <= bytes.size()
@@ -88,20 +90,76 @@ std::optional<ImageSize> webp_size(Bytes bytes) {
     return {};
 }
 
+/// Only headers of the types that exist, since TGA has no signature.
+std::optional<ImageSize> tga_size(Bytes bytes) {
+    if (bytes.size() < 18) return {};
+    const std::uint8_t color_map = bytes[1], type = bytes[2] & ~8,
+                       depth = bytes[16];  // 8: run-length encoded
+    const bool is_known = color_map <= 1 && type >= 1 && type <= 3 &&
+                          (depth == 8 || depth == 15 || depth == 16 || depth == 24 || depth == 32);
+    if (!is_known) return {};
+    return ImageSize{little_endian(bytes, 12, 2), little_endian(bytes, 14, 2)};
+}
+
+/// A negative height is that of rows from top to bottom.
+std::optional<ImageSize> bmp_size(Bytes bytes) {
+    if (bytes.size() < 26) return {};
+    constexpr std::uint64_t core_header_bytes = 12;
+    if (little_endian(bytes, 14, 4) == core_header_bytes)
+        return ImageSize{little_endian(bytes, 18, 2), little_endian(bytes, 20, 2)};
+    const std::uint64_t height = little_endian(bytes, 22, 4);
+    return ImageSize{little_endian(bytes, 18, 4), height < 0x80000000u ? height : 0x100000000u - height};
+}
+
+std::optional<ImageSize> gif_size(Bytes bytes) {
+    if (bytes.size() < 10) return {};
+    return ImageSize{little_endian(bytes, 6, 2), little_endian(bytes, 8, 2)};
+}
+
+/// The tags ImageWidth and ImageLength of the first directory (TIFF 6.0, section 2).
+std::optional<ImageSize> tiff_size(Bytes bytes) {
+    const bool is_little = bytes[0] == 'I';
+    const auto number = [&](std::uint64_t at, std::size_t size) {
+        return is_little ? little_endian(bytes, at, size) : big_endian(bytes, at, size);
+    };
+    constexpr std::size_t entry_bytes = 12;
+    constexpr std::uint64_t width_tag = 256, height_tag = 257, short_type = 3;
+    if (bytes.size() < 8) return {};
+    const std::uint64_t directory = number(4, 4);
+    if (directory + 2 > bytes.size()) return {};
+    const std::uint64_t entries = number(directory, 2);
+    if (entries > (bytes.size() - directory - 2) / entry_bytes) return {};
+    ImageSize size;
+    for (std::uint64_t i = 0; i < entries; ++i) {
+        const std::uint64_t at = directory + 2 + i * entry_bytes;
+        const std::uint64_t tag = number(at, 2),
+                            value = number(at + 8, number(at + 2, 2) == short_type ? 2 : 4);
+        if (tag == width_tag) size.width = value;
+        if (tag == height_tag) size.height = value;
+    }
+    return size;
+}
+
 }  // namespace
 
-std::optional<ImageSize> declared_size(Bytes bytes) {
-    const std::string type = sniff_mime_type(bytes);
+std::optional<ImageSize> declared_size(const Image& image) {
+    const Bytes bytes = image.encoded;
+    const std::string type = media_type(image);
     if (type == "image/png") return png_size(bytes);
     if (type == "image/jpeg") return jpeg_size(bytes);
     if (type == "image/webp") return webp_size(bytes);
+    if (type == "image/bmp") return bmp_size(bytes);
+    if (type == "image/gif") return gif_size(bytes);
+    if (type == "image/tiff") return tiff_size(bytes);
+    if (type == tga_media_type) return tga_size(bytes);
     return {};
 }
 
-std::uint64_t decoding_memory(Bytes bytes) {
-    const std::optional<ImageSize> size = declared_size(bytes);
+std::uint64_t decoding_memory(const Image& image) {
+    const Bytes bytes = image.encoded;
+    const std::optional<ImageSize> size = declared_size(image);
     if (!size || size->width > max_image_side || size->height > max_image_side) return 0;
-    const std::string type = sniff_mime_type(bytes);
+    const std::string type = media_type(image);
     // Of an animation libwebp keeps the canvas, a frame and its own copy of the pixels.
     std::uint64_t per_pixel = 16;
     if (type == "image/png") per_pixel = 0;  // libpng keeps single rows
@@ -109,11 +167,16 @@ std::uint64_t decoding_memory(Bytes bytes) {
     return bytes.size() + per_pixel * size->pixels();
 }
 
-bool is_plausible_size(Bytes bytes, const ImageSize& size) {
-    const std::string type = sniff_mime_type(bytes);
-    if (type == "image/jpeg") return size.pixels() / max_jpeg_pixels_per_byte <= bytes.size();
-    if (type != "image/webp" || size.pixels() <= max_unchecked_webp_pixels) return true;
-    return size.pixels() / max_webp_pixels_per_byte <= bytes.size();
+bool is_plausible_size(const Image& image, const ImageSize& size) {
+    const std::string type = media_type(image);
+    const auto is_at_most = [&](std::uint64_t pixels_per_byte) {
+        return size.pixels() / pixels_per_byte <= image.encoded.size();
+    };
+    if (type == "image/png") return true;
+    if (type == "image/jpeg") return is_at_most(max_jpeg_pixels_per_byte);
+    if (type == "image/bmp") return is_at_most(max_bmp_pixels_per_byte);
+    if (type == tga_media_type) return is_at_most(max_tga_pixels_per_byte);
+    return size.pixels() <= max_unchecked_pixels || is_at_most(max_other_pixels_per_byte);
 }
 
 }  // namespace faqem::detail

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "asset/image/image.hpp"
 #include "asset/image/image_size.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "bake/transfer/extension_layers.hpp"
@@ -17,11 +18,11 @@ namespace {
 void report_images(const Asset& asset, Report& report) {
     report.images.clear();
     for (const Image& image : asset.images) {
-        const std::optional<ImageSize> size = declared_size(image.encoded);
+        const std::optional<ImageSize> size = declared_size(image);
         const auto side = [&](std::uint64_t ImageSize::*member) {
             return size ? static_cast<std::uint32_t>(*size.*member) : 0;
         };
-        report.images.push_back({image.name, sniff_mime_type(image.encoded), side(&ImageSize::width),
+        report.images.push_back({image.name, media_type(image), side(&ImageSize::width),
                                  side(&ImageSize::height), image.encoded.size()});
     }
 }

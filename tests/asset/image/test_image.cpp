@@ -1,5 +1,7 @@
 // Decoding and encoding of images.
 
+#include <algorithm>
+
 #include "asset/image/image.hpp"
 #include "asset/image/image_size.hpp"
 #include "support/catch.hpp"
@@ -23,7 +25,7 @@ TEST_CASE("image formats are detected from the first bytes") {
 
 TEST_CASE("the memory of an image decoder is estimated from the headers") {
     const auto memory = [](std::string bytes) {
-        return detail::decoding_memory(Bytes(bytes.begin(), bytes.end())) - bytes.size();
+        return detail::decoding_memory(image_x(std::string(bytes.begin(), bytes.end()))) - bytes.size();
     };
     std::string image = png_file(1000, 500, 16, 6, "");
     CHECK(memory(image) == 0);
@@ -41,8 +43,8 @@ TEST_CASE("the memory of an image decoder is estimated from the headers") {
     CHECK(memory(bytes_of_hex("ffd8ffc0" + frame + "ffda000c03" + rest)) == 0);
     CHECK(memory(bytes_of_hex("ffd8ffc0" + frame + "ffda000801" + rest)) == 1000 * 500 * 6);
     CHECK(memory(bytes_of_hex("ffd8ffc2" + frame + "ffda000c03" + rest)) == 1000 * 500 * 6);
-    CHECK(detail::decoding_memory(Bytes(100, 'x')) == 0);
-    CHECK(detail::decoding_memory({}) == 0);
+    CHECK(detail::decoding_memory(image_x(std::string(100, 'x'))) == 0);
+    CHECK(detail::decoding_memory(Image{}) == 0);
 }
 
 TEST_CASE("a JPEG or WebP too short for its pixels is rejected before memory is allocated") {
@@ -105,6 +107,113 @@ TEST_CASE("pixel arrays that do not match the image size are rejected") {
 }
 
 #ifdef FAQEM_WITH_IMAGE_PLUGIN
+
+namespace {
+
+// Images of two pixels, (10, 20, 30) and (1, 2, 3).
+const std::string bmp_hex =
+    "424d3e00000000000000360000002800000002000000010000000100180000000000080000000000000000000000000000000000"
+    "0000"
+    "1e140a0302010000";
+const std::string gif_hex = "474946383961020001008000000a141e0102032c00000000020001000002 02440a003b";
+const std::string tiff_hex =
+    "49492a0008000000"
+    "0900000103000100000002000000010103000100000001000000020103000300 00007a000000030103000100000001000000"
+    "060103000100000002000000110104000100000080000000150103000100000003000000160103000100000001000000"
+    "170104000100000006000000"
+    "00000000"
+    "080008000800"
+    "0a141e010203";
+
+Image image_of_hex(std::string hex) {
+    hex.erase(std::remove(hex.begin(), hex.end(), ' '), hex.end());
+    return image_x(bytes_of_hex(hex));
+}
+
+}  // namespace
+
+TEST_CASE("BMP, GIF and TIFF are decoded by the plugin") {
+    for (const std::string& hex : {bmp_hex, gif_hex, tiff_hex}) {
+        const Image image = image_of_hex(hex);
+        INFO(detail::sniff_mime_type(image.encoded));
+        const auto size = detail::declared_size(image);
+        REQUIRE(size);
+        CHECK(size->width == 2);
+        CHECK(size->height == 1);
+        const Pixels pixels = decode(image);
+        CHECK(pixels.width == 2);
+        CHECK(pixels.height == 1);
+        CHECK(!pixels.has_alpha);
+        CHECK(pixels.rgba == Bytes{10, 20, 30, 255, 1, 2, 3, 255});
+    }
+}
+
+TEST_CASE("damaged BMP, GIF and TIFF are rejected with the name of the image") {
+    for (const std::string& hex : {bmp_hex, gif_hex, tiff_hex}) {
+        const Image whole = image_of_hex(hex);
+        INFO(detail::sniff_mime_type(whole.encoded));
+        for (std::size_t size = 4; size < whole.encoded.size(); ++size) {
+            Image cut = whole;
+            cut.encoded.resize(size);
+            try {
+                const std::size_t bytes = decode(cut).rgba.size();
+                CHECK(bytes == 8);  // such as GIF without its last byte
+            } catch (const InputError& error) {
+                CHECK(contains(error.what(), "image 'x'"));
+            }
+        }
+    }
+}
+
+TEST_CASE("sizes of BMP, GIF and TIFF are checked before they are decoded") {
+    Image bmp = image_of_hex(bmp_hex), gif = image_of_hex(gif_hex), tiff = image_of_hex(tiff_hex);
+    const auto set = [](Image& image, std::size_t at, std::uint32_t value) {
+        for (std::size_t i = 0; i < 2; ++i)
+            image.encoded[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
+    };
+    const auto error = [](const Image& image) { return message_of<InputError>([&] { decode(image); }); };
+    set(bmp, 18, 1000), set(bmp, 22, 1000);
+    CHECK(contains(error(bmp), "62 bytes cannot hold 1000 x 1000 pixels"));
+    bmp.encoded[25] = 0xff, bmp.encoded[24] = 0xff, set(bmp, 22, 0xffff);  // height -1: from top to bottom
+    CHECK(detail::declared_size(bmp)->height == 1);
+    set(gif, 6, 16000), set(gif, 8, 16000);
+    CHECK(contains(error(gif), "cannot hold 16000 x 16000 pixels"));
+    set(gif, 6, 20000);
+    CHECK(contains(error(gif), "is 20000 x 16000 pixels, at most"));
+    set(tiff, 18, 20000);
+    CHECK(contains(error(tiff), "is 20000 x 1 pixels, at most"));
+    set(tiff, 18, 0);
+    CHECK(contains(error(tiff), "is 0 x 1 pixels"));
+    set(tiff, 4, 200);  // a directory after the end
+    CHECK(contains(error(tiff), "its header has no image size"));
+    set(tiff, 4, 8), set(tiff, 8, 60000);  // too many entries
+    CHECK(contains(error(tiff), "its header has no image size"));
+}
+
+TEST_CASE("an unused fourth channel of TGA does not hide the image") {
+    Image image = image_x(bytes_of_hex("0000020000000000000000000200010020081e140a0003020100"));
+    image.mime_type = "image/x-tga";
+    const Pixels pixels = decode(image);
+    CHECK(!pixels.has_alpha);
+    CHECK(pixels.rgba == Bytes{10, 20, 30, 255, 1, 2, 3, 255});
+}
+
+TEST_CASE("images of kinds that glTF does not have are written as PNG") {
+    const TemporaryFolder folder;
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
+    asset.parts[0].face_material = {0};
+    asset.parts[0].uvs = {{{0, 0}, {1, 0}, {1, 1}}};
+    asset.materials.resize(1);
+    asset.materials[0].base_color_texture.image = 0;
+    asset.images = {image_of_hex(bmp_hex)};
+    asset.images[0].mime_type = "image/bmp";
+    save(asset, folder / "a.glb");
+    const Asset back = load(folder / "a.glb");
+    CHECK(back.images.at(0).mime_type == "image/png");
+    CHECK(decode(back.images[0]).rgba == Bytes{10, 20, 30, 255, 1, 2, 3, 255});
+    save(asset, folder / "a.obj");  // which names files of any kind
+    CHECK(load(folder / "a.obj").images.at(0).encoded == asset.images[0].encoded);
+}
 
 TEST_CASE("a TGA is decoded by the plugin, if its media type says so") {
     // Two pixels of blue, green, red and alpha, the first one at the lower left.

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "asset/gltf/write/writer.hpp"
+#include "asset/image/image.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -37,7 +38,13 @@ Index add_image(GltfWriter& writer, const Image& image, Json json) {
 Index write_asset_image(GltfWriter& writer, Index image) {
     if (writer.source_image_of[image] != no_index) return copy_image(writer, writer.source_image_of[image]);
     const auto [entry, is_new] = writer.asset_images.try_emplace(image, no_index);
-    if (is_new) entry->second = add_image(writer, writer.asset.images[image], Json::object());
+    if (!is_new) return entry->second;
+    const Image* written = &writer.asset.images[image];
+    if (needs_plugin(*written)) {
+        writer.converted_images.push_back(encode_png(decode(*written), written->name));
+        written = &writer.converted_images.back();
+    }
+    entry->second = add_image(writer, *written, Json::object());
     return entry->second;
 }
 

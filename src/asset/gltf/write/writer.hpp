@@ -3,6 +3,7 @@
 /// State shared by the functions that write glTF. Objects of the source document are copied to the output
 /// when they are first needed, so that the output has no unused objects.
 
+#include <deque>
 #include <map>
 #include <string>
 #include <tuple>
@@ -31,7 +32,8 @@ struct GltfWriter {
     std::map<Index, Index> asset_images = {};  ///< asset image without an equal source image to output image
     std::map<std::tuple<Index, Wrap, Wrap, Filter>, Index> textures = {};
     std::map<std::tuple<Wrap, Wrap, Filter>, Index> samplers = {};
-    std::vector<const Image*> images = {};  ///< the output images, borrowed
+    std::vector<const Image*> images = {};    ///< the output images, borrowed
+    std::deque<Image> converted_images = {};  ///< images of kinds that glTF does not have, as PNG
     std::vector<Index> source_image_of =
         {};                            ///< per asset image: a source image with equal bytes, or no_index
     std::vector<Index> mesh_map = {};  ///< source mesh to output mesh; no_index if it was left out
