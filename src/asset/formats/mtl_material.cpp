@@ -154,8 +154,11 @@ void MtlMaterials::set_roughness_metallic(Material& to, const MtlMaterial& from)
     }
     if (!roughness && !metallic) return;
     const MtlTexture& texture = roughness ? from.roughness : from.metallic;
-    const bool is_one = roughness == metallic && from.roughness.channel == from.metallic.channel &&
-                        texture.channel == ScalarChannel::automatic;
+    const auto has_channels = [&](ScalarChannel r, ScalarChannel m) {
+        return roughness == metallic && from.roughness.channel == r && from.metallic.channel == m;
+    };
+    const bool is_packed = has_channels(ScalarChannel::green, ScalarChannel::blue);  // as in glTF
+    const bool may_be_packed = has_channels(ScalarChannel::automatic, ScalarChannel::automatic);
     try {
         const std::string key =
             "metal|" + value_key(roughness, from.roughness) + "|" + value_key(metallic, from.metallic);
@@ -163,7 +166,7 @@ void MtlMaterials::set_roughness_metallic(Material& to, const MtlMaterial& from)
             const auto values = [&](const ReferencedImage* source, const MtlTexture& of) {
                 return source ? scalar_image(images_.decode(*source), data_channel(of)) : ScalarImage{};
             };
-            if (is_one && !is_grey(images_.decode(*roughness))) return Pixels{};  // already as in glTF
+            if (is_packed || (may_be_packed && !is_grey(images_.decode(*roughness)))) return Pixels{};
             const ScalarImage r = values(roughness, from.roughness), m = values(metallic, from.metallic);
             return roughness_metallic(roughness ? &r : nullptr, metallic ? &m : nullptr);
         });

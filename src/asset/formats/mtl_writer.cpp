@@ -34,7 +34,15 @@ public:
         texture("map_Kd", material.base_color_texture);
         if (transparent) texture("map_d", material.base_color_texture);
         if (is_emissive) texture("map_Ke", material.emissive_texture);
-        texture("norm", material.normal_texture);
+        // glTF keeps roughness and metal in two channels of one image.
+        texture("map_Pr -imfchan g", material.metallic_roughness_texture);
+        texture("map_Pm -imfchan b", material.metallic_roughness_texture);
+        std::string norm = "norm";
+        if (material.normal_scale != 1) {
+            norm += " -bm ";
+            append_number(norm, material.normal_scale);
+        }
+        texture(norm, material.normal_texture);
     }
 
     MtlLibrary finish() { return std::move(library_); }
@@ -64,10 +72,11 @@ private:
         library_.text += "\n";
     }
 
-    void texture(const char* key, const TextureRef& ref) {
+    /// \param key  with options
+    void texture(const std::string& key, const TextureRef& ref) {
         if (!ref) return;
         const bool clamps = ref.wrap_u == Wrap::clamp && ref.wrap_v == Wrap::clamp;
-        library_.text += std::string(key) + (clamps ? " -clamp on " : " ") + image_name(ref.image) + "\n";
+        library_.text += key + (clamps ? " -clamp on " : " ") + image_name(ref.image) + "\n";
     }
 
     std::string image_name(Index image) {
@@ -89,14 +98,15 @@ bool has_same_uvs(const TextureRef& a, const TextureRef& b) {
 
 bool uses_other_uvs(const Material& m) {
     const auto differs = [&](const TextureRef& ref) { return ref && !has_same_uvs(ref, leading_texture(m)); };
-    return differs(m.emissive_texture) || differs(m.normal_texture);
+    return differs(m.emissive_texture) || differs(m.metallic_roughness_texture) || differs(m.normal_texture);
 }
 
 bool has_unsupported_wrap(const Material& m) {
     const auto unusual = [](const TextureRef& ref) {
         return ref && (ref.wrap_u != ref.wrap_v || ref.wrap_u == Wrap::mirror);
     };
-    return unusual(m.base_color_texture) || unusual(m.emissive_texture) || unusual(m.normal_texture);
+    return unusual(m.base_color_texture) || unusual(m.emissive_texture) ||
+           unusual(m.metallic_roughness_texture) || unusual(m.normal_texture);
 }
 
 void add_losses(const std::vector<Material>& materials, std::vector<std::string>& losses) {
@@ -104,18 +114,18 @@ void add_losses(const std::vector<Material>& materials, std::vector<std::string>
         const char* what;
         std::function<bool(const Material&)> occurs;
     };
-    const Loss kinds[] = {
-        {"metallic-roughness textures", [](const Material& m) { return bool(m.metallic_roughness_texture); }},
-        {"occlusion textures", [](const Material& m) { return bool(m.occlusion_texture); }},
-        {"the scale of normal maps",
-         [](const Material& m) { return m.normal_texture && m.normal_scale != 1; }},
-        {"alpha cutoffs: alpha masks become alpha blending",
-         [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
-        {"unlit materials", [](const Material& m) { return m.unlit; }},
-        {"double-sided materials", [](const Material& m) { return m.double_sided; }},
-        {"material extensions", [](const Material& m) { return !m.extensions.empty(); }},
-        {"different UVs for the textures of a material", uses_other_uvs},
-        {"mirrored wrapping, or wrapping that differs in u and v", has_unsupported_wrap}};
+    const Loss kinds[] = {{"factors of metallic-roughness textures",
+                           [](const Material& m) {
+                               return m.metallic_roughness_texture && (m.roughness != 1 || m.metallic != 1);
+                           }},
+                          {"occlusion textures", [](const Material& m) { return bool(m.occlusion_texture); }},
+                          {"alpha cutoffs: alpha masks become alpha blending",
+                           [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
+                          {"unlit materials", [](const Material& m) { return m.unlit; }},
+                          {"double-sided materials", [](const Material& m) { return m.double_sided; }},
+                          {"material extensions", [](const Material& m) { return !m.extensions.empty(); }},
+                          {"different UVs for the textures of a material", uses_other_uvs},
+                          {"mirrored wrapping, or wrapping that differs in u and v", has_unsupported_wrap}};
     for (const Loss& kind : kinds) {
         const auto count = std::count_if(materials.begin(), materials.end(), kind.occurs);
         if (count)
@@ -128,7 +138,9 @@ void add_losses(const std::vector<Material>& materials, std::vector<std::string>
 
 const TextureRef& leading_texture(const Material& material) {
     if (material.base_color_texture) return material.base_color_texture;
-    return material.emissive_texture ? material.emissive_texture : material.normal_texture;
+    if (material.emissive_texture) return material.emissive_texture;
+    return material.metallic_roughness_texture ? material.metallic_roughness_texture
+                                               : material.normal_texture;
 }
 
 MtlLibrary make_mtl(const Asset& asset, const std::vector<Index>& used, const std::string& stem,

@@ -23,7 +23,8 @@ struct MtlLibrary {
 };
 
 /// The texture whose UV set and UV transform are used for the only UV set of the OBJ file: the base colour
-/// texture if it is set, else the emissive texture if it is set, else the normal texture, set or not.
+/// texture if it is set, else the emissive texture, else the metallic-roughness texture, else the normal texture, set
+/// or not.
 const TextureRef& leading_texture(const Material& material);
 
 /// Converts materials to a library: the inverse of read_mtl(), with Pr for roughness and Pm for metallic.
