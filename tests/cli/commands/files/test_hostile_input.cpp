@@ -70,8 +70,8 @@ TEST_CASE("hostile: counts and offsets near 2^62 and 2^64 are rejected") {
     check_refused(folder, "a.ply", {"vertex"});
     write(folder / "a.off", "OFF\n4611686018427387904 1 0\n0 0 0\n");
     check_refused(folder, "a.off", {"4611686018427387904", "32-bit indices"});
-    write(folder / "a.stl", std::string(80, 'x') + "\xFF\xFF\xFF\xFF" + std::string(50, '\0'));
-    check_refused(folder, "a.stl", {"header", "the file has 134"});
+    write(folder / "a.stl", std::string(80, 'x') + "\xFF\xFF\xFF\xFF" + std::string(49, '\0'));
+    check_refused(folder, "a.stl", {"header", "4294967295", "the file has room for 0"});
     write(folder / "a.obj", "v 0 0 0\nf 1 1 4611686018427387904\n");
     check_refused(folder, "a.obj", {"line 2"});
 }
