@@ -62,7 +62,7 @@ int paeth(int left, int above, int corner) {
     const int to_left = std::abs(above - corner), to_above = std::abs(left - corner);
     const int to_corner = std::abs(left + above - 2 * corner);
     const int other = to_above <= to_corner ? above : corner;
-    return (to_left <= to_above) & (to_left <= to_corner) ? left : other;
+    return ((to_left <= to_above) & (to_left <= to_corner)) ? left : other;
 }
 
 /// Filters a row (W3C PNG specification, "Filtering").

@@ -63,7 +63,7 @@ public:
                 }
             }
         }
-        std::sort(candidates.begin(), candidates.end(), [this](const Candidate& a, const Candidate& b) {
+        std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
             if (a.waste != b.waste) return a.waste < b.waste;
             return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
         });

@@ -125,7 +125,7 @@ private:
             const auto [low, high] = std::minmax(vertex_[c], vertex_[next(c)]);
             edges.push_back({low, high, c});
         }
-        std::sort(edges.begin(), edges.end(), [this](const Edge& a, const Edge& b) {
+        std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
             return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
         });
         std::vector<std::uint32_t> waiting;
