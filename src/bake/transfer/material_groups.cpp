@@ -30,8 +30,9 @@ bool has_plain_materials(const Asset& asset, const BakeOptions& bake) {
         return false;
     return std::none_of(asset.materials.begin(), asset.materials.end(),
                         [](const Material& material) { return has_textures(material); }) &&
-           std::none_of(asset.parts.begin(), asset.parts.end(),
-                        [](const Part& part) { return !part.colors.empty(); });
+           std::none_of(asset.parts.begin(), asset.parts.end(), [](const Part& part) {
+               return !part.colors.empty() || !part.joints.empty() || !part.morph_targets.empty();
+           });
 }
 
 const Material& material_or_default(const Asset& asset, Index material) {

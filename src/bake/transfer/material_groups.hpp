@@ -46,7 +46,8 @@ std::vector<bool> used_materials(const Asset& asset, std::span<const std::uint8_
 
 /// Whether all materials show one colour each, without textures and vertex colours, and `bake` requests neither an atlas
 /// nor anything else that a page would hold, such as a normal map. Then no page is baked, and materials with
-/// different factors are not merged. O(materials + parts)
+/// different factors are not merged. Scenes with skins or morph targets are not plain: what moves with a vertex is
+/// transferred less exactly at the border of two materials than across it. O(materials + parts)
 FAQEM_EXPORT bool has_plain_materials(const Asset& asset, const BakeOptions& bake);
 
 /// Groups the materials of an asset. Materials are merged if they agree in alpha mode (and cutoff), in
