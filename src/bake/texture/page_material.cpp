@@ -13,6 +13,7 @@
 
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "bake/texture/constant_image.hpp"
 #include "bake/texture/image_choice.hpp"
 
@@ -190,6 +191,9 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         if (from.empty() && may_halve_new_map(job.options.bake, job.pending.back()))
             halve(job.pending.back());
     }
+    const bool is_unchanged = group.materials.size() == 1 && group.material.extensions.empty() &&
+                              !has_textures(group.material) && !has_textures(result);
+    result.rebaked = !is_unchanged;
     add_layers(list, group.material, channels.layers ? layers : std::span<const ExtensionLayer>(), images,
                result);
     return result;

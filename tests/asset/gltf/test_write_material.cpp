@@ -24,6 +24,23 @@ TEST_CASE("an unmodified material keeps its digits, extras, extensions and textu
     CHECK(json["extensionsUsed"] == Json({"KHR_materials_clearcoat", "KHR_texture_transform"}));
 }
 
+TEST_CASE("a texture of which only the image changed keeps its transform, to which an animation may point") {
+    GltfBuilder builder = square_gltf();
+    add_texture(builder, 1);
+    builder.json["materials"] = Json::parse(R"([{"name":"m","pbrMetallicRoughness":{"baseColorTexture":
+        {"index":0,"extras":"slot","extensions":{"KHR_texture_transform":{"offset":[0,0]}}}}}])");
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    Asset asset = load_glb(builder);
+    asset.images = {small_png(99)};
+    const TemporaryFolder folder;
+    save(asset, folder / "out.glb");
+    const Json json = json_of(get(folder / "out.glb"));
+    CHECK(json["materials"][0]["pbrMetallicRoughness"] ==
+          builder.json["materials"][0]["pbrMetallicRoughness"]);
+    CHECK(json["extensionsUsed"] == Json({"KHR_texture_transform"}));
+    CHECK(load(folder / "out.glb").images[0].encoded == small_png(99).encoded);
+}
+
 TEST_CASE("textures of unknown members are kept unless the material is rebaked") {
     GltfBuilder builder = square_gltf();
     for (std::uint8_t shade = 1; shade <= 3; ++shade) add_texture(builder, shade);

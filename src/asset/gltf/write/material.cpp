@@ -45,14 +45,23 @@ Json make_texture_info(GltfWriter& writer, const TextureRef& ref) {
     return info;
 }
 
-/// Updates the texture info under `key`: kept with a new index if the reference is unchanged, rebuilt if it
-/// changed, erased if it is unset.
+/// Whether only the image of a reference differs from the source.
+bool has_other_image_only(const TextureRef& current, const TextureRef& original) {
+    TextureRef with_image = current;
+    with_image.image = original.image;
+    return original && with_image == original;
+}
+
+/// Updates the texture info under `key`: kept with a new index if at most the image changed, rebuilt if the
+/// reference did, erased if it is unset. An animation may point to a transform that does nothing at rest.
 void write_texture_info(GltfWriter& writer, Json& holder, const char* key, const TextureRef& current,
                         const TextureRef& original) {
     if (!current) {
         holder.erase(key);
     } else if (is_same_reference(writer, current, original)) {
         holder[key]["index"] = copy_texture(writer, index_member(holder[key], "index"));
+    } else if (has_other_image_only(current, original)) {
+        holder[key]["index"] = make_texture(writer, current);
     } else {
         holder[key] = make_texture_info(writer, current);
     }
