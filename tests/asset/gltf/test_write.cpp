@@ -393,3 +393,29 @@ TEST_CASE("unknown extensions are preserved, with a warning if they contain numb
     CHECK(any_contains(save(load_glb(builder), folder / "out.glb"), "ACME_rig"));
     CHECK(json_of(get(folder / "out.glb"))["nodes"][0] == builder.json["nodes"][0]);
 }
+
+TEST_CASE("extensions that describe triangles are left out, and unknown ones if the triangles changed") {
+    GltfBuilder builder = square_gltf();
+    builder.json["extensionsUsed"] = {"CESIUM_primitive_outline", "EXT_mesh_manifold", "VENDOR_note"};
+    builder.json["meshes"][0]["extensions"] = Json::parse(R"({"EXT_mesh_manifold":{"mergeIndices":0}})");
+    builder.json["meshes"][0]["primitives"][0]["extensions"] =
+        Json::parse(R"({"CESIUM_primitive_outline":{"indices":0},"VENDOR_note":{"text":"a"}})");
+    Asset asset = load_glb(builder);
+    const TemporaryFolder folder;
+    const auto written = [&](std::vector<std::string>& warnings) {
+        warnings = save(asset, folder / "out.glb", Overwrite::yes);
+        return json_of(get(folder / "out.glb"));
+    };
+    std::vector<std::string> warnings;
+    Json json = written(warnings);
+    CHECK(warnings.size() == 2);
+    CHECK(any_contains(warnings, "CESIUM_primitive_outline does not fit"));
+    CHECK(any_contains(warnings, "EXT_mesh_manifold does not fit"));
+    CHECK(json["meshes"][0]["primitives"][0]["extensions"] == Json::parse(R"({"VENDOR_note":{"text":"a"}})"));
+    CHECK(json["extensionsUsed"] == Json({"VENDOR_note"}));
+    asset.parts[0].file_order = FileOrder::for_gpu;
+    json = written(warnings);
+    CHECK(any_contains(warnings, "VENDOR_note is not known"));
+    CHECK_FALSE(json["meshes"][0]["primitives"][0].contains("extensions"));
+    CHECK_FALSE(json.contains("extensionsUsed"));
+}

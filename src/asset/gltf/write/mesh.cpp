@@ -12,9 +12,10 @@ namespace {
 constexpr std::uint64_t first_triangle_mode = 4;
 constexpr const char* variants_name = "KHR_materials_variants";
 
-/// Primitive extensions that describe the source vertices, which no longer exist.
-constexpr std::array<std::string_view, 3> vertex_extensions = {
-    "KHR_draco_mesh_compression", "EXT_mesh_features", "EXT_structural_metadata"};
+/// Extensions of primitives and meshes that describe the source vertices or triangles, which no longer exist.
+constexpr std::array<std::string_view, 6> vertex_extensions = {
+    "KHR_draco_mesh_compression", "EXT_mesh_features", "EXT_structural_metadata",
+    "CESIUM_primitive_outline",   "EXT_mesh_manifold", "FB_ngon_encoding"};
 
 bool is_triangle_primitive(const Json& primitive) {
     return unsigned_member(primitive, "mode", 4) >= first_triangle_mode;
@@ -150,6 +151,13 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
         return no_index;
     }
     update_morph_targets(mesh, targets);
+    if (mesh.contains("extensions")) {
+        for (const std::string_view extension : vertex_extensions)
+            if (mesh["extensions"].erase(std::string(extension)) != 0)
+                warn_mesh(writer, name,
+                          std::string(extension) + " does not fit the new triangles and was left out");
+        if (mesh["extensions"].empty()) mesh.erase("extensions");
+    }
     mesh["primitives"] = std::move(primitives);
     return append(writer, "meshes", std::move(mesh));
 }
@@ -177,7 +185,19 @@ Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material
     for (const std::string_view name : vertex_extensions)
         if (extensions.erase(std::string(name)) != 0 && name != "KHR_draco_mesh_compression")
             warn_mesh(writer, part.name,
-                      std::string(name) + " does not fit the new vertices and was left out");
+                      std::string(name) + " does not fit the new vertices and triangles and was left out");
+    // What an unknown extension says may not hold for other triangles.
+    if (part.file_order == FileOrder::for_gpu) {
+        for (auto extension = extensions.begin(); extension != extensions.end();) {
+            if (extension.key() == variants_name) {
+                ++extension;
+                continue;
+            }
+            warn_mesh(writer, part.name,
+                      extension.key() + " is not known, and may not fit the new triangles: left out");
+            extension = extensions.erase(extension);
+        }
+    }
     if (material && material->rebaked && extensions.erase(variants_name) != 0)
         warn_mesh(writer, part.name, "the material variants do not fit the new texture and were left out");
     if (!extensions.empty()) kept["extensions"] = std::move(extensions);
