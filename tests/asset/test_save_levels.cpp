@@ -77,6 +77,27 @@ TEST_CASE("the mesh of a node with a transform or an animation is moved to a chi
     CHECK(json["scenes"][0]["nodes"] == Json({0, 1}));
 }
 
+TEST_CASE("animations of morph weights move every level that has the morph targets") {
+    GltfBuilder builder = square_gltf();
+    const auto moved = builder.accessor(std::vector<Vec3f>(4, Vec3f{0, 0, 1}), f32, "VEC3");
+    builder.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", moved}}};
+    const auto times = builder.accessor(std::vector<float>{0, 1}, f32, "SCALAR");
+    const auto weights = builder.accessor(std::vector<float>{0, 1}, f32, "SCALAR");
+    builder.json["animations"] = {
+        {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}},
+         {"samplers", {{{"input", times}, {"output", weights}}}}}};
+    std::vector<SavedLevel> levels = three_levels(load_glb(builder));
+    levels[2].asset.parts[0].morph_targets.clear();
+    const Json json = json_of(saved_levels(std::move(levels)));
+    std::vector<std::size_t> meshes;
+    for (const Json& channel : json["animations"][0]["channels"]) {
+        CHECK(channel["sampler"] == 0);
+        CHECK(channel["target"]["path"] == "weights");
+        meshes.push_back(json["nodes"][channel["target"]["node"].get<std::size_t>()]["mesh"]);
+    }
+    CHECK(meshes == std::vector<std::size_t>{0, 1});
+}
+
 TEST_CASE("levels of a new asset share equal images and have separate materials") {
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}});
     asset.parts[0].uvs = {{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};

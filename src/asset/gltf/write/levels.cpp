@@ -1,6 +1,8 @@
 #include "asset/gltf/write/levels.hpp"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "asset/gltf/write/writer.hpp"
@@ -63,6 +65,27 @@ Index split_mesh_node(GltfWriter& writer, Index node) {
     return index;
 }
 
+/// Number of morph targets of a mesh; 0 if there is no mesh.
+std::uint64_t morph_targets_of(const Json& document, Index mesh) {
+    return mesh == no_index ? 0 : array_size(document["meshes"][mesh]["primitives"][0], "targets");
+}
+
+/// Lets the animations of the morph weights of a node move another node, too.
+void copy_weight_channels(Json& document, Index from, Index to) {
+    if (!document.contains("animations")) return;
+    for (Json& animation : document["animations"]) {
+        Json& channels = animation["channels"];
+        const std::size_t count = channels.size();
+        for (std::size_t c = 0; c < count; ++c) {
+            const Json& target = channels[c]["target"];
+            if (index_member(target, "node") != from || string_member(target, "path") != "weights") continue;
+            Json copy = channels[c];
+            copy["target"]["node"] = to;
+            channels.push_back(std::move(copy));
+        }
+    }
+}
+
 /// Creates the node of another level: the members of `mesh_node` with the mesh of the level, or no mesh if
 /// the level has none.
 Json level_node(const GltfWriter& writer, const Json& mesh_node, Index mesh, std::size_t level) {
@@ -98,7 +121,11 @@ void attach_levels(GltfWriter& writer, const LeveledAsset& leveled, const std::v
         for (std::size_t level = 1; level < leveled.levels(); ++level) {
             const Index level_mesh = mesh[level * leveled.parts_per_level + part];
             Json node = level_node(writer, writer.out["nodes"][mesh_node], level_mesh, level);
-            ids.push_back(append(writer, "nodes", std::move(node)));
+            const Index level_index = append(writer, "nodes", std::move(node));
+            const std::uint64_t targets = morph_targets_of(writer.out, level_mesh);
+            if (targets > 0 && targets == morph_targets_of(writer.out, node_mesh))
+                copy_weight_channels(writer.out, mesh_node, level_index);
+            ids.push_back(level_index);
         }
         if (ids.empty()) continue;
         Json& json = writer.out["nodes"][mesh_node];
