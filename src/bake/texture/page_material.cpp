@@ -127,6 +127,39 @@ std::optional<Vec3f> constant_emission(const PageImages& images) {
     return Vec3f{linear_factor(*r), linear_factor(*g), linear_factor(*b)};
 }
 
+// Textures of a group in the given slots.
+std::vector<TextureRef> textures_of_group(const Asset& source, const MaterialGroup& group,
+                                          std::initializer_list<TextureMember> slots) {
+    std::vector<TextureRef> found;
+    for (const Index m : group.materials) {
+        for (const TextureMember slot : slots) {
+            if (const TextureRef& texture_ref = material_or_default(source, m).*slot)
+                found.push_back(texture_ref);
+        }
+    }
+    return found;
+}
+
+// Adds the image that occlusion, roughness and metalness share, or sets the factors if they are constant.
+void add_occlusion_roughness_metallic(PageImageList& list, const Channels& channels, PageImages& images,
+                                      const std::shared_ptr<const std::vector<std::uint8_t>>& known,
+                                      const std::vector<TextureRef>& from, Material& result) {
+    const auto [occlusion, roughness, metallic, alpha] =
+        constant_channels(images.occlusion_roughness_metallic, images.known);
+    const bool has_occlusion = channels.occlusion && occlusion != 255.0f;
+    const bool is_varying = channels.metallic_roughness && !(roughness && metallic);
+    TextureRef texture;
+    if (has_occlusion || is_varying) {
+        texture = list.add(std::move(images.occlusion_roughness_metallic), known,
+                           "_occlusionRoughnessMetallic", Content::data, from);
+    }
+    if (has_occlusion) result.occlusion_texture = texture;
+    if (!channels.metallic_roughness) return;
+    result.metallic = is_varying ? 1 : *metallic / 255;
+    result.roughness = is_varying ? 1 : *roughness / 255;
+    if (is_varying) result.metallic_roughness_texture = texture;
+}
+
 }  // namespace
 
 Material page_material(BakeJob& job, const MaterialGroup& group, const Channels& channels,
@@ -137,16 +170,8 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         result.occlusion_texture = result.emissive_texture = {};
     result.normal_scale = result.occlusion_strength = 1;
     result.extension_textures.clear();
-    // Textures of the group in the given slots.
     const auto uses = [&](std::initializer_list<TextureMember> slots) {
-        std::vector<TextureRef> found;
-        for (const Index m : group.materials) {
-            for (const TextureMember slot : slots) {
-                if (const TextureRef& texture_ref = material_or_default(job.source, m).*slot)
-                    found.push_back(texture_ref);
-            }
-        }
-        return found;
+        return textures_of_group(job.source, group, slots);
     };
     PageImageList list(job, result.name.empty()
                                 ? "material" + std::to_string(job.result.asset.materials.size())
@@ -160,22 +185,9 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
                                                  uses({&Material::base_color_texture}));
     }
     if (channels.metallic_roughness || channels.occlusion) {
-        const auto [occlusion, roughness, metallic, alpha] =
-            constant_channels(images.occlusion_roughness_metallic, images.known);
-        const bool has_occlusion = channels.occlusion && occlusion != 255.0f;
-        const bool is_varying = channels.metallic_roughness && !(roughness && metallic);
-        TextureRef orm;
-        if (has_occlusion || is_varying) {
-            orm = list.add(std::move(images.occlusion_roughness_metallic), known,
-                           "_occlusionRoughnessMetallic", Content::data,
-                           uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}));
-        }
-        if (has_occlusion) result.occlusion_texture = orm;
-        if (channels.metallic_roughness) {
-            result.metallic = is_varying ? 1 : *metallic / 255;
-            result.roughness = is_varying ? 1 : *roughness / 255;
-            if (is_varying) result.metallic_roughness_texture = orm;
-        }
+        add_occlusion_roughness_metallic(
+            list, channels, images, known,
+            uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}), result);
     }
     if (channels.emissive) {
         const std::optional<Vec3f> constant = constant_emission(images);

@@ -26,6 +26,52 @@ nlohmann::ordered_json counts(const std::array<std::uint64_t, n>& values,
     return json;
 }
 
+inline nlohmann::ordered_json removed_components_json(const Report& report) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const RemovedComponent& removed : report.removed_components) {
+        json.push_back({{"part", removed.part},
+                        {"faces", removed.faces},
+                        {"area_share", removed.area_share},
+                        {"silhouette_share", removed.silhouette_share},
+                        {"box_min", removed.box_min},
+                        {"box_max", removed.box_max}});
+    }
+    return json;
+}
+
+inline nlohmann::ordered_json pages_json(const Report& report) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const BakedPage& page : report.pages) {
+        json.push_back(
+            {{"material", page.material},
+             {"kind", page.kind == Bake::per_triangle ? "per-triangle" : "atlas"},
+             {"width", page.width},
+             {"height", page.height},
+             {"faces", page.faces},
+             {"charts", page.charts},
+             {"faces_outside_charts", page.faces_outside_charts},
+             {"fill", page.fill},
+             {"density", page.density},
+             {"stretch", page.stretch},
+             {"samples",
+              {{"history", page.samples[0]}, {"approximate", page.samples[1]}, {"closest", page.samples[2]}}},
+             {"uncertain_texels", page.uncertain_texels}});
+    }
+    return json;
+}
+
+inline nlohmann::ordered_json images_json(const Report& report) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const ResultImage& image : report.images) {
+        json.push_back({{"name", image.name},
+                        {"mime_type", image.mime_type},
+                        {"width", image.width},
+                        {"height", image.height},
+                        {"bytes", image.bytes}});
+    }
+    return json;
+}
+
 }  // namespace detail
 
 FAQEM_INLINE std::string to_json(const Report& report) {
@@ -37,15 +83,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["vertices_out"] = report.vertices_out;
     json["target_faces"] = report.target_faces;
     json["stop_reason"] = name(report.stop);
-    json["removed_components"] = nlohmann::ordered_json::array();
-    for (const RemovedComponent& removed : report.removed_components) {
-        json["removed_components"].push_back({{"part", removed.part},
-                                              {"faces", removed.faces},
-                                              {"area_share", removed.area_share},
-                                              {"silhouette_share", removed.silhouette_share},
-                                              {"box_min", removed.box_min},
-                                              {"box_max", removed.box_max}});
-    }
+    json["removed_components"] = detail::removed_components_json(report);
     if (report.max_error) {
         const MeasuredError& e = *report.max_error;
         json["max_error"] = {{"allowed", e.allowed},
@@ -66,31 +104,8 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["vertices_fitted"] = report.vertices_fitted;
     json["edges_flipped"] = report.edges_flipped;
     json["virtual_edges"] = report.virtual_edges;
-    json["pages"] = nlohmann::ordered_json::array();
-    for (const BakedPage& page : report.pages) {
-        json["pages"].push_back(
-            {{"material", page.material},
-             {"kind", page.kind == Bake::per_triangle ? "per-triangle" : "atlas"},
-             {"width", page.width},
-             {"height", page.height},
-             {"faces", page.faces},
-             {"charts", page.charts},
-             {"faces_outside_charts", page.faces_outside_charts},
-             {"fill", page.fill},
-             {"density", page.density},
-             {"stretch", page.stretch},
-             {"samples",
-              {{"history", page.samples[0]}, {"approximate", page.samples[1]}, {"closest", page.samples[2]}}},
-             {"uncertain_texels", page.uncertain_texels}});
-    }
-    json["images"] = nlohmann::ordered_json::array();
-    for (const ResultImage& image : report.images) {
-        json["images"].push_back({{"name", image.name},
-                                  {"mime_type", image.mime_type},
-                                  {"width", image.width},
-                                  {"height", image.height},
-                                  {"bytes", image.bytes}});
-    }
+    json["pages"] = detail::pages_json(report);
+    json["images"] = detail::images_json(report);
     json["bytes_in"] = report.bytes_in;
     json["bytes_out"] = report.bytes_out;
     json["untouched_parts"] = report.untouched_parts;
