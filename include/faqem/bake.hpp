@@ -68,12 +68,13 @@ struct SimplifiedAsset {
 /// \throws InputError  arrays or indices of the asset are inconsistent, or a number is not finite; the
 ///                     message names the part or material
 /// Complexity: the sum of simplify(const MeshView&, const Options&) over the parts. Budget::scene adds one
-/// run with Preset::fast per part if several parts have faces.
+/// run with Preset::fast per part if several parts have faces, and Bake::automatic a second simplification of each
+/// part if SimplifiedParts::kept is made.
 FAQEM_EXPORT SimplifiedParts simplify_parts(const Asset& source, const Options& options);
 
-/// Appearance stage: gives the simplified parts normals, UVs, materials and images. If Options::max_seconds, which counts
-/// from the start of the call, is over before new textures are complete, the parts have the images of the source and
-/// UVs that are read from it; the report has a warning.
+/// Appearance stage: gives the simplified parts normals, UVs, materials and images. If Options::max_seconds, which
+/// counts from the start of the call, is over before new textures are complete, the parts have the images of the
+/// source and UVs that are read from it; the report has a warning.
 /// \param source      the asset that `simplified` was made from
 /// \param simplified  result of simplify_parts() with the same options
 /// \param options     see Options::bake

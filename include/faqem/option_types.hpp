@@ -152,14 +152,14 @@ enum class Normals {
 enum class UntouchedParts {
     /// They are kept unless another bake option that would change them differs from its default: for
     /// Bake::automatic texture_size, texel_density, normal_map, image_format (ImageFormat::source changes
-    /// nothing), image_quality, correspondence, normals, crease_angle; for Bake::keep the last two. For other kinds, and in
-    /// levels with a shared texture, they are baked.
+    /// nothing), image_quality, correspondence, normals, crease_angle; for Bake::keep the last two. For other
+    /// kinds, and in levels with a shared texture, they are baked.
     automatic,
     kept,   ///< they have the arrays, materials and image bytes of the source, whatever the other options
     baked,  ///< they are baked like the other parts
 };
 
-/// Encoding of baked images. Images with alpha are always PNG.
+/// Encoding of baked images. Images with alpha are PNG or WebP.
 enum class ImageFormat {
     /// The smallest that is within BakeOptions::image_quality, possibly with fewer texels: PNG or JPEG, and WebP if
     /// the source has WebP images.

@@ -19,8 +19,8 @@ namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// Checks the image that the decoder is about to produce, before memory is allocated: the header may describe it otherwise
-/// than the decoder understands it.
+/// Checks the image that the decoder is about to produce, before memory is allocated: the header may describe
+/// it otherwise than the decoder understands it.
 void check_spec(const Image& image, const OIIO::ImageSpec& spec) {
     constexpr int max_channels = 8;
     constexpr std::size_t max_channel_bytes = 4;

@@ -10,7 +10,8 @@
 
 namespace faqem::detail {
 
-/// Gives the corners of each polygon its colour. Vertices of polygons with different colours are repeated, after all others.
+/// Gives the corners of each polygon its colour. Vertices of polygons with different colours are repeated,
+/// after all others.
 /// \param part      vertices without colours
 /// \param polygons  of the vertices of the part; changed to the repeated ones
 /// \param colors    one per polygon, linear

@@ -42,9 +42,9 @@ struct MtlMaterial {
 /// - Pr is the roughness; without it, roughness = (2 / (Ns + 2))^(1/4), or 1 without Ns. The formula follows
 ///   Karis, "Specular BRDF reference", 2013, with alpha = roughness^2.
 /// - Pm is the metallic factor; the default is 0.
-/// - map_Kd, map_Ke, map_d, map_Pr, map_Pm, norm, and bump or map_Bump are textures. map_Ka is ignored beside a map_Kd, and
-///   otherwise read as one, with a warning. Of the options, -o, -s, -clamp, -bm and -imfchan are used; the others
-///   are ignored. Options may follow the file name.
+/// - map_Kd, map_Ke, map_d, map_Pr, map_Pm, norm, and bump or map_Bump are textures. map_Ka is ignored beside a
+///   map_Kd, and otherwise read as one, with a warning. Of the options, -o, -s, -clamp, -bm and -imfchan are
+///   used; the others are ignored. Options may follow the file name.
 /// - Ka, Ks, Ni, Tf, Km, illum and sharpness have no equivalent in Material and are ignored. Other
 ///   statements, and statements before the first newmtl, are ignored with a counted warning.
 /// - Keywords may have any letter case.

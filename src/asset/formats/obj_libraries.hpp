@@ -19,8 +19,8 @@ namespace faqem::detail {
 /// \param folder     folder of the OBJ file
 std::vector<std::string> library_names(const std::string& statement, const std::filesystem::path& folder);
 
-/// Returns the library that stands in for one that an OBJ file names and that is missing: the only one in its folder, unless
-/// that has the name of another OBJ file there.
+/// Returns the library that stands in for one that an OBJ file names and that is missing: the only one in its
+/// folder, unless that has the name of another OBJ file there.
 /// \param model  path of the OBJ file
 std::optional<std::string> renamed_library(const std::filesystem::path& model, FileFinder& finder);
 

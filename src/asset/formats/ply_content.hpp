@@ -31,10 +31,11 @@ struct PlyContent {
 /// Converts the content of a PLY file to an asset of one part.
 ///
 /// - Vertices whose corners differ in texture coordinates or face colour are repeated after all others.
-/// - Each texture file becomes a material, if faces with coordinates refer to it; without numbers they refer to the first.
-///   A face with a number below 0 has no texture, and one with a number that no file has neither, with a warning.
-/// - Colours are those of vertices, else those of faces. Faces with a texture have none: programs store the colours of the
-///   texture again, and they would be multiplied. A warning says so.
+/// - Each texture file becomes a material, if faces with coordinates refer to it; without numbers they refer to
+///   the first. A face with a number below 0 has no texture, and one with a number that no file has neither,
+///   with a warning.
+/// - Colours are those of vertices, else those of faces. Faces with a texture have none: programs store the
+///   colours of the texture again, and they would be multiplied. A warning says so.
 /// \param texture_files  as named, in the folder of the model or below it
 /// \param file           path of the model
 /// \param warnings       of the reader; moved to the asset

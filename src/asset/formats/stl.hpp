@@ -14,11 +14,12 @@ namespace faqem::detail {
 
 /// Reads an STL file as one part.
 ///
-/// The file is binary if its size is 84 + 50 n bytes, where n is the facet count at byte 80, or if there is a zero
-/// among the first 512 bytes; otherwise it is read as ASCII. See read_binary_stl() for wrong counts and colours of
-/// facets, which become vertex colours. Corners at equal positions share a vertex (-0 equals 0) if they have the same
-/// colour; vertices are in the order of their first use. Facet normals are ignored, since they follow from the
-/// positions. The solids of an ASCII file become objects of the part. Text after the last solid is ignored with a warning.
+/// The file is binary if its size is 84 + 50 n bytes, where n is the facet count at byte 80, or if there is a
+/// zero among the first 512 bytes; otherwise it is read as ASCII. See read_binary_stl() for wrong counts and
+/// colours of facets, which become vertex colours. Corners at equal positions share a vertex (-0 equals 0) if
+/// they have the same colour; vertices are in the order of their first use. Facet normals are ignored, since
+/// they follow from the positions. The solids of an ASCII file become objects of the part. Text after the last
+/// solid is ignored with a warning.
 /// \param file  path of the file
 /// \return an asset with one part, and warnings
 /// \throws ReadError   if the file cannot be read

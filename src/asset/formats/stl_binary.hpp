@@ -27,18 +27,19 @@ struct BinaryStl {
 
 /// Reads the header and the colours of a binary STL file.
 ///
-/// The file has as many facets as the count at byte 80 says. If it is 0, or more than there is room for, all whole facets
-/// of the file are read. A warning says so, and that bytes after the last facet are ignored.
+/// The file has as many facets as the count at byte 80 says. If it is 0, or more than there is room for, all
+/// whole facets of the file are read. A warning says so, and that bytes after the last facet are ignored.
 ///
-/// The 16 attribute bits of a facet are a colour, 5 bits each for red, green and blue, which are sRGB. Magics: if the header
-/// contains `COLOR=`, followed by RGBA as bytes, red has the lowest bits, and facets with the highest bit set have the colour
-/// of the header. VisCAM and SolidView: otherwise, if a facet has the highest bit set; these have a colour, with blue in the
-/// lowest bits, and the others are white. Other attributes are ignored with a warning.
+/// The 16 attribute bits of a facet are a colour, 5 bits each for red, green and blue, which are sRGB. Magics:
+/// if the header contains `COLOR=`, followed by RGBA as bytes, red has the lowest bits, and facets with the
+/// highest bit set have the colour of the header. VisCAM and SolidView: otherwise, if a facet has the highest
+/// bit set; these have a colour, with blue in the lowest bits, and the others are white. Other attributes are
+/// ignored with a warning.
 /// \param bytes     borrowed
 /// \param file      path for messages
 /// \param warnings  receives the warnings
-/// \throws InputError  the file is too short for a header and a facet, or its count is wrong and a coordinate is not finite,
-///                     so that it is hardly STL
+/// \throws InputError  the file is too short for a header and a facet, or its count is wrong and a coordinate
+///                     is not finite, so that it is hardly STL
 BinaryStl read_binary_stl(std::span<const std::uint8_t> bytes, const std::string& file,
                           std::vector<std::string>& warnings);
 

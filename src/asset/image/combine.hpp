@@ -33,8 +33,8 @@ FAQEM_EXPORT ScalarImage scalar_image(const Pixels& pixels, ScalarChannel channe
 /// Whether red, green and blue of every pixel are equal.
 FAQEM_EXPORT bool is_grey(const Pixels& pixels);
 
-/// Whether the pixels are directions (n + 1) / 2 rather than heights or colours: not grey, and at least half of them have
-/// a length within 0.25 of 1 and do not point inwards.
+/// Whether the pixels are directions (n + 1) / 2 rather than heights or colours: not grey, and at least half of
+/// them have a length within 0.25 of 1 and do not point inwards.
 FAQEM_EXPORT bool is_normal_map(const Pixels& pixels);
 
 /// Replaces the alpha. The smaller image is scaled bilinearly to the larger width and height.

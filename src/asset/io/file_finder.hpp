@@ -27,10 +27,11 @@ public:
 
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// Finds the file that a reference names. Quotes around the name are removed. If there is no such file, or not in the
-    /// folder of the model or below it, the longest end of the path is used that names a file relative to `subfolder`
-    /// or to the folder of the model, also one with other letter case (A to Z): `C:\job\Wood.PNG` finds
-    /// `wood.png`. Of names that differ in case only, an equal one is used, else the first in the order of bytes.
+    /// Finds the file that a reference names. Quotes around the name are removed. If there is no such file, or
+    /// not in the folder of the model or below it, the longest end of the path is used that names a file
+    /// relative to `subfolder` or to the folder of the model, also one with other letter case (A to Z):
+    /// `C:\job\Wood.PNG` finds `wood.png`. Of names that differ in case only, an equal one is used, else the
+    /// first in the order of bytes.
     /// \param reference  as written in a file in `subfolder`
     /// \param subfolder  relative to the folder of the model
     /// \throws InputError  no file was found: the error of resolve_inside() for the name as written

@@ -1,6 +1,7 @@
 #include "bake/keep/kept_images.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "asset/scene/material_textures.hpp"
 #include "bake/keep/uv_texels.hpp"
 #include "bake/texture/image_choice.hpp"
+#include "bake/transfer/material_groups.hpp"
 #include "bake/transfer/texture_sampling.hpp"
 
 namespace faqem::detail {
@@ -55,15 +57,6 @@ void add_use(ImageUse& use, const TextureRef& texture, const TextureContent* con
     use.is_color = use.is_color || has_color;
     use.needs_alpha =
         use.needs_alpha || *content == TextureContent::alpha || *content == TextureContent::color_and_alpha;
-}
-
-// The materials of a part, each once.
-std::vector<Index> materials_of(const Part& part) {
-    std::vector<Index> result = part.face_material;
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    if (!result.empty() && result.back() == no_index) result.pop_back();
-    return result;
 }
 
 std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> parts) {

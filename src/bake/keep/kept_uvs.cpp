@@ -1,8 +1,8 @@
 #include "bake/keep/kept_uvs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "asset/scene/material_textures.hpp"
@@ -10,6 +10,8 @@
 #include "bake/keep/part_reports.hpp"
 #include "bake/keep/picture_loss.hpp"
 #include "bake/texture/normal_map.hpp"
+#include "bake/transfer/material_groups.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -42,41 +44,20 @@ bool is_as_complete(const SimplifyResult& kept, const SimplifyResult& free) {
 }
 
 // Sets of parts that share images.
-class PartSets {
-public:
-    explicit PartSets(const Asset& asset) : parent_(asset.parts.size()) {
-        std::iota(parent_.begin(), parent_.end(), Index{0});
-        std::vector<Index> user(asset.images.size(), no_index);
-        for (Index p = 0; p < parent_.size(); ++p) {
-            std::vector<Index> materials = asset.parts[p].face_material;
-            std::sort(materials.begin(), materials.end());
-            materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
-            for (const Index m : materials) {
-                if (m == no_index) continue;
-                for_each_texture(asset.materials[m], [&](const TextureRef& texture) {
-                    if (!texture) return;
-                    if (user[texture.image] == no_index) user[texture.image] = p;
-                    join(user[texture.image], p);
-                });
-            }
+engine::UnionFind image_sharing_parts(const Asset& asset) {
+    engine::UnionFind result(asset.parts.size());
+    std::vector<Index> user(asset.images.size(), no_index);
+    for (Index p = 0; p < asset.parts.size(); ++p) {
+        for (const Index m : materials_of(asset.parts[p])) {
+            for_each_texture(asset.materials[m], [&](const TextureRef& texture) {
+                if (!texture) return;
+                if (user[texture.image] == no_index) user[texture.image] = p;
+                result.unite(user[texture.image], p);
+            });
         }
     }
-
-    /// The least part of the set.
-    Index set_of(Index part) const {
-        while (parent_[part] != part) part = parent_[part];
-        return part;
-    }
-
-private:
-    void join(Index a, Index b) {
-        a = set_of(a);
-        b = set_of(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-    std::vector<Index> parent_;
-};
+    return result;
+}
 
 // What new pages would have: ComparedScenes::page_texels and gets_normal_map.
 struct ExpectedPages {
@@ -147,12 +128,12 @@ bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses) {
 
 // The parts with faces by set, without those whose set has a part that cannot keep its UVs.
 std::vector<std::vector<Index>> candidate_sets(const BakeJob& job, const SimplifiedParts& simplified) {
-    const PartSets sets(job.source);
+    engine::UnionFind sets = image_sharing_parts(job.source);
     std::vector<std::vector<Index>> result(job.parts.size());
     std::vector<std::uint8_t> is_possible(job.parts.size(), 1);
     for (const BakePart& part : job.parts) {
         if (job.skipped[part.index] || part.source->triangles.empty()) continue;
-        const Index set = sets.set_of(part.index);
+        const Index set = sets.find(part.index);
         result[set].push_back(part.index);
         if (!is_as_complete(simplified.kept[part.index], simplified.parts[part.index])) is_possible[set] = 0;
     }
@@ -178,9 +159,9 @@ void accept(BakeJob& job, const SimplifiedParts& simplified, Index part) {
 // Whether a part of a set shows single texels, without filter: a new page would blur them.
 bool shows_single_texels(const Asset& asset, const std::vector<Index>& set) {
     return std::any_of(set.begin(), set.end(), [&](Index p) {
-        const std::vector<Index>& materials = asset.parts[p].face_material;
+        const std::vector<Index> materials = materials_of(asset.parts[p]);
         return std::any_of(materials.begin(), materials.end(), [&](Index m) {
-            const TextureRef& texture = material_or_default(asset, m).base_color_texture;
+            const TextureRef& texture = asset.materials[m].base_color_texture;
             return texture && texture.filter == Filter::nearest;
         });
     });

@@ -21,8 +21,9 @@ FAQEM_EXPORT UnencodedResult bake_unencoded(const Asset& source, const Simplifie
                                             const Options& options);
 
 /// Encodes the pending images, which stay pending, and reports all images. Does nothing for a cancelled result.
-/// \param options  those of BakeOptions that are about the encoding, the threads, the progress callback, and max_seconds,
-///     which counts from the call: if it is over, images that ImageFormat::automatic is about get the format of the source
+/// \param options  those of BakeOptions that are about the encoding, the threads, the progress callback, and
+///     max_seconds, which counts from the call: if it is over, images that ImageFormat::automatic is about get
+///     the format of the source
 FAQEM_EXPORT void encode_images(UnencodedResult& result, const Options& options);
 
 /// Removes the normal maps of materials without one in the source, and the tangents for them.

@@ -12,8 +12,8 @@ namespace faqem::detail {
 
 /// Attributes at the corners of a simplified mesh.
 struct TransferredCorners {
-    std::vector<float>
-        values;  ///< by corner: UVs of all sets, then the colour if the source has vertex colours
+    /// By corner: UVs of all sets, then the colour if the source has vertex colours.
+    std::vector<float> values;
     std::vector<Index> faces;  ///< by face: the face of the source at its centre
     /// Faces that cross a border of a UV chart. Images are distorted there.
     std::uint64_t crossing_faces = 0;

@@ -40,6 +40,14 @@ const Material& material_or_default(const Asset& asset, Index material) {
     return material == no_index ? standard : asset.materials[material];
 }
 
+std::vector<Index> materials_of(const Part& part) {
+    std::vector<Index> result = part.face_material;
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    if (!result.empty() && result.back() == no_index) result.pop_back();
+    return result;
+}
+
 std::vector<bool> used_materials(const Asset& asset, std::span<const std::uint8_t> skipped_parts) {
     const std::size_t count = asset.materials.size();
     std::vector<bool> used(count + 1, false);

@@ -40,14 +40,18 @@ inline Index face_material(const Part& part, std::size_t face) {
     return part.face_material.empty() ? no_index : part.face_material[face];
 }
 
+/// The materials of the faces of a part, each once, ascending, without the default material. O(faces log faces)
+std::vector<Index> materials_of(const Part& part);
+
 /// Whether a face of the asset has each material, the default material last. O(faces + materials)
 /// \param skipped_parts  by part: whether its faces are ignored; empty: none are
 std::vector<bool> used_materials(const Asset& asset, std::span<const std::uint8_t> skipped_parts = {});
 
-/// Whether all materials show one colour each, without textures and vertex colours, and `bake` requests neither an atlas
-/// nor anything else that a page would hold, such as a normal map. Then no page is baked, and materials with
-/// different factors are not merged. Scenes with skins or morph targets are not plain: what moves with a vertex is
-/// transferred less exactly at the border of two materials than across it. O(materials + parts)
+/// Whether all materials show one colour each, without textures and vertex colours, and `bake` requests neither
+/// an atlas nor anything else that a page would hold, such as a normal map. Then no page is baked, and
+/// materials with different factors are not merged. Scenes with skins or morph targets are not plain: what
+/// moves with a vertex is transferred less exactly at the border of two materials than across it.
+/// Complexity: O(materials + parts).
 FAQEM_EXPORT bool has_plain_materials(const Asset& asset, const BakeOptions& bake);
 
 /// Groups the materials of an asset. Materials are merged if they agree in alpha mode (and cutoff), in
