@@ -145,8 +145,28 @@ boolean grow_jpeg_output(j_compress_ptr state) {
 void begin_jpeg_output(j_compress_ptr state) { grow_jpeg_output(state); }
 void end_jpeg_output(j_compress_ptr) {}
 
+/// Sets the coding of an encoder whose defaults have been set. It calls libjpeg, so it has no objects with destructors.
+struct JpegCoding {
+    int quality;  ///< of the usual tables; 0: the next one instead
+    JpegRounding rounding;
+};
+
+void set_jpeg_coding(jpeg_compress_struct& state, const JpegCoding& coding) {
+    const int chroma_step = coding.rounding.chroma == Chroma::half ? 2 : 1;
+    state.comp_info[0].h_samp_factor = state.comp_info[0].v_samp_factor = chroma_step;
+    state.optimize_coding = TRUE;
+    if (coding.quality > 0) {
+        jpeg_set_quality(&state, coding.quality, TRUE);
+        return;
+    }
+    unsigned steps[DCTSIZE2];
+    for (unsigned i = 0; i < DCTSIZE2; ++i)
+        steps[i] = (coding.rounding.step * (10 + i / DCTSIZE + i % DCTSIZE) + 5) / 10;
+    for (int table = 0; table < 2; ++table) jpeg_add_quant_table(&state, table, steps, 100, TRUE);
+}
+
 /// Writes the whole file. Returns false on errors.
-bool write_jpeg_file(JpegEncoder& encoder, const Pixels& pixels, int quality, int chroma_step) {
+bool write_jpeg_file(JpegEncoder& encoder, const Pixels& pixels, const JpegCoding& coding) {
     jpeg_compress_struct& state = encoder.state;
     if (setjmp(encoder.errors.jump)) return false;
     jpeg_create_compress(&state);
@@ -159,9 +179,7 @@ bool write_jpeg_file(JpegEncoder& encoder, const Pixels& pixels, int quality, in
     state.input_components = 4;
     state.in_color_space = JCS_EXT_RGBX;
     jpeg_set_defaults(&state);
-    jpeg_set_quality(&state, quality, TRUE);
-    state.optimize_coding = TRUE;
-    state.comp_info[0].h_samp_factor = state.comp_info[0].v_samp_factor = chroma_step;
+    set_jpeg_coding(state, coding);
     jpeg_start_compress(&state, TRUE);
     while (state.next_scanline < state.image_height) {
         const std::uint8_t* const row = &pixels.rgba[std::size_t{4} * pixels.width * state.next_scanline];
@@ -170,6 +188,18 @@ bool write_jpeg_file(JpegEncoder& encoder, const Pixels& pixels, int quality, in
     }
     jpeg_finish_compress(&state);
     return true;
+}
+
+Image coded_jpeg(const Pixels& pixels, const std::string& name, const JpegCoding& coding) {
+    JpegEncoder encoder;
+    if (!write_jpeg_file(encoder, pixels, coding))
+        throw WriteError("image '" + name + "': cannot encode: " + jpeg_error(encoder.errors));
+    Image image;
+    image.name = name;
+    image.mime_type = "image/jpeg";
+    const std::size_t size = encoder.output.capacity - encoder.output.base.free_in_buffer;
+    image.encoded.assign(encoder.output.bytes, encoder.output.bytes + size);
+    return image;
 }
 
 }  // namespace
@@ -189,16 +219,14 @@ Pixels read_jpeg(const Image& image) {
 }
 
 Image write_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
-    JpegEncoder encoder;
-    const int chroma_step = content == Content::color && quality < full_chroma_quality ? 2 : 1;
-    if (!write_jpeg_file(encoder, pixels, static_cast<int>(quality), chroma_step))
-        throw WriteError("image '" + name + "': cannot encode: " + jpeg_error(encoder.errors));
-    Image image;
-    image.name = name;
-    image.mime_type = "image/jpeg";
-    const std::size_t size = encoder.output.capacity - encoder.output.base.free_in_buffer;
-    image.encoded.assign(encoder.output.bytes, encoder.output.bytes + size);
-    return image;
+    const bool halves = content == Content::color && quality < full_chroma_quality;
+    return coded_jpeg(
+        pixels, name,
+        {.quality = static_cast<int>(quality), .rounding = {.chroma = halves ? Chroma::half : Chroma::full}});
+}
+
+Image write_jpeg(const Pixels& pixels, const std::string& name, const JpegRounding& rounding) {
+    return coded_jpeg(pixels, name, {.quality = 0, .rounding = rounding});
 }
 
 }  // namespace faqem::detail

@@ -65,20 +65,57 @@ int paeth(int left, int above, int corner) {
     return ((to_left <= to_above) & (to_left <= to_corner)) ? left : other;
 }
 
+/// A row that is being filtered: samples of it and of the row above, with `step` zeros before the first one.
+struct UnfilteredRow {
+    std::uint8_t* samples;
+    const std::uint8_t* above;
+    std::size_t bytes, step;  ///< in the row, in a pixel
+};
+
 /// Filters a row (W3C PNG specification, "Filtering").
-/// \param row, above  samples of this row and the one above, with `step` zeros before the first one
-/// \param step        bytes per pixel
 /// \return the sum of the absolute values of the filtered bytes, as signed numbers
-std::uint32_t filter_row(PngFilter filter, const std::uint8_t* row, const std::uint8_t* above,
-                         std::size_t bytes, std::size_t step, std::uint8_t* to) {
-    const auto apply = [&](auto&& predict) {
-        std::uint32_t sum = 0;
-        for (std::size_t i = 0; i < bytes; ++i) {
-            const int prediction = predict(row[i - step], above[i], above[i - step]);
-            to[i] = static_cast<std::uint8_t>(row[i] - prediction);
-            sum += static_cast<std::uint32_t>(std::abs(static_cast<std::int8_t>(to[i])));
+template <class Predict>
+std::uint32_t apply_filter(const UnfilteredRow& row, std::uint8_t* to, const Predict& predict) {
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < row.bytes; ++i) {
+        const int prediction =
+            predict(*(row.samples + i - row.step), row.above[i], *(row.above + i - row.step));
+        to[i] = static_cast<std::uint8_t>(row.samples[i] - prediction);
+        sum += static_cast<std::uint32_t>(std::abs(static_cast<std::int8_t>(to[i])));
+    }
+    return sum;
+}
+
+/// The same with samples of colour that may change by `max_difference`: they become what is decoded.
+template <class Predict>
+std::uint32_t apply_lossy_filter(const UnfilteredRow& row, int max_difference, std::uint8_t* to,
+                                 const Predict& predict) {
+    const int interval = 2 * max_difference + 1;
+    const bool has_alpha = row.step % 2 == 0;
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < row.bytes; ++i) {
+        const int prediction =
+            predict(*(row.samples + i - row.step), row.above[i], *(row.above + i - row.step));
+        int difference = row.samples[i] - prediction;
+        if (!has_alpha || i % row.step + 1 < row.step) {
+            const int up = difference < 0 ? -max_difference : max_difference;
+            const int rounded = (difference + up) / interval * interval;
+            const int value = prediction + rounded;
+            if (value >= 0 && value <= 255) {
+                difference = rounded;
+                row.samples[i] = static_cast<std::uint8_t>(value);
+            }
         }
-        return sum;
+        to[i] = static_cast<std::uint8_t>(difference);
+        sum += static_cast<std::uint32_t>(std::abs(static_cast<std::int8_t>(to[i])));
+    }
+    return sum;
+}
+
+std::uint32_t filter_row(PngFilter filter, const UnfilteredRow& row, int max_difference, std::uint8_t* to) {
+    const auto apply = [&](const auto& predict) {
+        return max_difference > 0 ? apply_lossy_filter(row, max_difference, to, predict)
+                                  : apply_filter(row, to, predict);
     };
     switch (filter) {
         case filter_sub:
@@ -95,23 +132,28 @@ std::uint32_t filter_row(PngFilter filter, const std::uint8_t* row, const std::u
 }
 
 /// The rows of an image, each after the number of its filter.
-PngBytes filtered_rows(const Pixels& pixels, std::size_t channels) {
+PngBytes filtered_rows(const Pixels& pixels, std::size_t channels, int max_difference) {
     const std::size_t bytes = channels * pixels.width;
     PngBytes rows((bytes + 1) * pixels.height);
-    PngBytes row(channels + bytes), above(channels + bytes), filtered(bytes);
+    PngBytes original(channels + bytes), row(channels + bytes), above(channels + bytes),
+        decoded(channels + bytes);
+    PngBytes filtered(bytes);
     for (std::size_t y = 0; y < pixels.height; ++y) {
-        pick_channels(&pixels.rgba[4 * y * pixels.width], pixels.width, channels, &row[channels]);
+        pick_channels(&pixels.rgba[4 * y * pixels.width], pixels.width, channels, &original[channels]);
         std::uint8_t* const best = &rows[(bytes + 1) * y];
         std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
         for (int filter = 0; filter < filter_count; ++filter) {
-            const std::uint32_t sum = filter_row(static_cast<PngFilter>(filter), &row[channels],
-                                                 &above[channels], bytes, channels, filtered.data());
+            row = original;
+            const std::uint32_t sum = filter_row(static_cast<PngFilter>(filter),
+                                                 {&row[channels], &above[channels], bytes, channels},
+                                                 max_difference, filtered.data());
             if (sum >= least) continue;
             least = sum;
             best[0] = static_cast<std::uint8_t>(filter);
             std::memcpy(best + 1, filtered.data(), bytes);
+            decoded.swap(row);
         }
-        row.swap(above);
+        decoded.swap(above);
     }
     return rows;
 }
@@ -192,13 +234,13 @@ void append_palette(PngBytes& file, const std::vector<std::array<std::uint8_t, 4
 
 }  // namespace
 
-Image write_png(const Pixels& pixels, const std::string& name) {
+Image write_png(const Pixels& pixels, const std::string& name, int max_difference) {
     static constexpr std::array<std::uint8_t, 5> types = {0, 0, 4, 2, 6};  // of the number of channels
     const std::size_t channels = needed_channels(pixels);
     std::uint8_t type = types[channels];
-    Deflated data = deflated(filtered_rows(pixels, channels));
+    Deflated data = deflated(filtered_rows(pixels, channels, max_difference));
     std::optional<PaletteRows> palette;
-    if (channels > 1) palette = palette_rows(pixels);
+    if (channels > 1 && max_difference == 0) palette = palette_rows(pixels);
     if (palette) {
         Deflated indices = deflated(palette->rows);
         if (indices.size + 4 * palette->colors.size() < data.size) {

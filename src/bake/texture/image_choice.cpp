@@ -8,14 +8,20 @@
 #include <utility>
 #include <vector>
 
+#include "asset/image/jpeg.hpp"
+#include "asset/image/png_writer.hpp"
+
 namespace faqem::detail {
 namespace {
 
-// JPEG qualities that are tried. Below the first, blocks are visible on smooth surfaces at any PSNR; above the
-// last, PNG is about as small.
-constexpr std::array<std::uint32_t, 10> jpeg_qualities = {50, 60, 68, 75, 80, 85, 90, 93, 95, 98};
+// Steps of JPEGs that are tried, relative to the one that gives the wanted error where all coefficients are rounded
+// evenly. Where most of them are 0, a coarser one would still be within the limit, but its blocks would be visible.
+constexpr double coarsest_step = 2.25, finest_step = 0.35, step_ratio = 0.85;
 
-// Qualities of lossy WebP that are tried, for the same reasons.
+// By how much values of a PNG may change: more would be visible as stripes on smooth surfaces.
+constexpr int max_png_difference = 6;
+
+// Qualities of lossy WebP that are tried.
 constexpr std::array<std::uint32_t, 10> webp_qualities = {40, 55, 65, 75, 82, 87, 91, 94, 97, 100};
 
 // Near-lossless WebP that changes values by up to 4: normals keep the resolution that lossy WebP halves.
@@ -34,7 +40,7 @@ constexpr std::uint32_t block_side = 8;
 constexpr double local_allowance = 15;
 
 // By how many dB an image of normals, roughness and the like may be worse than one of colours.
-constexpr double data_allowance = 6;
+constexpr double data_allowance = 4;
 
 // Least PSNR of such an image unless colours may be worse too: 3% of the range, or 7 degrees of a normal.
 constexpr double least_data_psnr = 30;
@@ -89,17 +95,19 @@ struct LossyEncoding {
         return is_within(image_loss(original, decode(image), known), quality);
     }
 
-    // The image that encode() makes with the least sufficient of ten qualities; nothing if none is sufficient.
+    // The image that encode() makes with the first sufficient of some levels, from coarse to fine, and the index of the
+    // level; nothing if none is sufficient.
     template <class Encode>
-    std::optional<Image> least(const std::array<std::uint32_t, 10>& qualities, const Encode& encode) const {
-        std::optional<Image> best;
-        std::size_t begin = 0, end = qualities.size();
+    std::optional<std::pair<Image, std::size_t>> least(std::span<const std::uint32_t> levels,
+                                                       const Encode& encode) const {
+        std::optional<std::pair<Image, std::size_t>> best;
+        std::size_t begin = 0, end = levels.size();
         while (begin < end) {
             check_cancelled.now();
             const std::size_t middle = begin + (end - begin) / 2;
-            Image image = encode(qualities[middle]);
+            Image image = encode(levels[middle]);
             if (allows(image)) {
-                best = std::move(image);
+                best.emplace(std::move(image), middle);
                 end = middle;
             } else {
                 begin = middle + 1;
@@ -113,21 +121,71 @@ void keep_smaller(std::optional<Image>& best, std::optional<Image> other) {
     if (other && (!best || other->encoded.size() < best->encoded.size())) best = std::move(other);
 }
 
+// Mean squared error of a PSNR.
+double mean_square_of(double psnr) { return 255.0 * 255 / std::pow(10, psnr / 10); }
+
+// JpegRounding::step values that are tried for a PSNR, from coarse to fine.
+std::vector<std::uint32_t> jpeg_steps(double quality) {
+    const double even = std::sqrt(12 * mean_square_of(quality));  // uniform errors of up to half a step
+    std::vector<std::uint32_t> result;
+    for (double factor = coarsest_step; factor >= finest_step; factor *= step_ratio) {
+        const auto step = static_cast<std::uint32_t>(std::clamp(std::round(even * factor), 1.0, 100.0));
+        if (result.empty() || result.back() != step) result.push_back(step);
+    }
+    return result;
+}
+
+// The smallest sufficient JPEG. Chroma of half the resolution needs finer steps for the same error.
+std::optional<Image> smallest_jpeg(const LossyEncoding& lossy, const std::string& name, Content content) {
+    const auto encode = [&](Chroma chroma) {
+        return [&, chroma](std::uint32_t step) { return write_jpeg(lossy.pixels, name, {step, chroma}); };
+    };
+    const std::vector<std::uint32_t> all = jpeg_steps(lossy.quality);
+    std::span<const std::uint32_t> steps = all;
+    std::optional<Image> best;
+    if (content == Content::color) {
+        if (auto half = lossy.least(steps, encode(Chroma::half))) {
+            best = std::move(half->first);
+            steps = steps.first(half->second + 1);
+        }
+    }
+    if (auto full = lossy.least(steps, encode(Chroma::full))) keep_smaller(best, std::move(full->first));
+    return best;
+}
+
+// The most that values of a PNG may change for a PSNR: if differences are distributed evenly.
+int png_difference(double quality, std::size_t channels) {
+    const double mean_square = mean_square_of(quality) * static_cast<double>(channels) / 3;
+    const double interval = std::sqrt(12 * mean_square + 1);
+    return static_cast<int>(std::clamp((interval - 1) / 2, 0.0, double{max_png_difference}));
+}
+
+// A PNG with the largest sufficient differences; nothing if only a lossless one is sufficient.
+std::optional<Image> near_lossless_png(const LossyEncoding& lossy, const std::string& name) {
+    for (int difference = png_difference(lossy.quality, lossy.pixels.has_alpha ? 4 : 3); difference > 0;
+         --difference) {
+        lossy.check_cancelled.now();
+        Image image = write_png(lossy.pixels, name, difference);
+        if (lossy.allows(image)) return image;
+    }
+    return std::nullopt;
+}
+
 // The smallest of the encodings that are tried. Lossless ones are tried where no other is sufficient, and if
 // `tries_lossless`.
 Image smallest_at(const LossyEncoding& lossy, const std::string& name, Content content,
                   const ImageLimits& limits, bool tries_lossless) {
     const Pixels& pixels = lossy.pixels;
-    const auto jpeg = [&](std::uint32_t quality) { return encode_jpeg(pixels, name, quality, content); };
     const auto webp = [&](WebpMode mode, std::uint32_t level) {
         return encode_webp(pixels, name, {.mode = mode, .level = static_cast<int>(level)});
     };
     std::optional<Image> best;
-    if (limits.tries_core && !pixels.has_alpha) best = lossy.least(jpeg_qualities, jpeg);
+    if (limits.tries_core)
+        best = pixels.has_alpha ? near_lossless_png(lossy, name) : smallest_jpeg(lossy, name, content);
     if (limits.tries_webp) {
-        keep_smaller(best, lossy.least(webp_qualities, [&](std::uint32_t quality) {
-            return webp(WebpMode::lossy, quality);
-        }));
+        if (auto found = lossy.least(webp_qualities,
+                                     [&](std::uint32_t quality) { return webp(WebpMode::lossy, quality); }))
+            keep_smaller(best, std::move(found->first));
         Image near_lossless = webp(WebpMode::near_lossless, near_lossless_level);
         if (lossy.allows(near_lossless)) keep_smaller(best, std::move(near_lossless));
     }
@@ -216,8 +274,8 @@ Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known,
     };
     Image best = encoded(smaller.empty() ? pixels : smaller.back(), true);
     if (smaller.empty()) return best;
-    // Lossless encodings are tried there too if one was the smallest: images with few colours stay so at any
-    // resolution.
+    // Lossless encodings are tried there too if one may have been the smallest: images with few colours stay so at
+    // any resolution.
     const bool was_lossless = best.mime_type != "image/jpeg";
     Image other = encoded(smaller.size() == 1 ? pixels : smaller[smaller.size() - 2], was_lossless);
     if (bytes_for_fewer_texels * static_cast<double>(other.encoded.size()) <

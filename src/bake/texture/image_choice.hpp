@@ -21,9 +21,8 @@ struct ImageLimits {
     bool tries_webp = false;
 };
 
-/// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 6 less for normals and
-/// other data, but not less than 30 if colours have more. This saves a third of the bytes for 0.3 dB of the lit
-/// picture (docs/measurements/appearance.md, "Image formats").
+/// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 4 less for normals and
+/// other data, but not less than 30 if colours have more (docs/measurements/appearance.md, "Image formats").
 double least_psnr(const BakeOptions& bake, Content content);
 
 /// Peak signal-to-noise ratios, in dB; infinity if nothing differs.
@@ -49,8 +48,9 @@ Pixels halved(const Pixels& pixels);
 
 /// Encodes an image in few bytes, so that image_loss() of the decoded result is within `limits.quality`.
 /// The resolution is halved as long as this loss alone is within the limit. At the least resolution and at
-/// twice that, PNG and the JPEG or WebP of least sufficient quality are tried, and the result with the fewest bytes
-/// is taken; of two that differ by less than 10%, that with fewer texels.
+/// twice that, PNG and the JPEG or WebP of least sufficient quality are tried (with alpha: a PNG whose colours
+/// differ by up to 6 of 255), and the result with the fewest bytes is taken; of two that differ by less than 10%,
+/// that with fewer texels.
 /// \param pixels   at least one texel
 /// \param known    by texel: nonzero if the texel shows a triangle
 /// \param name     Image::name of the result

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asset/image/image.hpp"
+#include "asset/image/jpeg.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 #include "support/image_builder.hpp"
@@ -159,4 +160,39 @@ TEST_CASE("a JPEG is decoded, and rejected if it is truncated") {
     CHECK(message_of<InputError>([&] { decode(image_x(jpeg.substr(0, 100))); }) != "(nothing thrown)");
     CHECK(message_of<InputError>([&] { decode(image_x(jpeg.substr(0, jpeg.size() - 3))); }) !=
           "(nothing thrown)");
+}
+
+TEST_CASE("JPEGs with given steps have them in both tables, rising to 2.4 times at the highest frequency") {
+    const Pixels pixels{8, 8, std::vector<std::uint8_t>(256, 90), false};
+    const Image image = detail::write_jpeg(pixels, "page", {.step = 20, .chroma = detail::Chroma::half});
+    const std::string file(image.encoded.begin(), image.encoded.end());
+    for (const char table : {'\0', '\1'}) {
+        const std::size_t at = file.find(bytes_of_hex("ffdb0043") + table);
+        REQUIRE(at != std::string::npos);
+        CHECK(static_cast<std::uint8_t>(file[at + 5]) == 20);
+        CHECK(static_cast<std::uint8_t>(file[at + 5 + 63]) == 48);
+    }
+}
+
+TEST_CASE("the error of a JPEG falls with its step, and its bytes rise") {
+    Pixels pixels{64, 64, {}, false};
+    for (std::uint32_t i = 0; i < 64 * 64; ++i) {
+        const auto value = static_cast<std::uint8_t>(i * i * 2654435761u >> 25);
+        pixels.rgba.insert(pixels.rgba.end(), {value, static_cast<std::uint8_t>(255 - value), 60, 255});
+    }
+    double last = 1e9;
+    std::size_t last_bytes = 0;
+    for (const std::uint32_t step : {40u, 20u, 10u, 5u, 2u}) {
+        const Image image = detail::write_jpeg(pixels, "page", {step, detail::Chroma::full});
+        const Pixels decoded = decode(image);
+        double sum = 0;
+        for (std::size_t i = 0; i < pixels.rgba.size(); ++i) {
+            const double difference = double(decoded.rgba[i]) - pixels.rgba[i];
+            sum += difference * difference;
+        }
+        CHECK(sum < last);
+        CHECK(image.encoded.size() > last_bytes);
+        last = sum;
+        last_bytes = image.encoded.size();
+    }
 }

@@ -1,13 +1,16 @@
 // Decoding and encoding of PNG.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <utility>
 
 #include "asset/image/image.hpp"
+#include "asset/image/png_writer.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 #include "support/image_builder.hpp"
@@ -331,4 +334,34 @@ TEST_CASE("a PNG too short for its pixels is rejected before memory is allocated
         message_of<InputError>([] { decode(image_x(png_file(16384, 16384, 8, 6, std::string(1000, 'x')))); });
     CHECK(contains(message, "image 'x'"));
     CHECK(contains(message, "cannot hold 16384 x 16384 pixels"));
+}
+
+TEST_CASE("values of a near-lossless PNG differ by at most the given difference, alpha by nothing") {
+    for (const bool is_grey : {false, true}) {
+        for (const bool has_alpha : {false, true}) {
+            Pixels pixels{40, 30, {}, has_alpha};
+            for (std::uint32_t i = 0; i < 1200; ++i) {
+                const auto a = static_cast<std::uint8_t>(i * i * 2654435761u >> 24);
+                const auto b = is_grey ? a : static_cast<std::uint8_t>(i / 40 * 8);
+                const auto alpha = static_cast<std::uint8_t>(has_alpha ? 255 - i % 7 * 40 : 255);
+                pixels.rgba.insert(pixels.rgba.end(), {a, b, a, alpha});
+            }
+            std::size_t last = detail::write_png(pixels, "page").encoded.size();
+            for (const int difference : {1, 4, 20, 127}) {
+                const Image image = detail::write_png(pixels, "page", difference);
+                const Pixels decoded = decode(image);
+                REQUIRE(decoded.rgba.size() == pixels.rgba.size());
+                int largest = 0;
+                for (std::size_t i = 0; i < pixels.rgba.size(); ++i) {
+                    const int changed = std::abs(decoded.rgba[i] - pixels.rgba[i]);
+                    if (i % 4 == 3) REQUIRE(changed == 0);
+                    largest = std::max(largest, changed);
+                }
+                CHECK(largest <= difference);
+                CHECK(largest > 0);
+                CHECK(image.encoded.size() < last);
+                last = image.encoded.size();
+            }
+        }
+    }
 }

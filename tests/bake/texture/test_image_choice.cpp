@@ -127,6 +127,23 @@ TEST_CASE("images with alpha, and images with few colours, stay PNG") {
     CHECK(smallest(waves(64), 80, false).mime_type == "image/png");
 }
 
+TEST_CASE("images with alpha are PNGs within the limit, smaller than lossless ones, with alpha as it was") {
+    Pixels leaf = waves(64);
+    for (std::size_t i = 3; i < leaf.rgba.size(); i += 4) leaf.rgba[i] = i % 64 < 24 ? 0 : 255;
+    leaf.has_alpha = true;
+    std::size_t last = encode_png(leaf, "page").encoded.size();
+    for (const double quality : {60.0, 45.0, 40.0, 35.0}) {
+        const Image image = smallest(leaf, quality, false);
+        CHECK(image.mime_type == "image/png");
+        const Pixels decoded = decode(image);
+        CHECK(is_within(image_loss(leaf, decoded, all_known(leaf)), quality));
+        for (std::size_t i = 3; i < leaf.rgba.size(); i += 4) REQUIRE(decoded.rgba[i] == leaf.rgba[i]);
+        CHECK(image.encoded.size() <= last);
+        last = image.encoded.size();
+    }
+    CHECK(last < encode_png(leaf, "page").encoded.size() / 2);
+}
+
 TEST_CASE("WebP images are within the limit, with alpha as it was") {
     const Pixels glass = paint(64, 64, [](std::uint32_t x, std::uint32_t y) {
         return Rgba{static_cast<std::uint8_t>(3 * x), static_cast<std::uint8_t>(2 * x + y), 90,
