@@ -20,9 +20,10 @@ namespace {
 
 // What materials use an image for.
 struct ImageUse {
-    bool is_used = false;   // by a part whose images may change
-    bool is_fixed = false;  // stays as it is
-    bool is_color = false;  // holds colours, not only data
+    bool is_used = false;    // by a part whose images may change
+    bool is_fixed = false;   // stays as it is
+    bool is_color = false;   // holds colours, not only data
+    bool is_normal = false;  // holds normals
     bool needs_alpha = false;
     bool is_pixel_art = false;  // shown without filter
 };
@@ -55,6 +56,7 @@ void add_use(ImageUse& use, const TextureRef& texture, const TextureContent* con
     }
     const bool has_color = *content == TextureContent::color || *content == TextureContent::color_and_alpha;
     use.is_color = use.is_color || has_color;
+    use.is_normal = use.is_normal || *content == TextureContent::normal;
     use.needs_alpha =
         use.needs_alpha || *content == TextureContent::alpha || *content == TextureContent::color_and_alpha;
 }
@@ -135,16 +137,16 @@ Pixels used_pixels(const Image& image, const ImageUse& use) {
     return pixels;
 }
 
+TextureContent content_of(const ImageUse& use) {
+    if (use.is_color) return TextureContent::color;
+    return use.is_normal ? TextureContent::normal : TextureContent::data;
+}
+
 PendingImage kept_image(const BakeJob& job, std::span<const KeptPart> parts, Index index,
                         const ImageUse& use) {
     const std::uint32_t texture_size = job.options.bake.texture_size;
     const Image& image = job.result.asset.images[index];
-    PendingImage result{index,
-                        used_pixels(image, use),
-                        {},
-                        image.name,
-                        use.is_color ? Content::color : Content::data,
-                        !use.is_pixel_art};
+    PendingImage result{index, used_pixels(image, use), {}, image.name, content_of(use), !use.is_pixel_art};
     result.tries_webp = job.tries_webp();
     if (!exceeds(result.pixels, use, texture_size)) result.original = image;
     while (exceeds(result.pixels, use, texture_size)) result.pixels = halved(result.pixels);

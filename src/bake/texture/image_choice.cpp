@@ -39,10 +39,11 @@ constexpr std::uint32_t block_side = 8;
 // By how many dB a block may be worse than the whole image.
 constexpr double local_allowance = 15;
 
-// By how many dB an image of normals, roughness and the like may be worse than one of colours.
+// By how many dB an image of roughness and the like may be worse than one of colours or normals. On glossy surfaces
+// an error of normals is as visible as one of colours.
 constexpr double data_allowance = 4;
 
-// Least PSNR of such an image unless colours may be worse too: 3% of the range, or 7 degrees of a normal.
+// Least PSNR of such an image unless colours may be worse too: 3% of the range.
 constexpr double least_data_psnr = 30;
 
 // Position of a texel's centre in an image with fewer texels, as the two nearest texels and the weight of the
@@ -197,8 +198,8 @@ Image smallest_at(const LossyEncoding& lossy, const std::string& name, Content c
 
 }  // namespace
 
-double least_psnr(const BakeOptions& bake, Content content) {
-    if (content != Content::data) return bake.image_quality;
+double least_psnr(const BakeOptions& bake, TextureContent content) {
+    if (content != TextureContent::data) return bake.image_quality;
     return std::min(bake.image_quality, std::max(bake.image_quality - data_allowance, least_data_psnr));
 }
 

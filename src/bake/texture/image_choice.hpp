@@ -7,6 +7,7 @@
 #include <string>
 
 #include "asset/image/image.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/options.hpp"
@@ -21,9 +22,9 @@ struct ImageLimits {
     bool tries_webp = false;
 };
 
-/// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 4 less for normals and
-/// other data, but not less than 30 if colours have more (docs/measurements/appearance.md, "Image formats").
-double least_psnr(const BakeOptions& bake, Content content);
+/// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 4 less for roughness
+/// and other data, but not less than 30 if colours have more (docs/measurements/appearance.md, "Image formats").
+double least_psnr(const BakeOptions& bake, TextureContent content);
 
 /// Peak signal-to-noise ratios, in dB; infinity if nothing differs.
 struct ImageLoss {

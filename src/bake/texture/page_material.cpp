@@ -33,7 +33,7 @@ public:
     /// \param known  by texel: nonzero if it shows a triangle
     /// \param from   textures of the source that the image is baked from
     TextureRef add(Pixels pixels, std::shared_ptr<const std::vector<std::uint8_t>> known,
-                   const std::string& suffix, Content content, const std::vector<TextureRef>& from) {
+                   const std::string& suffix, TextureContent content, const std::vector<TextureRef>& from) {
         std::vector<Image>& images = job_.result.asset.images;
         TextureRef ref;
         ref.image = static_cast<Index>(images.size());
@@ -79,11 +79,9 @@ void add_layers(PageImageList& list, const Material& source, std::span<const Ext
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const ExtensionLayer& layer = layers[i];
         if (is_neutral(layer, images.layers[i], *known)) continue;
-        const Content content =
-            layer.encoding() == TexelEncoding::color_and_data_alpha ? Content::color : Content::data;
         const TextureRef ref = list.add(std::move(images.layers[i]), known,
-                                        suffix_of(source.extension_textures[layer.textures.front()]), content,
-                                        {layer.texture_ref});
+                                        suffix_of(source.extension_textures[layer.textures.front()]),
+                                        layer.content, {layer.texture_ref});
         for (const Index t : layer.textures) {
             const ExtensionTexture& texture = source.extension_textures[t];
             result.extension_textures.push_back({texture.extension, texture.name, ref});
@@ -151,7 +149,7 @@ void add_occlusion_roughness_metallic(PageImageList& list, const Channels& chann
     TextureRef texture;
     if (has_occlusion || is_varying) {
         texture = list.add(std::move(images.occlusion_roughness_metallic), known,
-                           "_occlusionRoughnessMetallic", Content::data, from);
+                           "_occlusionRoughnessMetallic", TextureContent::data, from);
     }
     if (has_occlusion) result.occlusion_texture = texture;
     if (!channels.metallic_roughness) return;
@@ -181,8 +179,9 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         const std::optional<Vec4f> constant = constant_base_color(images);
         result.base_color = constant.value_or(Vec4f{1, 1, 1, 1});
         if (!constant)
-            result.base_color_texture = list.add(std::move(images.base), known, "_baseColor", Content::color,
-                                                 uses({&Material::base_color_texture}));
+            result.base_color_texture =
+                list.add(std::move(images.base), known, "_baseColor", TextureContent::color,
+                         uses({&Material::base_color_texture}));
     }
     if (channels.metallic_roughness || channels.occlusion) {
         add_occlusion_roughness_metallic(
@@ -193,12 +192,13 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         const std::optional<Vec3f> constant = constant_emission(images);
         result.emissive = constant.value_or(Vec3f{1, 1, 1});
         if (!constant)
-            result.emissive_texture = list.add(std::move(images.emissive), known, "_emissive", Content::color,
-                                               uses({&Material::emissive_texture}));
+            result.emissive_texture = list.add(std::move(images.emissive), known, "_emissive",
+                                               TextureContent::color, uses({&Material::emissive_texture}));
     }
     if (channels.normal && !is_flat_normal_map(images.normal, images.known)) {
         const std::vector<TextureRef> from = uses({&Material::normal_texture});
-        result.normal_texture = list.add(std::move(images.normal), known, "_normal", Content::data, from);
+        result.normal_texture =
+            list.add(std::move(images.normal), known, "_normal", TextureContent::normal, from);
         job.pending.back().is_new_map = from.empty();
         if (from.empty() && may_halve_new_map(job.options.bake, job.pending.back()))
             halve(job.pending.back());

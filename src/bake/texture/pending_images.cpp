@@ -7,14 +7,20 @@
 namespace faqem::detail {
 namespace {
 
+Content encoded_content(TextureContent content) {
+    return content == TextureContent::color || content == TextureContent::color_and_alpha ? Content::color
+                                                                                          : Content::data;
+}
+
 Image encoded_image(const PendingImage& pending, const BakeOptions& bake, CancellationCheck check_cancelled) {
     const Pixels& pixels = pending.pixels;
+    const Content content = encoded_content(pending.content);
     if (has_image_quality(bake.image_format)) {
         const bool is_webp = bake.image_format == ImageFormat::webp;
         const ImageLimits limits{least_psnr(bake, pending.content), pending.may_shrink, !is_webp,
                                  is_webp || pending.tries_webp};
         Image smallest =
-            encode_smallest(pixels, *pending.known, pending.name, pending.content, limits, check_cancelled);
+            encode_smallest(pixels, *pending.known, pending.name, content, limits, check_cancelled);
         const bool keeps_original = pending.original &&
                                     (!is_webp || pending.original->mime_type == "image/webp") &&
                                     smallest.encoded.size() >= pending.original->encoded.size();
@@ -23,9 +29,8 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, Cancel
     if (bake.image_format == ImageFormat::source && pending.original) return *pending.original;
     const bool is_jpeg =
         bake.image_format == ImageFormat::source ? pending.was_jpeg : bake.image_format == ImageFormat::jpeg;
-    return is_jpeg && !pixels.has_alpha
-               ? encode_jpeg(pixels, pending.name, bake.jpeg_quality, pending.content)
-               : encode_png(pixels, pending.name);
+    return is_jpeg && !pixels.has_alpha ? encode_jpeg(pixels, pending.name, bake.jpeg_quality, content)
+                                        : encode_png(pixels, pending.name);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "asset/image/image.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/options.hpp"
@@ -23,7 +24,7 @@ struct PendingImage {
     /// By texel: nonzero if it shows a triangle. Several images of a page share it.
     std::shared_ptr<const std::vector<std::uint8_t>> known;
     std::string name;  ///< Image::name
-    Content content = Content::color;
+    TextureContent content = TextureContent::color;
     bool may_shrink = true;   ///< whether ImageFormat::automatic may choose a lower resolution
     bool was_jpeg = false;    ///< whether ImageFormat::source means JPEG
     bool is_new_map = false;  ///< a normal map of a material without one in the source

@@ -71,8 +71,9 @@ inline constexpr OptionRow appearance_rows[] = {
          .range = {.min = 20, .max = 80},
          .unit = "dB",
          .value_name = "DB",
-         .help = "Least PSNR of baked colours with --image-format auto or webp; of normals and other data 4 "
-                 "dB less",
+         .help =
+             "Least PSNR of baked colours and normals with --image-format auto or webp; of other data 4 dB "
+             "less",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::jpeg_quality>(
         {.name = "jpeg-quality",
