@@ -47,9 +47,9 @@ struct BakeOptions {
     /// Normals::flat.
     double crease_angle = 40;
     ImageFormat image_format = ImageFormat::automatic;
-    /// Least PSNR of colours and normals in a baked image of ImageFormat::automatic or webp, in dB, in [20, 80]; of
-    /// other data 4 dB less, down to 30. 40 allows errors of 1% of the range of values, or 2 degrees of a normal.
-    /// Measured against the image before it is encoded.
+    /// Least PSNR of colours in a baked image of ImageFormat::automatic or webp, in dB, in [20, 80]; of other data 4 dB
+    /// less, down to 30, of normals between, by roughness. 40 allows errors of 1% of the range of values, or 2 degrees
+    /// of a normal. Measured against the image before it is encoded.
     double image_quality = 40;
     std::uint32_t jpeg_quality = 90;  ///< in [1, 100]
     UntouchedParts untouched = UntouchedParts::automatic;

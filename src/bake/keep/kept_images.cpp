@@ -23,6 +23,7 @@ struct ImageUse {
     bool is_used = false;    // by a part whose images may change
     bool is_fixed = false;   // stays as it is
     bool is_color = false;   // holds colours, not only data
+    double roughness = 1;    // least of the materials
     bool is_normal = false;  // holds normals
     bool needs_alpha = false;
     bool is_pixel_art = false;  // shown without filter
@@ -61,17 +62,25 @@ void add_use(ImageUse& use, const TextureRef& texture, const TextureContent* con
         use.needs_alpha || *content == TextureContent::alpha || *content == TextureContent::color_and_alpha;
 }
 
+// Roughness of a material in the mean: a texture may make it anything between 0 and the factor.
+double assumed_roughness(const Material& material) {
+    const double factor = std::clamp(double{material.roughness}, 0.0, 1.0);
+    return material.metallic_roughness_texture ? factor / 2 : factor;
+}
+
 std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> parts) {
     std::vector<ImageUse> result(asset.images.size());
     for (const KeptPart& kept : parts) {
         for (const Index m : materials_of(asset.parts[kept.part])) {
-            for_each_content(asset.materials[m],
-                             [&](const TextureRef& texture, const TextureContent* content) {
-                                 if (kept.keeps_images)
-                                     result[texture.image].is_fixed = true;
-                                 else
-                                     add_use(result[texture.image], texture, content);
-                             });
+            const Material& material = asset.materials[m];
+            for_each_content(material, [&](const TextureRef& texture, const TextureContent* content) {
+                ImageUse& use = result[texture.image];
+                if (kept.keeps_images)
+                    use.is_fixed = true;
+                else
+                    add_use(use, texture, content);
+                use.roughness = std::min(use.roughness, assumed_roughness(material));
+            });
         }
     }
     return result;
@@ -146,7 +155,8 @@ PendingImage kept_image(const BakeJob& job, std::span<const KeptPart> parts, Ind
                         const ImageUse& use) {
     const std::uint32_t texture_size = job.options.bake.texture_size;
     const Image& image = job.result.asset.images[index];
-    PendingImage result{index, used_pixels(image, use), {}, image.name, content_of(use), !use.is_pixel_art};
+    PendingImage result{index,         used_pixels(image, use), {}, image.name, content_of(use),
+                        use.roughness, !use.is_pixel_art};
     result.tries_webp = job.tries_webp();
     if (!exceeds(result.pixels, use, texture_size)) result.original = image;
     while (exceeds(result.pixels, use, texture_size)) result.pixels = halved(result.pixels);

@@ -39,8 +39,8 @@ constexpr std::uint32_t block_side = 8;
 // By how many dB a block may be worse than the whole image.
 constexpr double local_allowance = 15;
 
-// By how many dB an image of roughness and the like may be worse than one of colours or normals. On glossy surfaces
-// an error of normals is as visible as one of colours.
+// By how many dB an image of roughness and the like may be worse than one of colours, and one of the normals of a
+// rough surface. On glossy ones an error of normals is as visible as one of colours.
 constexpr double data_allowance = 4;
 
 // Least PSNR of such an image unless colours may be worse too: 3% of the range.
@@ -198,9 +198,11 @@ Image smallest_at(const LossyEncoding& lossy, const std::string& name, Content c
 
 }  // namespace
 
-double least_psnr(const BakeOptions& bake, TextureContent content) {
-    if (content != TextureContent::data) return bake.image_quality;
-    return std::min(bake.image_quality, std::max(bake.image_quality - data_allowance, least_data_psnr));
+double least_psnr(const BakeOptions& bake, TextureContent content, double roughness) {
+    if (content == TextureContent::color || content == TextureContent::color_and_alpha)
+        return bake.image_quality;
+    const double allowance = data_allowance * (content == TextureContent::normal ? roughness : 1);
+    return std::min(bake.image_quality, std::max(bake.image_quality - allowance, least_data_psnr));
 }
 
 ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {

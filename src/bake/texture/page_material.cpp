@@ -43,9 +43,11 @@ public:
         const BakeOptions& bake = job_.options.bake;
         const bool may_shrink = !bake.texel_density && bake.correspondence == Recording::off;
         job_.pending.push_back({ref.image, std::move(pixels), std::move(known), name_ + suffix, content,
-                                may_shrink, is_from_jpeg(from), false, job_.tries_webp()});
+                                roughness, may_shrink, is_from_jpeg(from), false, job_.tries_webp()});
         return ref;
     }
+
+    double roughness = 1;  ///< mean of the page
 
 private:
     bool is_from_jpeg(const std::vector<TextureRef>& from) const {
@@ -125,6 +127,19 @@ std::optional<Vec3f> constant_emission(const PageImages& images) {
     return Vec3f{linear_factor(*r), linear_factor(*g), linear_factor(*b)};
 }
 
+// Mean roughness over the texels that are shown; without a texture the factor, which a page has in common.
+double mean_roughness(const Channels& channels, const PageImages& images, const Material& material) {
+    if (!channels.metallic_roughness) return std::clamp(double{material.roughness}, 0.0, 1.0);
+    double sum = 0;
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < images.known.size(); ++i) {
+        if (!images.known[i]) continue;
+        sum += images.occlusion_roughness_metallic.rgba[4 * i + 1];
+        ++count;
+    }
+    return count > 0 ? sum / 255 / static_cast<double>(count) : 1;
+}
+
 // Textures of a group in the given slots.
 std::vector<TextureRef> textures_of_group(const Asset& source, const MaterialGroup& group,
                                           std::initializer_list<TextureMember> slots) {
@@ -175,6 +190,7 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
                                 ? "material" + std::to_string(job.result.asset.materials.size())
                                 : result.name);
     const auto known = std::make_shared<const std::vector<std::uint8_t>>(images.known);
+    list.roughness = mean_roughness(channels, images, group.material);
     if (channels.base) {
         const std::optional<Vec4f> constant = constant_base_color(images);
         result.base_color = constant.value_or(Vec4f{1, 1, 1, 1});

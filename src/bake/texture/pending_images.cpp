@@ -17,8 +17,8 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, Cancel
     const Content content = encoded_content(pending.content);
     if (has_image_quality(bake.image_format)) {
         const bool is_webp = bake.image_format == ImageFormat::webp;
-        const ImageLimits limits{least_psnr(bake, pending.content), pending.may_shrink, !is_webp,
-                                 is_webp || pending.tries_webp};
+        const ImageLimits limits{least_psnr(bake, pending.content, pending.roughness), pending.may_shrink,
+                                 !is_webp, is_webp || pending.tries_webp};
         Image smallest =
             encode_smallest(pixels, *pending.known, pending.name, content, limits, check_cancelled);
         const bool keeps_original = pending.original &&

@@ -25,6 +25,7 @@ struct PendingImage {
     std::shared_ptr<const std::vector<std::uint8_t>> known;
     std::string name;  ///< Image::name
     TextureContent content = TextureContent::color;
+    double roughness = 1;     ///< mean of the surface, in [0, 1]; for normals
     bool may_shrink = true;   ///< whether ImageFormat::automatic may choose a lower resolution
     bool was_jpeg = false;    ///< whether ImageFormat::source means JPEG
     bool is_new_map = false;  ///< a normal map of a material without one in the source

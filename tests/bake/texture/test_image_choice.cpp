@@ -127,6 +127,16 @@ TEST_CASE("images with alpha, and images with few colours, stay PNG") {
     CHECK(smallest(waves(64), 80, false).mime_type == "image/png");
 }
 
+TEST_CASE("normals of rough surfaces may be as inexact as data, those of glossy ones only as colours") {
+    const BakeOptions bake{.image_quality = 40};
+    CHECK(least_psnr(bake, TextureContent::color, 1) == 40);
+    CHECK(least_psnr(bake, TextureContent::data, 0) == 36);
+    CHECK(least_psnr(bake, TextureContent::normal, 0) == 40);
+    CHECK(least_psnr(bake, TextureContent::normal, 1) == 36);
+    CHECK(least_psnr({.image_quality = 32}, TextureContent::normal, 1) == 30);
+    CHECK(least_psnr({.image_quality = 25}, TextureContent::normal, 1) == 25);
+}
+
 TEST_CASE("images with alpha are PNGs within the limit, smaller than lossless ones, with alpha as it was") {
     Pixels leaf = waves(64);
     for (std::size_t i = 3; i < leaf.rgba.size(); i += 4) leaf.rgba[i] = i % 64 < 24 ? 0 : 255;

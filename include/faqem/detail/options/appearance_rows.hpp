@@ -72,8 +72,8 @@ inline constexpr OptionRow appearance_rows[] = {
          .unit = "dB",
          .value_name = "DB",
          .help =
-             "Least PSNR of baked colours and normals with --image-format auto or webp; of other data 4 dB "
-             "less",
+             "Least PSNR of baked colours with --image-format auto or webp; of data 4 dB less, of normals "
+             "up to 4 dB less, where the surface is rough",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::jpeg_quality>(
         {.name = "jpeg-quality",
