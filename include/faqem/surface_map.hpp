@@ -15,6 +15,7 @@ class SurfaceMap;
 
 namespace detail {
 struct Workers;
+class LocalMap;
 
 /// Constructs a SurfaceMap on several threads; the calling thread checks for cancellation.
 /// \throws whatever the cancellation check of `workers` throws
@@ -75,6 +76,7 @@ private:
     friend SurfaceMap detail::make_surface_map(const CollapseHistory& history, Mapping mapping,
                                                std::span<const Triangle> unwelded,
                                                const detail::Workers& workers);
+    friend class detail::LocalMap;
 
     std::unique_ptr<const Impl> impl_;
 };

@@ -21,6 +21,13 @@ std::size_t right_angle_corner(const TrianglePlacement& placement) {
     return 0;
 }
 
+// Samples of a block along each axis, about. More samples share a search for the faces near the block, but there are
+// more of these faces.
+constexpr std::uint32_t block_samples = 8;
+// Samples of a block that are searched for one by one. With fewer samples than about twice as many, the search for
+// the faces near the block would take longer than it saves.
+constexpr std::uint32_t single_samples = 4;
+
 }  // namespace
 
 TexelProjector::TexelProjector(const BakeJob& job, const ProjectorInput& page, Index triangle,
@@ -32,7 +39,10 @@ TexelProjector::TexelProjector(const BakeJob& job, const ProjectorInput& page, I
       part_(job.parts[face_.part]),
       normals_(job.normals[face_.part]),
       mesh_(part_.simplified->mesh),
-      spacing_(texel_length() / samples) {
+      texel_length_(texel_length()),
+      spacing_(texel_length_ / samples),
+      block_size_(std::max(1u, block_samples / samples)),
+      box_(bounding_box(placement_.uv)) {
     const std::vector<Vec4f>& tangents = page.tangents[face_.part];
     for (std::size_t i = 0; i < 3 && !tangents.empty(); ++i) {
         const std::size_t c = std::size_t{3} * face_.face + i;
@@ -76,36 +86,81 @@ TexelProjector::UnfoldedNeighbour TexelProjector::unfold(std::size_t c, Index ne
     return {neighbour, other, height_ratio, foot, other_foot};
 }
 
+// Barycentric coordinates on the neighbour across the edge opposite corner c, for a point with coordinates w of this
+// triangle. The neighbour traverses the edge in the opposite direction. Points beyond the neighbour are clamped to it.
+Vec3 TexelProjector::weights_beyond(std::size_t c, const Vec3& w) const {
+    const UnfoldedNeighbour& neighbour = unfolded_[c];
+    const double up = std::min(1.0, -w[c] * neighbour.height_ratio);
+    const double along = w[(c + 2) % 3] + w[c] * neighbour.foot;
+    const double end = std::clamp(along - up * neighbour.other_foot, 0.0, 1 - up);
+    Vec3 result;
+    result[neighbour.corner] = up;
+    result[(neighbour.corner + 1) % 3] = end;
+    result[(neighbour.corner + 2) % 3] = 1 - up - end;
+    return result;
+}
+
 TexelSample TexelProjector::point(std::uint32_t x, std::uint32_t y, double s, double t) const {
     if (is_single_texel())
         return {face_.face, s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t}, 0, x + s,
                 y + t};
-    // The neighbour traverses the edge in the opposite direction. Points beyond the neighbour are clamped to
-    // it.
-    const auto weights_in_neighbour = [](const UnfoldedNeighbour& neighbour, const Vec3& w, std::size_t c) {
-        const double up = std::min(1.0, -w[c] * neighbour.height_ratio);
-        const double along = w[(c + 2) % 3] + w[c] * neighbour.foot;
-        const double end = std::clamp(along - up * neighbour.other_foot, 0.0, 1 - up);
-        Vec3 result;
-        result[neighbour.corner] = up;
-        result[(neighbour.corner + 1) % 3] = end;
-        result[(neighbour.corner + 2) % 3] = 1 - up - end;
-        return result;
-    };
     const Vec3 w = frame_.at(x + s, y + t);
     for (std::size_t c = 0; c < 3; ++c) {
         if (w[c] < 0 && w[(c + 1) % 3] >= 0 && w[(c + 2) % 3] >= 0 && unfolded_[c].face != no_index) {
-            return {unfolded_[c].face, weights_in_neighbour(unfolded_[c], w, c), c + 1, x + s, y + t};
+            return {unfolded_[c].face, weights_beyond(c, w), c + 1, x + s, y + t};
         }
     }
     return {face_.face, frame_.closest(x + s, y + t), 0, x + s, y + t};
 }
 
+// The block of texels around a sample.
+TexelProjector::Block& TexelProjector::block_of(const TexelSample& at, std::uint32_t x, std::uint32_t y) {
+    const std::uint32_t column = x / block_size_, row = y / block_size_;
+    const auto column_at = [&](double texel) {
+        return static_cast<std::uint32_t>(std::max(texel, 0.0)) / block_size_;
+    };
+    const std::uint32_t first = column_at(box_.low.x), last = column_at(box_.high.x);
+    std::vector<Block>& blocks = blocks_[at.cache_index];
+    if (blocks.empty()) blocks.resize(last - first + 1);
+    Block& block = blocks[std::clamp(column, first, last) - first];
+    if (block.column != column || block.row != row) {
+        block.column = column;
+        block.row = row;
+        block.samples = 0;
+    }
+    return block;
+}
+
+// Finds the faces of the source near the samples of a block that are on the same face as `at`.
+void TexelProjector::prepare(Block& block, const TexelSample& at, const SurfacePoint& near) const {
+    Box2 box{{double(block.column) * block_size_, double(block.row) * block_size_}, {}};
+    box.high = {box.low.x + block_size_, box.low.y + block_size_};
+    if (at.cache_index == 0) {
+        const Box2 shared{{std::max(box.low.x, box_.low.x), std::max(box.low.y, box_.low.y)},
+                          {std::min(box.high.x, box_.high.x), std::min(box.high.y, box_.high.y)}};
+        if (shared.low.x < shared.high.x && shared.low.y < shared.high.y) box = shared;
+    }
+    const Vec3 w = frame_.at((box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2);
+    const double radius = std::hypot(box.width(), box.height()) / 2 * texel_length_;
+    block.map.prepare(*part_.map, at.face, at.cache_index == 0 ? w : weights_beyond(at.cache_index - 1, w),
+                      radius, near);
+}
+
+SurfacePoint TexelProjector::map_near(const TexelSample& at, std::uint32_t x, std::uint32_t y,
+                                      const SurfacePoint& near) {
+    if (is_single_texel()) return part_.map->map_near(at.face, at.weights, near);
+    Block& block = block_of(at, x, y);
+    if (block.samples < single_samples) {
+        if (++block.samples < single_samples) return part_.map->map_near(at.face, at.weights, near);
+        prepare(block, at, near);
+    }
+    return block.map.map_near(*part_.map, at.face, at.weights, near);
+}
+
 SurfacePoint TexelProjector::project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y) {
     WarmStartCache& cache = warm_starts_[at.cache_index];
     const SurfacePoint* near = cache.start_near(x, y);
-    const SurfacePoint point =
-        near ? part_.map->map_near(at.face, at.weights, *near) : part_.map->map(at.face, at.weights);
+    const SurfacePoint point = near ? map_near(at, x, y, *near) : part_.map->map(at.face, at.weights);
     cache.add(point, x, y);
     return point;
 }

@@ -7,10 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "bake/atlas/point2.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/page_atlas.hpp"
 #include "bake/texture/warm_start_cache.hpp"
 #include "bake/transfer/source_normals.hpp"
+#include "faqem/detail/mapping/local_map.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
@@ -32,7 +34,8 @@ struct ProjectorInput {
     std::span<const std::vector<Vec4f>> tangents;
 };
 
-/// Projects samples of one triangle of the atlas to the source. Not thread-safe, since it keeps warm starts.
+/// Projects samples of one triangle of the atlas to the source. Not thread-safe, since it keeps warm starts and the
+/// source's faces near the last samples.
 class TexelProjector {
 public:
     /// \param job       must outlive this
@@ -45,8 +48,8 @@ public:
     /// gutter) on its neighbour, unfolded into the triangle's plane.
     TexelSample point(std::uint32_t x, std::uint32_t y, double s, double t) const;
 
-    /// The point of the source that corresponds to a sample in texel (x, y). Uses and updates the warm
-    /// starts.
+    /// The point of the source that corresponds to a sample in texel (x, y). Samples must be passed row by row from
+    /// the top, each row from the left.
     SurfacePoint project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y);
 
     /// Normal of the simplified face at a sample, see oriented_face_normal().
@@ -78,9 +81,20 @@ private:
         double foot = 0, other_foot = 0;  // projections of the opposite corners to the edge, 0 to 1 along it
     };
 
+    // The samples of one face in a square block of texels.
+    struct Block {
+        std::uint32_t column = 0, row = 0;  // of the block on the page
+        std::uint32_t samples = 0;          // number of samples so far
+        LocalMap map;                       // prepared when there are enough samples
+    };
+
     bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }
     engine::Vector3 corner(Index face, std::size_t i) const;
     double texel_length() const;
+    Vec3 weights_beyond(std::size_t c, const Vec3& w) const;
+    SurfacePoint map_near(const TexelSample& at, std::uint32_t x, std::uint32_t y, const SurfacePoint& near);
+    Block& block_of(const TexelSample& at, std::uint32_t x, std::uint32_t y);
+    void prepare(Block& block, const TexelSample& at, const SurfacePoint& near) const;
     UnfoldedNeighbour unfold(std::size_t c, Index neighbour, std::size_t other) const;
     Vec3 own_weights(const TexelSample& at) const;
 
@@ -91,10 +105,15 @@ private:
     const BakePart& part_;
     const CornerNormals& normals_;
     const TriangleMesh& mesh_;
+    const double texel_length_;
     const double spacing_;
+    const std::uint32_t block_size_;             // texels along each axis
+    const Box2 box_;                             // of the triangle on the page, in texels
     std::array<UnfoldedNeighbour, 3> unfolded_;  // by corner opposite the edge
     std::array<FrameCorner, 3> frames_;          // set if the page has a normal map
     std::array<WarmStartCache, 4> warm_starts_;  // by TexelSample::cache_index
+    // By TexelSample::cache_index and column of the block within the triangle: the last block there.
+    std::array<std::vector<Block>, 4> blocks_;
 };
 
 }  // namespace faqem::detail

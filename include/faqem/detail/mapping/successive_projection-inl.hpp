@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/detail/history/final_versions.hpp"
@@ -290,6 +293,62 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3&
     // the face of `near`.
     return is_preimage_face(hit.face, query) ? SurfacePoint{hit.face, hit.barycentric, near.step}
                                              : map_by_walk(face, query);
+}
+
+FAQEM_INLINE void SuccessiveProjection::find_accepted_faces(Index face, const Vec3& barycentric,
+                                                            double radius, const SurfacePoint& near,
+                                                            NearTriangles& faces) const {
+    faces.clear();
+    const Query query = make_query(face, barycentric);
+    if (!is_accepted(near.face, query)) return;
+    // The closest face of a point of the ball is at most this much farther from the centre than the centre's.
+    const double slack = 2 * radius;
+    double least = std::sqrt(on_original(near.face, query.p0).distance_squared);
+    struct Candidate {
+        Index face;
+        double distance;
+    };
+    std::vector<Candidate> candidates;
+    std::size_t rejections = 0;
+    constexpr double stop_search = -1;
+    const auto limit = [&] {
+        return rejections < max_rejections ? (least + slack) * (least + slack) : stop_search;
+    };
+    tree_.visit_near(to_array(query.p0), limit, [&](Index f) {
+        const double distance = std::sqrt(on_original(f, query.p0).distance_squared);
+        if (!(distance <= least + slack)) return;
+        if (!is_accepted(f, query)) {
+            ++rejections;
+            return;
+        }
+        least = std::min(least, distance);
+        candidates.push_back({f, distance});
+    });
+    if (rejections >= max_rejections) return;
+    const double reach = least + slack;
+    std::erase_if(candidates, [&](const Candidate& c) { return !(c.distance <= reach); });
+    if (candidates.size() > NearTriangles::max_size) return;
+    std::vector<NearTriangles::Entry> entries;
+    entries.reserve(candidates.size());
+    for (const Candidate& c : candidates) {
+        const Triangle& t = history_.triangles[c.face];
+        entries.push_back({to_eigen(history_.positions[t[0]]), to_eigen(history_.positions[t[1]]),
+                           to_eigen(history_.positions[t[2]]), c.face, is_preimage_face(c.face, query)});
+    }
+    faces.reset(query.p0, reach, std::move(entries));
+}
+
+FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3& barycentric,
+                                                         const SurfacePoint& near,
+                                                         const NearTriangles& faces) const {
+    const std::optional<NearTriangles::Hit> hit = faces.closest(replay_.position_on(face, barycentric));
+    if (!hit) return map_near(face, barycentric, near);
+    // All faces of the list are accepted.
+    if (near.face != hit->entry->face && !faces.contains(near.face) &&
+        !is_accepted(near.face, make_query(face, barycentric)))
+        return map(face, barycentric);
+    if (!hit->entry->is_marked) return map_by_walk(face, make_query(face, barycentric));
+    return {hit->entry->face, to_array(hit->at.barycentric), near.step};
 }
 
 }  // namespace detail

@@ -7,6 +7,7 @@
 
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/detail/geometry/near_triangles.hpp"
 #include "faqem/detail/mapping/replay.hpp"
 #include "faqem/detail/mapping/surface_patches.hpp"
 #include "faqem/engine/mesh/vector.hpp"
@@ -62,6 +63,20 @@ public:
     /// that is not accepted. Calls map() if `near` is not accepted, and does the walk if the closest accepted
     /// face is not a preimage face.
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
+
+    /// Finds the accepted faces that can be the closest to points of a simplified face within a ball, marked if they
+    /// are preimage faces.
+    /// \param face         face of the simplified mesh
+    /// \param barycentric  weights of its three corners at the centre of the ball; may be negative, sum 1
+    /// \param radius       of the ball, in model units
+    /// \param near         result for a nearby point on the same simplified face
+    /// \param faces        receives them; empty if there are too many for it, or many faces that are not accepted
+    void find_accepted_faces(Index face, const Vec3& barycentric, double radius, const SurfacePoint& near,
+                             NearTriangles& faces) const;
+
+    /// Same result as map_near(), faster with the faces that find_accepted_faces() found for a ball around the point.
+    SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near,
+                          const NearTriangles& faces) const;
 
 private:
     struct Query;

@@ -1,0 +1,91 @@
+#pragma once
+/// \file
+/// The triangles near a ball, for many closest-point queries inside it.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "faqem/detail/geometry/triangle.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/export.hpp"
+#include "faqem/mesh.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+/// A short list of triangles that is searched for the one closest to a point. For each triangle, single precision
+/// gives a lower bound of the distance, from the distances to its plane and to its edges. Bounds are compared with a
+/// tolerance for their rounding, and only triangles that may be the closest are evaluated in double precision, so
+/// that the result is that of closest_point_on_triangle() for all of them.
+class FAQEM_EXPORT NearTriangles {
+public:
+    /// A triangle of the list.
+    struct Entry {
+        engine::Vector3 a, b, c;  ///< corners
+        Index face = no_index;    ///< in the caller's numbering; different for all entries
+        bool is_marked = false;   ///< for the caller
+    };
+    /// Result of a query.
+    struct Hit {
+        const Entry* entry = nullptr;  ///< valid until the next call of reset()
+        ClosestPoint at;
+    };
+
+    /// Largest number of triangles for which the list is faster than a tree.
+    static constexpr std::size_t max_size = 64;
+
+    /// Empties the list: closest() finds nothing.
+    void clear() { entries_.clear(), groups_.clear(); }
+
+    /// Replaces the list.
+    /// \param centre   of the ball, finite
+    /// \param reach    radius within which the list is complete: every triangle at most that far from the centre
+    ///                 is in it; in model units. The list stays empty if it is not a positive normal number.
+    /// \param entries  at most max_size; otherwise the list stays empty
+    /// O(entries)
+    void reset(const engine::Vector3& centre, double reach, std::vector<Entry> entries);
+
+    bool empty() const { return entries_.empty(); }
+
+    /// The triangle closest to p; of several at the same distance, the one with the smallest `face`.
+    /// \param p  finite
+    /// \return nothing if the list is empty, or if a triangle that is not in it may be as close
+    /// O(entries)
+    std::optional<Hit> closest(const engine::Vector3& p) const;
+
+    /// Whether the list contains a face. O(entries)
+    bool contains(Index face) const;
+
+private:
+    static constexpr int width = 4;
+    using Lanes = Eigen::Array<float, width, 1>;
+    /// Values of an affine function for several triangles, in coordinates in which the ball has centre 0 and radius 1.
+    struct Affine {
+        Lanes x = Lanes::Zero(), y = Lanes::Zero(), z = Lanes::Zero(), constant = Lanes::Zero();
+        Lanes at(float px, float py, float pz) const { return x * px + y * py + z * pz + constant; }
+        void set(int lane, const engine::Vector3& gradient, double value_at_zero);
+    };
+    /// Signed distances of up to four triangles: to the plane, and within it to the edges, positive inside. All are 0
+    /// for a triangle without a reliable normal.
+    struct Group {
+        Affine plane;
+        std::array<Affine, 3> edges;
+    };
+
+    void describe(const Entry& entry, Group& group, int lane) const;
+
+    engine::Vector3 centre_ = engine::Vector3::Zero();
+    double reach_ = 0, scale_ = 0;
+    double tolerance_ = 0;  ///< of distances divided by reach_
+    std::vector<Entry> entries_;
+    std::vector<Group> groups_;
+};
+
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/geometry/near_triangles-inl.hpp"
+#endif

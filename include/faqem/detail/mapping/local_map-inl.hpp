@@ -1,0 +1,30 @@
+#pragma once
+
+#include "faqem/detail/mapping/local_map.hpp"
+#include "faqem/export.hpp"
+
+#include <memory>
+#include <variant>
+
+#include "faqem/detail/mapping/successive_projection.hpp"
+#include "faqem/detail/mapping/surface_map-inl.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+FAQEM_INLINE void LocalMap::prepare(const SurfaceMap& map, Index face, const Vec3& barycentric, double radius,
+                                    const SurfacePoint& near) {
+    faces_.clear();
+    if (const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map))
+        (*projection)->find_accepted_faces(face, barycentric, radius, near, faces_);
+}
+
+FAQEM_INLINE SurfacePoint LocalMap::map_near(const SurfaceMap& map, Index face, const Vec3& barycentric,
+                                             const SurfacePoint& near) const {
+    const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map);
+    if (faces_.empty() || !projection) return map.map_near(face, barycentric, near);
+    return (*projection)->map_near(face, barycentric, near, faces_);
+}
+
+}  // namespace detail
+FAQEM_NAMESPACE_END

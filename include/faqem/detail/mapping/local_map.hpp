@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// The map from the simplified mesh to the original for many points close to each other.
+
+#include "faqem/detail/geometry/near_triangles.hpp"
+#include "faqem/export.hpp"
+#include "faqem/surface_map.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+/// Finds the original faces near a small region of one simplified face once, so that the points of the region need no
+/// search of their own. Only Mapping::projection gains from it.
+class FAQEM_EXPORT LocalMap {
+public:
+    /// Prepares the map for a ball.
+    /// \param map          map of the whole mesh
+    /// \param face         face of the simplified mesh
+    /// \param barycentric  weights of its three corners at the centre of the ball; may be negative, sum 1
+    /// \param radius       of the ball, in model units; for points outside it nothing is gained
+    /// \param near         result of `map` for a nearby point of the same face
+    void prepare(const SurfaceMap& map, Index face, const Vec3& barycentric, double radius,
+                 const SurfacePoint& near);
+
+    /// Same as SurfaceMap::map_near().
+    /// \param map   as in the last call of prepare(), if any
+    /// \param face  likewise
+    SurfacePoint map_near(const SurfaceMap& map, Index face, const Vec3& barycentric,
+                          const SurfacePoint& near) const;
+
+private:
+    NearTriangles faces_;
+};
+
+}  // namespace detail
+FAQEM_NAMESPACE_END
+
+#ifdef FAQEM_HEADER_ONLY
+#include "faqem/detail/mapping/local_map-inl.hpp"
+#endif

@@ -1,0 +1,133 @@
+#include "faqem/detail/geometry/near_triangles.hpp"
+
+#include <cmath>
+#include <random>
+
+#include "support/catch.hpp"
+
+using faqem::Index;
+using faqem::no_index;
+using faqem::detail::closest_point_on_triangle;
+using faqem::detail::ClosestPoint;
+using faqem::detail::NearTriangles;
+using faqem::engine::Vector3;
+
+namespace {
+
+class Random {
+public:
+    double unit() { return engine_() / 4294967296.0; }
+    Vector3 point() {
+        const double x = unit() - 0.5, y = unit() - 0.5, z = unit() - 0.5;
+        return {x, y, z};
+    }
+
+private:
+    std::mt19937 engine_{7};
+};
+
+// Triangles of sizes from 0.01 to 100 around a point; every sixth is a segment, a point or a needle.
+std::vector<NearTriangles::Entry> soup(Random& random, std::size_t count, const Vector3& around,
+                                       double scale) {
+    std::vector<NearTriangles::Entry> result;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double size = std::pow(10.0, 4 * random.unit() - 2);
+        const Vector3 a = around + scale * random.point(), b = a + scale * size * random.point();
+        Vector3 c = a + scale * size * random.point();
+        if (i % 6 == 0) c = i % 12 == 0 ? a : Vector3(a + 0.3 * (b - a) + 1e-7 * (c - a));
+        result.push_back({a, i % 24 == 0 ? a : b, c, static_cast<Index>(1000 - 7 * i), i % 2 == 0});
+    }
+    return result;
+}
+
+// The closest triangle, evaluating all.
+NearTriangles::Hit brute_force(const std::vector<NearTriangles::Entry>& all, const Vector3& p) {
+    NearTriangles::Hit best;
+    for (const NearTriangles::Entry& e : all) {
+        const ClosestPoint at = closest_point_on_triangle(p, e.a, e.b, e.c);
+        if (at.distance_squared < best.at.distance_squared ||
+            (at.distance_squared == best.at.distance_squared && e.face < best.entry->face))
+            best = {&e, at};
+    }
+    return best;
+}
+
+// The triangles within a distance of a point.
+std::vector<NearTriangles::Entry> within(const std::vector<NearTriangles::Entry>& all, const Vector3& centre,
+                                         double reach) {
+    std::vector<NearTriangles::Entry> result;
+    for (const NearTriangles::Entry& e : all)
+        if (closest_point_on_triangle(centre, e.a, e.b, e.c).distance_squared <= reach * reach)
+            result.push_back(e);
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("near triangles: a result is that of all triangles, bit by bit") {
+    Random random;
+    std::size_t found = 0, queries = 0;
+    for (const double scale : {1.0, 1e-12, 1e12}) {
+        for (const double offset : {0.0, 1e3, 1e9}) {
+            for (int repetition = 0; repetition < 30; ++repetition) {
+                const Vector3 around = Vector3(1, -2, 3) * offset * scale;
+                const auto all = soup(random, 40, around, scale);
+                const Vector3 centre = around + scale * random.point();
+                const double radius = 0.1 * scale;
+                const double reach = std::sqrt(brute_force(all, centre).at.distance_squared) + 2 * radius;
+                NearTriangles near;
+                near.reset(centre, reach, within(all, centre, reach));
+                for (int i = 0; i < 20; ++i, ++queries) {
+                    const Vector3 p = centre + 1.1 * radius * random.point();
+                    const auto hit = near.closest(p);
+                    if (!hit) continue;
+                    ++found;
+                    const NearTriangles::Hit best = brute_force(all, p);
+                    CHECK(hit->entry->face == best.entry->face);
+                    CHECK(hit->entry->is_marked == best.entry->is_marked);
+                    CHECK(hit->at.distance_squared == best.at.distance_squared);
+                    CHECK(hit->at.barycentric == best.at.barycentric);
+                }
+            }
+        }
+    }
+    CHECK(found > queries * 9 / 10);
+}
+
+TEST_CASE("near triangles: of several at the same distance, the smallest number wins") {
+    const Vector3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), d(1, 1, 0);
+    NearTriangles near;
+    near.reset({0.5, 0.5, 0}, 2, {{a, b, c, 9}, {b, d, c, 4}, {c, a, b, 6}});
+    CHECK(near.closest({0.25, 0.25, 0.25})->entry->face == 6);
+    CHECK(near.closest({0.5, 0.5, 0.25})->entry->face == 4);
+    CHECK(near.closest({0.75, 0.75, -0.25})->entry->face == 4);
+    CHECK(near.contains(9));
+    CHECK_FALSE(near.contains(5));
+}
+
+TEST_CASE("near triangles: nothing is found where a triangle outside the list may be closer") {
+    NearTriangles near;
+    const std::vector<NearTriangles::Entry> one = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3}};
+    near.reset({0, 0, 0}, 1, one);
+    CHECK(near.closest({0.1, 0.1, 0.4}));
+    CHECK_FALSE(near.closest({0.1, 0.1, 0.6}));  // 0.62 from the centre and 0.6 from the triangle
+    CHECK_FALSE(near.closest({0.9, 0.9, 0}));
+    CHECK_FALSE(near.closest({1e200, 0, 0}));
+    near.clear();
+    CHECK_FALSE(near.closest({0.1, 0.1, 0.4}));
+}
+
+TEST_CASE("near triangles: a list that cannot be searched stays empty") {
+    const std::vector<NearTriangles::Entry> one = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3}};
+    NearTriangles near;
+    for (const double reach : {0.0, -1.0, 1e-310, 1.7e308, HUGE_VAL, std::nan("")}) {
+        near.reset({0, 0, 0}, reach, one);
+        CHECK(near.empty());
+    }
+    near.reset({1e15, 0, 0}, 1, one);  // the rounding of coordinates is as large as the ball
+    CHECK(near.empty());
+    near.reset({0, 0, 0}, 1, std::vector(NearTriangles::max_size + 1, one.front()));
+    CHECK(near.empty());
+    near.reset({0, 0, 0}, 1, std::vector(NearTriangles::max_size, one.front()));
+    CHECK_FALSE(near.empty());
+}

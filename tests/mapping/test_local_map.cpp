@@ -1,0 +1,86 @@
+#include "faqem/detail/mapping/local_map.hpp"
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "faqem/simplify.hpp"
+#include "support/catch.hpp"
+#include "support/mapped_points.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+// Two wavy sheets of n x n squares with a distance of `gap`, facing away from each other.
+TriangleMesh double_sheet(Index n, double gap) {
+    TriangleMesh mesh;
+    for (const double side : {1.0, -1.0}) {
+        for (Index j = 0; j <= n; ++j) {
+            for (Index i = 0; i <= n; ++i) {
+                const double x = i / double(n), y = j / double(n);
+                mesh.positions.push_back({x, y, 0.05 * std::sin(9 * x) * std::cos(7 * y) + side * gap / 2});
+            }
+        }
+    }
+    const Index sheet = (n + 1) * (n + 1);
+    mesh.triangles = grid_faces(n, [&](Index i, Index j) { return (n + 1) * j + i; });
+    for (const Triangle& t : grid_faces(n, [&](Index i, Index j) { return sheet + (n + 1) * j + i; }))
+        mesh.triangles.push_back({t[0], t[2], t[1]});
+    return mesh;
+}
+
+bool same(const SurfacePoint& a, const SurfacePoint& b) {
+    return a.face == b.face && a.barycentric == b.barycentric && a.step == b.step;
+}
+
+// Maps rows of points of all faces with and without a local map for every `block` points.
+void check_same_points(const SimplifyResult& result, Mapping mapping, int block) {
+    const SurfaceMap map(result.history, mapping);
+    constexpr int n = 24;
+    std::size_t different = 0, points = 0;
+    for (Index f = 0; f < result.mesh.triangles.size(); ++f) {
+        for (int row = 0; row < n; row += 5) {
+            const auto weights = [&](double i) { return Vec3{1 - (row + i) / n, row / double(n), i / n}; };
+            const double length = distance(small_point(result.mesh, f, weights(0)),
+                                           small_point(result.mesh, f, weights(block)));
+            SurfacePoint near = map.map(f, weights(0));
+            detail::LocalMap local;
+            for (int i = 0; row + i <= n; ++i, ++points) {
+                if (i % block == 0) local.prepare(map, f, weights(i + block / 2.0), length / 2, near);
+                const SurfacePoint expected = map.map_near(f, weights(i), near);
+                different += !same(local.map_near(map, f, weights(i), near), expected);
+                near = expected;
+            }
+        }
+    }
+    CHECK(points > 1000);
+    CHECK(different == 0);
+}
+
+}  // namespace
+
+TEST_CASE("local map: gives the points of the whole map") {
+    for (const double gap : {1e-3, 0.2}) {
+        const TriangleMesh mesh = double_sheet(24, gap);
+        Options options;
+        options.target = ratio(0.1);
+        options.history = Recording::on;
+        const SimplifyResult result = simplify(mesh.view(), options);
+        for (const Mapping mapping : {Mapping::projection, Mapping::closest, Mapping::lineage})
+            check_same_points(result, mapping, 8);
+        check_same_points(result, Mapping::projection, 3);
+    }
+}
+
+TEST_CASE("local map: is the whole map until it is prepared") {
+    Options options;
+    options.target = ratio(0.3);
+    options.history = Recording::on;
+    const SimplifyResult result = simplify(double_sheet(6, 0.1).view(), options);
+    const SurfaceMap map(result.history, Mapping::projection);
+    const SurfacePoint near = map.map(0, {0.4, 0.3, 0.3});
+    CHECK(same(detail::LocalMap{}.map_near(map, 0, {0.3, 0.4, 0.3}, near),
+               map.map_near(0, {0.3, 0.4, 0.3}, near)));
+}
