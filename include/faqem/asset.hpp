@@ -12,6 +12,7 @@
 
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
+#include "faqem/option_types.hpp"
 
 namespace faqem {
 
@@ -130,7 +131,9 @@ struct Asset {
     std::vector<Material> materials;
     std::vector<Image> images;
     std::shared_ptr<const SourceDocument> source;  ///< null if the format has no scene graph
-    std::vector<std::string> warnings;             ///< what load() repaired or left out
+    /// Geometry compression of a glTF file: of the file that was read, and of the one that save() writes.
+    Compression compression = Compression::none;
+    std::vector<std::string> warnings;  ///< what load() repaired or left out
 };
 
 /// One occurrence of a part in the scene.

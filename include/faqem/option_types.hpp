@@ -175,6 +175,15 @@ constexpr bool has_image_quality(ImageFormat format) {
     return format == ImageFormat::automatic || format == ImageFormat::webp;
 }
 
+/// Compression of the geometry in glTF files.
+enum class Compression {
+    source,  ///< `meshopt` if the source has it, else `none`
+    none,
+    /// EXT_meshopt_compression, which viewers must know. Normals and tangents are rounded to multiples of 2^-11, texture
+    /// coordinates to 2^-15; positions and all else are exact.
+    meshopt,
+};
+
 /// Whether a new atlas has a normal map. Bake::keep preserves those of the source, the other kinds have none.
 enum class NormalMap {
     /// If the source has one, or if it has other textures and normals differ by more than 5 degrees on average

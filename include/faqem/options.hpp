@@ -76,6 +76,7 @@ struct Options {
     Topology topology = {};
     Recording history = Recording::off;  ///< whether to record the collapse history; free if off
     BakeOptions bake = {};
+    Compression compress = Compression::source;  ///< of the glTF file that the result is saved to
     /// Maximum number of threads; 0: all. The result does not depend on it.
     std::uint32_t threads = 0;
     /// Called at intervals, may cancel the run. May be empty.

@@ -69,10 +69,10 @@ TEST_CASE("every member that affects the result changes the key of the options")
         change(options);
         return keys.insert(options_key(options)).second;
     };
-    for (std::size_t k = 0; k < 8; ++k) {
+    for (std::size_t k = 0; k < 9; ++k) {
         CHECK(changes_key([k](Options& o) {
             auto& [target, budget, visibility, max_error, max_seconds, preset, weights, topology, history,
-                   bake, threads, progress] = o;
+                   bake, compress, threads, progress] = o;
             if (k == 0) target = ratio(0.1);
             if (k == 1) target = faces(1);
             if (k == 2) budget = Budget::mesh;
@@ -81,6 +81,7 @@ TEST_CASE("every member that affects the result changes the key of the options")
             if (k == 5) preset = Preset::fast;
             if (k == 6) history = Recording::on;
             if (k == 7) max_seconds = 60;
+            if (k == 8) compress = Compression::meshopt;
         }));
     }
     CHECK(changes_key([](Options& o) { o.max_error = of_diagonal(0.1); }));

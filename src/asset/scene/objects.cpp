@@ -64,6 +64,7 @@ std::optional<DividedAsset> divided_into_objects(const Asset& asset) {
     divided.materials = asset.materials;
     divided.images = asset.images;
     divided.source = asset.source;
+    divided.compression = asset.compression;
     divided.warnings = asset.warnings;
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const Part& part = asset.parts[p];

@@ -120,6 +120,8 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
     job.result.report = simplified.report;
     job.result.asset.source = source.source;
     job.result.asset.warnings = source.warnings;
+    job.result.asset.compression =
+        options.compress == Compression::source ? source.compression : options.compress;
     if (simplified.report.stop == StopReason::cancelled) return {std::move(job.result), {}};
     PhaseSeconds& seconds = job.result.report.seconds;
     const Stopwatch watch;

@@ -97,6 +97,12 @@ inline constexpr OptionRow appearance_rows[] = {
          .choices = "off|on",
          .help = "Whether to record the position of each texel of a new atlas on the original",
          .entry_points = 0}),
+    option_row<&Options::compress>(
+        {.name = "compress",
+         .choices = "source|none|meshopt",
+         .help = "Compression of geometry in glTF files: source (as the input: meshopt "
+                 "or none), none, meshopt (viewers need EXT_meshopt_compression)",
+         .entry_points = in_all}),
 };
 
 }  // namespace detail

@@ -52,6 +52,7 @@ void decompress_views(SourceDocument& source, const std::string& file) {
                 where);
             views[i]["buffer"] = add_buffer(source, std::move(bytes));
             views[i].erase("byteOffset");
+            source.has_meshopt = true;
         }
 #endif
         erase_extension(views[i], meshopt_name);

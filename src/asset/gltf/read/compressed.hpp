@@ -11,13 +11,11 @@
 #include <vector>
 
 #include "asset/gltf/accessor.hpp"
+#include "asset/gltf/extension_names.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/source_document.hpp"
 
 namespace faqem::detail {
-
-inline constexpr const char* meshopt_name = "EXT_meshopt_compression";
-inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
 
 /// Whether this library was built with a decoder for the extension.
 bool can_decode(std::string_view extension);

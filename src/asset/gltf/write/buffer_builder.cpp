@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
+#include "asset/gltf/extension_names.hpp"
+#include "asset/gltf/write/meshopt_encoder.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -18,9 +21,12 @@ void pad_to_4(std::vector<std::uint8_t>& bytes) { bytes.resize((bytes.size() + 3
 }  // namespace
 
 Index GltfBufferBuilder::find_or_add_group(AccessorUse use, std::uint64_t stride) {
-    const auto found = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
-        return group.use == use && group.stride == stride;
-    });
+    // Each list of triangles is compressed by itself.
+    const bool is_separate = compression_ == Compression::meshopt && use == AccessorUse::triangles;
+    const auto found =
+        is_separate ? groups_.end() : std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
+            return group.use == use && group.stride == stride;
+        });
     const auto index = static_cast<Index>(found - groups_.begin());
     if (index == groups_.size()) groups_.push_back({use, stride, {}});
     return index;
@@ -39,8 +45,11 @@ Index GltfBufferBuilder::add_accessor(Json description, std::span<const std::uin
                                       AccessorUse use) {
     const std::uint64_t size =
         element_size(unsigned_member(description, "componentType", 0), string_member(description, "type"));
-    // Only views of vertex attributes have a stride, which must be a multiple of 4.
-    const std::uint64_t stride = use == AccessorUse::vertices ? (size + 3) / 4 * 4 : 0;
+    // Only views of vertex attributes have a stride, which must be a multiple of 4. That of triangles is for their
+    // compression.
+    const std::uint64_t stride = is_vertex_attribute(use)        ? (size + 3) / 4 * 4
+                                 : use == AccessorUse::triangles ? size
+                                                                 : 0;
     std::vector<std::uint8_t> padded;
     if (stride > size) {
         padded.resize(dense.size() / size * stride);
@@ -72,27 +81,48 @@ Index GltfBufferBuilder::add_view(std::span<const std::uint8_t> bytes) {
     return static_cast<Index>(groups_.size() + views_.size() - 1);
 }
 
+// A compressed view has its decompressed bytes in a buffer that exists only in the document.
+void GltfBufferBuilder::append_view(const Group& group, std::vector<std::uint8_t>& buffer,
+                                    std::uint64_t& fallback_size, Json& views) const {
+    std::optional<CompressedView> compressed;
+    if (compression_ == Compression::meshopt)
+        compressed = encode_meshopt(group.bytes, group.stride, group.use);
+    pad_to_4(buffer);
+    const std::vector<std::uint8_t>& bytes = compressed ? compressed->bytes : group.bytes;
+    Json view = {{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};
+    if (compressed) {
+        Json extension = view;
+        extension["byteStride"] = group.stride;
+        extension["count"] = compressed->count;
+        extension["mode"] = compressed->mode;
+        if (!compressed->filter.empty()) extension["filter"] = compressed->filter;
+        view = {{"buffer", 1}, {"byteOffset", fallback_size}, {"byteLength", group.bytes.size()}};
+        view["extensions"][meshopt_name] = std::move(extension);
+        fallback_size += (group.bytes.size() + 3) / 4 * 4;
+    }
+    buffer.insert(buffer.end(), bytes.begin(), bytes.end());
+    if (is_vertex_attribute(group.use)) view["byteStride"] = group.stride;
+    if (is_vertex_attribute(group.use)) view["target"] = array_buffer;
+    if (is_index(group.use)) view["target"] = element_array_buffer;
+    views.push_back(std::move(view));
+}
+
 std::vector<std::uint8_t> GltfBufferBuilder::finish(Json& document) {
-    std::uint64_t total = 0;
+    std::uint64_t total = 0, fallback_size = 0;
     for (const Group& group : groups_) total += group.bytes.size() + 3;
     for (const auto& view : views_) total += view.size() + 3;
     std::vector<std::uint8_t> buffer;
     buffer.reserve(total);
     Json views = Json::array();
-    const auto append = [&](std::span<const std::uint8_t> bytes) -> Json& {
+    for (Group& group : groups_) {
+        append_view(group, buffer, fallback_size, views);
+        std::vector<std::uint8_t>().swap(group.bytes);
+    }
+    for (const auto& bytes : views_) {
         pad_to_4(buffer);
         views.push_back({{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}});
         buffer.insert(buffer.end(), bytes.begin(), bytes.end());
-        return views.back();
-    };
-    for (Group& group : groups_) {
-        Json& view = append(group.bytes);
-        if (group.use == AccessorUse::vertices) view["byteStride"] = group.stride;
-        if (group.use == AccessorUse::vertices) view["target"] = array_buffer;
-        if (group.use == AccessorUse::indices) view["target"] = element_array_buffer;
-        std::vector<std::uint8_t>().swap(group.bytes);
     }
-    for (const auto& bytes : views_) append(bytes);
     for (StoredAccessor& stored : stored_) {
         if (stored.group != no_index) stored.description["bufferView"] = stored.group;
         if (stored.group != no_index && stored.offset != 0) stored.description["byteOffset"] = stored.offset;
@@ -101,6 +131,13 @@ std::vector<std::uint8_t> GltfBufferBuilder::finish(Json& document) {
     if (buffer.empty()) return buffer;
     document["bufferViews"] = std::move(views);
     document["buffers"] = Json::array({{{"byteLength", buffer.size()}}});
+    if (fallback_size > 0) {
+        Json fallback = {{"byteLength", fallback_size}};
+        fallback["extensions"][meshopt_name]["fallback"] = true;
+        document["buffers"].push_back(std::move(fallback));
+        for (const char* list : {"extensionsUsed", "extensionsRequired"})
+            document[list].push_back(meshopt_name);
+    }
     return buffer;
 }
 

@@ -8,15 +8,18 @@
 #include <vector>
 
 #include "asset/gltf/json.hpp"
+#include "asset/gltf/write/accessor_use.hpp"
+#include "faqem/asset.hpp"
 
 namespace faqem::detail {
-
-/// Purpose of an accessor. Accessors share a buffer view if and only if they have the same use and stride.
-enum class AccessorUse { vertices, indices, matrices, other };
 
 /// Collects accessors and views, and writes them to a buffer. Equal accessors are stored once.
 class GltfBufferBuilder {
 public:
+    /// \param compression  of vertices and triangles; with meshopt, finish() adds EXT_meshopt_compression to the
+    ///                     extensions of the document
+    explicit GltfBufferBuilder(Compression compression = Compression::none) : compression_(compression) {}
+
     /// Adds an accessor.
     /// \param description  componentType, type, count and any other members of the accessor
     /// \param dense        contiguous elements, copied; empty: all elements are zero, and no bytes are stored
@@ -29,14 +32,15 @@ public:
     /// \pre no accessor is added afterwards
     Index add_view(std::span<const std::uint8_t> bytes);
 
-    /// Writes accessors, bufferViews and buffers[0] (without uri) to the document.
-    /// \return the bytes of the buffer; if empty, the document has no buffer
+    /// Writes accessors, bufferViews and buffers[0] (without uri) to the document, and buffers[1], which has no bytes,
+    /// if views were compressed.
+    /// \return the bytes of the first buffer; if empty, the document has no buffer
     std::vector<std::uint8_t> finish(Json& document);
 
 private:
     struct Group {
         AccessorUse use;
-        std::uint64_t stride;
+        std::uint64_t stride;  ///< bytes of an element; 0 if views of this use have none
         std::vector<std::uint8_t> bytes;
     };
     /// An added accessor. Its bytes are at `offset` in its group.
@@ -49,6 +53,10 @@ private:
     bool is_equal(const StoredAccessor& stored, const Json& description, Index group,
                   std::span<const std::uint8_t> strided) const;
 
+    void append_view(const Group& group, std::vector<std::uint8_t>& buffer, std::uint64_t& fallback_size,
+                     Json& views) const;
+
+    Compression compression_;
     std::vector<StoredAccessor> stored_;
     std::map<std::size_t, std::vector<Index>> accessors_by_hash_;
     std::vector<Group> groups_;

@@ -39,8 +39,9 @@ void add_bounds(Json& description, const std::vector<Vec3f>& values) {
 }
 
 template <class T>
-Index add_vertices(GltfWriter& writer, Json description, const std::vector<T>& values) {
-    return writer.binary.add_accessor(std::move(description), bytes_of(values), AccessorUse::vertices);
+Index add_vertices(GltfWriter& writer, Json description, const std::vector<T>& values,
+                   AccessorUse use = AccessorUse::vertices) {
+    return writer.binary.add_accessor(std::move(description), bytes_of(values), use);
 }
 
 Index add_positions(GltfWriter& writer, const std::vector<Vec3f>& values) {
@@ -79,14 +80,14 @@ Index add_joints(GltfWriter& writer, const std::vector<std::array<std::uint16_t,
 }
 
 /// Writes indices with 16 bits if they fit, else with 32 bits. The value 65535 is primitive restart.
-Index add_indices(GltfWriter& writer, const PrimitiveData& data) {
+Index add_indices(GltfWriter& writer, const PrimitiveData& data, AccessorUse use) {
     if (data.vertices.size() > 65535)
         return writer.binary.add_accessor(
             accessor_description(ComponentType::u32, "SCALAR", data.corners.size()), bytes_of(data.corners),
-            AccessorUse::indices);
+            use);
     const std::vector<std::uint16_t> indices(data.corners.begin(), data.corners.end());
     return writer.binary.add_accessor(accessor_description(ComponentType::u16, "SCALAR", indices.size()),
-                                      bytes_of(indices), AccessorUse::indices);
+                                      bytes_of(indices), use);
 }
 
 /// Writes morph target displacements. If all are zero, no bytes are stored.
@@ -115,17 +116,21 @@ Json write_morph_targets(GltfWriter& writer, const Part& part, const PrimitiveDa
 
 Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData& data) {
     const std::size_t count = data.vertices.size();
+    // Vertices and triangles that are not those of the source may be changed by compression.
+    const bool is_new = part.file_order == FileOrder::for_gpu;
+    const AccessorUse directions = is_new ? AccessorUse::directions : AccessorUse::vertices;
+    const AccessorUse uvs = is_new ? AccessorUse::texture_coordinates : AccessorUse::vertices;
     Json json = {{"POSITION", add_positions(writer, data.positions)}};
     if (!data.normals.empty())
-        json["NORMAL"] =
-            add_vertices(writer, accessor_description(ComponentType::f32, "VEC3", count), data.normals);
+        json["NORMAL"] = add_vertices(writer, accessor_description(ComponentType::f32, "VEC3", count),
+                                      data.normals, directions);
     if (!data.tangents.empty())
-        json["TANGENT"] =
-            add_vertices(writer, accessor_description(ComponentType::f32, "VEC4", count), data.tangents);
+        json["TANGENT"] = add_vertices(writer, accessor_description(ComponentType::f32, "VEC4", count),
+                                       data.tangents, directions);
     for (std::size_t set = 0; set < part.uvs.size(); ++set)
         json["TEXCOORD_" + std::to_string(set)] =
             add_vertices(writer, accessor_description(ComponentType::f32, "VEC2", count),
-                         gather(part.uvs[set], data.vertices));
+                         gather(part.uvs[set], data.vertices), uvs);
     if (!data.colors.empty()) json["COLOR_0"] = add_colors(writer, data.colors);
     if (!data.joints.empty()) {
         json["JOINTS_0"] = add_joints(writer, data.joints);
@@ -158,7 +163,9 @@ void write_part(GltfWriter& writer, const Part& part, Json& primitives) {
         degenerate_faces += data.degenerate_faces;
         Json primitive = kept_primitive_members(writer, part, material);
         primitive["attributes"] = write_attributes(writer, part, data);
-        primitive["indices"] = add_indices(writer, data);
+        primitive["indices"] = add_indices(
+            writer, data,
+            part.file_order == FileOrder::for_gpu ? AccessorUse::triangles : AccessorUse::indices);
         if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data);
         if (material != no_index) primitive["material"] = write_material(writer, material);
         primitives.push_back(std::move(primitive));

@@ -10,6 +10,7 @@
 #include "asset/gltf/container.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/write/levels.hpp"
+#include "asset/gltf/write/meshopt_encoder.hpp"
 #include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
@@ -126,8 +127,12 @@ void write_output(GltfWriter& writer, const fs::path& file, Overwrite overwrite)
 GltfWriter make_writer(const Asset& asset) {
     static const SourceDocument none;
     const SourceDocument& source = asset.source ? *asset.source : none;
-    return {asset, source, start_document(source.document),
-            asset.source ? Vec3{} : local_origin(asset.parts)};
+    GltfWriter writer{asset, source, start_document(source.document),
+                      asset.source ? Vec3{} : local_origin(asset.parts),
+                      GltfBufferBuilder(asset.compression)};
+    if (asset.compression == Compression::meshopt && !can_encode_meshopt())
+        writer.warnings.push_back("faqem was built without meshoptimizer: the geometry was not compressed");
+    return writer;
 }
 
 void write_meshes_and_scene(GltfWriter& writer) {

@@ -20,7 +20,7 @@ struct GltfWriter {
     const SourceDocument& source;  ///< empty if the asset has no source document
     Json out;                      ///< the output document
     Vec3 origin = {0, 0, 0};       ///< subtracted from all positions; translation of the nodes of new meshes
-    GltfBufferBuilder binary = {};
+    GltfBufferBuilder binary = GltfBufferBuilder();
     std::vector<std::string> warnings = {};
 
     std::map<Index, Index> accessors = {};         ///< source accessor to output accessor

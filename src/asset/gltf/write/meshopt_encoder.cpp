@@ -1,0 +1,96 @@
+#include "asset/gltf/write/meshopt_encoder.hpp"
+
+#ifdef FAQEM_WITH_MESHOPT
+#include <meshoptimizer.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace faqem::detail {
+
+#ifdef FAQEM_WITH_MESHOPT
+
+namespace {
+
+// EXT_meshopt_compression has these versions of the codecs.
+constexpr int vertex_codec_version = 0, index_codec_version = 1;
+
+// Rounded unit vectors have a length that differs from 1 by less than 5e-4, so that they are kept when written again.
+constexpr int direction_exponent = -11, texture_coordinate_exponent = -15;
+
+// Mantissas have 24 bits with their sign.
+constexpr float max_mantissa = (1 << 23) - 1;
+
+// Floats as multiples of 2^exponent, in the layout of the filter EXPONENTIAL; nothing if one is out of range.
+std::optional<std::vector<std::uint8_t>> rounded_floats(std::span<const std::uint8_t> bytes, int exponent) {
+    std::vector<std::uint8_t> result(bytes.size());
+    for (std::size_t i = 0; i + sizeof(float) <= bytes.size(); i += sizeof(float)) {
+        float value;
+        std::memcpy(&value, &bytes[i], sizeof(float));
+        const float mantissa = std::round(std::ldexp(value, -exponent));
+        if (!(std::abs(mantissa) <= max_mantissa)) return std::nullopt;
+        const auto integer = static_cast<std::uint32_t>(static_cast<std::int32_t>(mantissa));
+        const std::uint32_t packed = static_cast<std::uint32_t>(exponent) << 24 | (integer & 0xffffff);
+        std::memcpy(&result[i], &packed, sizeof(packed));
+    }
+    return result;
+}
+
+CompressedView encoded_attributes(std::span<const std::uint8_t> bytes, std::uint64_t stride,
+                                  std::string_view filter) {
+    CompressedView view{{}, bytes.size() / stride, "ATTRIBUTES", filter};
+    view.bytes.resize(meshopt_encodeVertexBufferBound(view.count, stride));
+    view.bytes.resize(
+        meshopt_encodeVertexBuffer(view.bytes.data(), view.bytes.size(), bytes.data(), view.count, stride));
+    return view;
+}
+
+CompressedView encoded_triangles(std::span<const std::uint8_t> bytes, std::uint64_t stride) {
+    CompressedView view{{}, bytes.size() / stride, "TRIANGLES", {}};
+    std::vector<unsigned> indices(view.count);
+    for (std::size_t i = 0; i < indices.size(); ++i) std::memcpy(&indices[i], &bytes[i * stride], stride);
+    const unsigned vertices = 1 + *std::max_element(indices.begin(), indices.end());
+    view.bytes.resize(meshopt_encodeIndexBufferBound(view.count, vertices));
+    view.bytes.resize(
+        meshopt_encodeIndexBuffer(view.bytes.data(), view.bytes.size(), indices.data(), indices.size()));
+    return view;
+}
+
+}  // namespace
+
+bool can_encode_meshopt() { return true; }
+
+std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t> bytes, std::uint64_t stride,
+                                             AccessorUse use) {
+    constexpr std::uint64_t max_stride = 256;
+    if (bytes.empty()) return std::nullopt;
+    meshopt_encodeVertexVersion(vertex_codec_version);
+    meshopt_encodeIndexVersion(index_codec_version);
+    std::optional<CompressedView> view;
+    if (use == AccessorUse::triangles && bytes.size() / stride % 3 == 0)
+        view = encoded_triangles(bytes, stride);
+    else if (is_vertex_attribute(use) && stride <= max_stride) {
+        std::optional<std::vector<std::uint8_t>> rounded;
+        if (use == AccessorUse::directions) rounded = rounded_floats(bytes, direction_exponent);
+        if (use == AccessorUse::texture_coordinates)
+            rounded = rounded_floats(bytes, texture_coordinate_exponent);
+        view = rounded ? encoded_attributes(*rounded, stride, "EXPONENTIAL")
+                       : encoded_attributes(bytes, stride, {});
+    }
+    if (view && view->bytes.size() >= bytes.size()) view.reset();
+    return view;
+}
+
+#else
+
+bool can_encode_meshopt() { return false; }
+
+std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t>, std::uint64_t, AccessorUse) {
+    return std::nullopt;
+}
+
+#endif
+
+}  // namespace faqem::detail

@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// Encoding of buffer views with EXT_meshopt_compression.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "asset/gltf/write/accessor_use.hpp"
+
+namespace faqem::detail {
+
+/// A buffer view that is compressed.
+struct CompressedView {
+    std::vector<std::uint8_t> bytes;
+    std::uint64_t count = 0;  ///< elements
+    std::string_view mode;    ///< ATTRIBUTES or TRIANGLES
+    std::string_view filter;  ///< EXPONENTIAL, or empty
+};
+
+/// Whether faqem was built with meshoptimizer.
+bool can_encode_meshopt();
+
+/// Encodes the elements of a view. Directions and texture coordinates are rounded to multiples of 2^-11 and 2^-15, the
+/// smallest angles and distances that are seen; rounded values stay as they are. Everything else is lossless, but the
+/// corners of a triangle may be rotated.
+/// \param bytes   the elements, floats for AccessorUse::directions and texture_coordinates
+/// \param stride  bytes of an element: a multiple of 4, of indices 2 or 4
+/// \return nothing if the use is not compressed, if nothing is gained, or if faqem was built without meshoptimizer
+/// O(bytes)
+std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t> bytes, std::uint64_t stride,
+                                             AccessorUse use);
+
+}  // namespace faqem::detail
