@@ -18,8 +18,8 @@ struct Topology {
     GroupBoundaries group_boundaries = GroupBoundaries::free;
     /// Files duplicate vertices at UV and normal seams: without welding, every seam would be a boundary.
     Weld weld = Weld::by_position;
-    /// Maximum distance between welded vertices, model units, finite and >= 0. Unset: that of the preset
-    /// (1e-6 for `paper`, 0 for all others).
+    /// Maximum distance between welded vertices, model units, finite and >= 0. Unset: 1e-6 for `paper`, 0 for all
+    /// others, and for assets also those that differ by the rounding of their file (docs/assets.md, "Rounding").
     std::optional<double> weld_distance = {};
     VirtualEdges virtual_edges = VirtualEdges::off;
     /// Maximum length of a virtual edge, as a share of the bounding-box diagonal, in (0, 1].

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asset/scene/messages.hpp"
+#include "asset/scene/rounding_weld.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/error.hpp"
 
@@ -54,6 +55,10 @@ void require_clean(const Asset& asset, const std::string& file) {
         throw InputError(file, "", "rejected by --strict: " + asset.warnings.front());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const std::string where = file + ": " + detail::part_title(asset, p);
+        const Part& part = asset.parts[p];
+        for (const std::string& message :
+             detail::rounding_messages(detail::find_rounding_weld(part.positions, part.triangles)))
+            throw InputError(where, "", "rejected by --strict: " + message);
         require_nonzero_area(asset.parts[p], where);
         require_no_duplicate_faces(asset.parts[p], where);
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bake/scene/simplify_parts.hpp"
+
 namespace faqem::detail {
 
 ReferenceParts::ReferenceParts(const Asset& source, const Options& options, CancellationCheck check_cancelled)
@@ -34,7 +36,8 @@ SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& 
     const ReferenceParts measured(source, options, monitor.cancellation_check());
     const double allowed = measured.size()(*options.max_error);
     return search_within_error<SimplifiedParts>(
-        options, measured.faces(), allowed, [&](const Options& own) { return simplify_parts(source, own); },
+        options, measured.faces(), allowed,
+        [&](const Options& own) { return simplify_welded_parts(source, own); },
         [&](const SimplifiedParts& simplified, MeasureMode mode, CancellationCheck check_cancelled) {
             return measured(simplified, allowed, mode, check_cancelled);
         });

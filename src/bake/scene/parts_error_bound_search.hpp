@@ -38,7 +38,8 @@ private:
 };
 
 /// simplify_parts() with Options::max_error: a search over the face count of the whole asset, with one call
-/// of simplify_parts() per attempt.
+/// of simplify_welded_parts() per attempt.
+/// \param source   must have passed check_asset()
 /// \param options  must be valid, with max_error set
 SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options);
 

@@ -5,6 +5,7 @@
 #include "bake/scene/shared_texture.hpp"
 #include "bake/scene/simplify_parts.hpp"
 #include "bake/scene/step_progress.hpp"
+#include "bake/scene/welded_source.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
 
@@ -16,16 +17,19 @@ std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, con
     const Options own = detail::step_options(options, Phase::simplify, 0, 1);
     detail::check_asset(source);
     const detail::MeasurementMonitor monitor(own, 0);
-    const detail::ReferenceParts measured(source, own, monitor.cancellation_check());
+    const detail::WeldedSource welded(source, options);
+    const detail::ReferenceParts measured(welded.asset(), own, monitor.cancellation_check());
     const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
         levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
     if (level_targets.empty()) return {};
-    return detail::run_lod_chain<SimplifiedPartsLevel>(
+    std::vector<SimplifiedPartsLevel> made = detail::run_lod_chain<SimplifiedPartsLevel>(
         level_targets, own, measured.faces(),
         [&](const std::vector<std::uint64_t>& targets, const Options& tried) {
-            return detail::simplify_parts_to_targets(source, targets, tried);
+            return detail::simplify_parts_to_targets(welded.asset(), targets, tried);
         },
         measured);
+    for (SimplifiedPartsLevel& level : made) welded.add_to(level.result.report);
+    return made;
 } catch (const engine::Cancelled&) {
     std::vector<SimplifiedPartsLevel> none(1);
     none.front().result.parts.resize(source.parts.size());
@@ -41,11 +45,15 @@ std::vector<SimplifiedAssetLevel> with_shared_texture(const Asset& source, const
     detail::check_shared_texture(options);
     detail::check_asset(source);
     const detail::MeasurementMonitor monitor(options, 0);
-    const detail::ReferenceParts measured(source, options, monitor.cancellation_check());
+    const detail::WeldedSource welded(source, options);
+    const detail::ReferenceParts measured(welded.asset(), options, monitor.cancellation_check());
     const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
         levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
     if (level_targets.empty()) return {};
-    return detail::levels_with_shared_texture(source, measured, level_targets, options);
+    std::vector<SimplifiedAssetLevel> made =
+        detail::levels_with_shared_texture(welded.asset(), measured, level_targets, options);
+    for (SimplifiedAssetLevel& level : made) welded.add_to(level.result.report);
+    return made;
 } catch (const engine::Cancelled&) {
     std::vector<SimplifiedAssetLevel> none(1);
     none.front().result.report.stop = StopReason::cancelled;

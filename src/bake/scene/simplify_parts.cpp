@@ -16,6 +16,7 @@
 #include "bake/scene/simplify_parts.hpp"
 #include "bake/scene/step_progress.hpp"
 #include "bake/scene/visibility.hpp"
+#include "bake/scene/welded_source.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/transfer/material_groups.hpp"
 #include "faqem/bake.hpp"
@@ -270,10 +271,7 @@ void add_kept_parts(const Asset& source, const Options& options, detail::Deadlin
 
 }  // namespace
 
-SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
-    validate(options);
-    detail::check_asset(source);
-    if (options.max_error) return detail::simplify_parts_within_error(source, options);
+SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options& options) {
     std::uint64_t faces = 0;
     for (const Part& part : source.parts) faces += part.triangles.size();
     const std::uint64_t target = detail::target_face_count(options.target, static_cast<double>(faces));
@@ -285,6 +283,18 @@ SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
     SimplifiedParts result = std::move(detail::simplify_parts_to_targets(source, {&target, 1}, own).front());
     if (tries_uvs && result.report.stop != StopReason::cancelled && !engine::is_over(deadline))
         add_kept_parts(source, options, deadline, result);
+    return result;
+}
+
+SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
+    validate(options);
+    detail::check_asset(source);
+    const detail::Deadline deadline = detail::deadline_of(options);
+    const detail::WeldedSource welded(source, options);
+    const Options own = detail::with_time_left(options, deadline);
+    SimplifiedParts result = own.max_error ? detail::simplify_parts_within_error(welded.asset(), own)
+                                           : detail::simplify_welded_parts(welded.asset(), own);
+    welded.add_to(result.report);
     return result;
 }
 

@@ -20,4 +20,9 @@ std::vector<SimplifiedParts> simplify_parts_to_targets(const Asset& source,
                                                        std::span<const std::uint64_t> targets,
                                                        const Options& options);
 
+/// As simplify_parts() without Options::max_error, for a source that is welded (WeldedSource).
+/// \param source   must have passed check_asset()
+/// \param options  must be valid, without max_error
+SimplifiedParts simplify_welded_parts(const Asset& source, const Options& options);
+
 }  // namespace faqem::detail

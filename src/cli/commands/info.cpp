@@ -3,9 +3,11 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "asset/file_format.hpp"
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/rounding_weld.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/json.hpp"
@@ -53,8 +55,11 @@ ImageInfo image_info(const Image& image) {
     return result;
 }
 
-AssetInfo examine(const Asset& asset) {
+AssetInfo examine(Asset asset) {
     AssetInfo result;
+    result.warnings = asset.warnings;
+    for (std::string& warning : detail::weld_rounded_positions(asset))
+        result.warnings.push_back(std::move(warning));
     const std::vector<Instance> scene_instances = instances(asset);
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const Part& part = asset.parts[p];
@@ -72,7 +77,6 @@ AssetInfo examine(const Asset& asset) {
     result.materials = asset.materials.size();
     result.instances = scene_instances.size();
     result.scene = info_of(detail::flatten(asset));
-    result.warnings = asset.warnings;
     return result;
 }
 

@@ -1,0 +1,280 @@
+#include "asset/scene/rounding_weld.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "asset/scene/coordinate_precision.hpp"
+#include "asset/scene/messages.hpp"
+#include "asset/scene/point_grid.hpp"
+#include "faqem/engine/mesh/weld.hpp"
+
+namespace faqem::detail {
+namespace {
+
+constexpr double share_of_length = 1.0 / 4;  // the most that a tolerance may be
+constexpr double share_of_length_at_distance =
+    1.0 / 64;  // the same, for the rounding of coordinates elsewhere
+constexpr double near_factor = 10;
+constexpr int most_candidates = 1000;  // among which the partner of an edge is searched
+
+struct VertexPair {
+    Index a, b;  // a < b
+};
+
+Triangle mapped(const Triangle& t, const std::vector<Index>& representative) {
+    return {representative[t[0]], representative[t[1]], representative[t[2]]};
+}
+
+bool has_equal_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+/// The boundary edges, in the order of their vertices.
+std::vector<VertexPair> boundary_edges(const std::vector<Triangle>& triangles,
+                                       const std::vector<Index>& representative) {
+    struct Side {
+        Index end, opposite;
+    };
+    const auto for_each_side = [&](auto&& use) {
+        for (const Triangle& original : triangles) {
+            const Triangle t = mapped(original, representative);
+            if (has_equal_corners(t)) continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto [a, b] = std::minmax(t[c], t[(c + 1) % 3]);
+                use(a, Side{b, t[(c + 2) % 3]});
+            }
+        }
+    };
+    std::vector<std::size_t> offset(representative.size() + 1, 0);
+    for_each_side([&](Index a, const Side&) { ++offset[a + std::size_t{1}]; });
+    std::partial_sum(offset.begin(), offset.end(), offset.begin());
+    std::vector<Side> sides(offset.back());
+    for_each_side([&](Index a, const Side& side) { sides[offset[a]++] = side; });
+    std::vector<VertexPair> found;
+    std::size_t begin = 0;
+    for (Index a = 0; a < representative.size(); ++a) {
+        const std::size_t end = offset[a];  // has advanced to the beginning of the next vertex
+        std::sort(sides.begin() + static_cast<std::ptrdiff_t>(begin),
+                  sides.begin() + static_cast<std::ptrdiff_t>(end), [](const Side& s, const Side& t) {
+                      return std::pair(s.end, s.opposite) < std::pair(t.end, t.opposite);
+                  });
+        for (std::size_t i = begin, next; i < end; i = next) {
+            for (next = i + 1; next < end && sides[next].end == sides[i].end;) ++next;
+            if (sides[i].opposite == sides[next - 1].opposite) found.push_back({a, sides[i].end});
+        }
+        begin = end;
+    }
+    return found;
+}
+
+/// By vertex, the length of the edges around it: of a face its second longest edge, so that needles do not count, and
+/// the smallest of these.
+std::vector<double> edge_lengths(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                                 const std::vector<Index>& representative) {
+    std::vector<double> length(positions.size(), std::numeric_limits<double>::infinity());
+    for (const Triangle& original : triangles) {
+        const Triangle t = mapped(original, representative);
+        if (has_equal_corners(t)) continue;
+        std::array<double, 3> edges;
+        for (std::size_t c = 0; c < 3; ++c)
+            edges[c] = max_norm_distance(positions[t[c]], positions[t[(c + 1) % 3]]);
+        std::sort(edges.begin(), edges.end());
+        for (const Index v : t) length[v] = std::min(length[v], edges[1]);
+    }
+    return length;
+}
+
+double largest_coordinate(const Vec3& p) {
+    return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+}
+
+/// The tolerances of the vertices of boundary edges; 0 for all others.
+struct Tolerances {
+    std::vector<double> weld, near;
+
+    Tolerances(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+               const std::vector<Index>& representative, const std::vector<VertexPair>& edges)
+        : weld(positions.size(), 0), near(positions.size(), 0) {
+        const CoordinatePrecision precision(positions);
+        const std::vector<double> length = edge_lengths(positions, triangles, representative);
+        double most = 0;
+        Vec3 low = positions[edges.front().a], high = low;
+        for (const Triangle& t : triangles) {
+            for (const Index v : t) {
+                most = std::max(most, largest_coordinate(positions[v]));
+                for (std::size_t k = 0; k < 3; ++k) {
+                    low[k] = std::min(low[k], positions[v][k]);
+                    high[k] = std::max(high[k], positions[v][k]);
+                }
+            }
+        }
+        const double most_rounding = precision.tolerance(most);
+        const double float_rounding =
+            near_factor * double{std::numeric_limits<float>::epsilon()} * max_norm_distance(low, high);
+        const auto add = [&](Index v) {
+            if (weld[v] > 0) return;
+            const double own = precision.tolerance(largest_coordinate(positions[v]));
+            const double rounding =
+                std::min(most_rounding, std::max(own, share_of_length_at_distance * length[v]));
+            weld[v] = std::min(rounding, share_of_length * length[v]);
+            near[v] = std::min(std::max(near_factor * rounding, float_rounding), share_of_length * length[v]);
+        };
+        for (const VertexPair& edge : edges) add(edge.a), add(edge.b);
+    }
+};
+
+/// Welds vertices on the boundary, one after the other.
+class BoundaryWelder {
+public:
+    BoundaryWelder(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                   const std::vector<Index>& representative, const std::vector<double>& tolerance)
+        : positions_(positions),
+          triangles_(triangles),
+          representative_(representative),
+          tolerance_(tolerance),
+          welded_(positions.size()),
+          offset_(positions.size() + 1, 0) {
+        std::iota(welded_.begin(), welded_.end(), Index{0});
+        for_each_boundary_corner([&](Index v, std::size_t) { ++offset_[v + std::size_t{1}]; });
+        std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
+        faces_.resize(offset_.back());
+        std::vector<std::size_t> at(offset_.begin(), offset_.end() - 1);
+        for_each_boundary_corner([&](Index v, std::size_t f) { faces_[at[v]++] = static_cast<Index>(f); });
+    }
+
+    /// Returns, for every vertex that represents others, the one that it is welded to.
+    std::vector<Index> operator()() {
+        PointGrid grid(positions_, tolerance_);
+        for (Index v = 0; v < welded_.size(); ++v) {
+            if (!(tolerance_[v] > 0)) continue;
+            double least = std::numeric_limits<double>::infinity();
+            Index nearest = no_index;
+            grid.visit_near(v, [&](Index w) {
+                const double d = max_norm_distance(positions_[v], positions_[w]);
+                if (!(d <= std::min(tolerance_[v], tolerance_[w]))) return false;
+                if ((d < least || (d == least && w < nearest)) && !is_in_face_with(v, w))
+                    least = d, nearest = w;
+                return false;
+            });
+            if (nearest == no_index)
+                grid.insert(v);
+            else
+                welded_[v] = nearest;
+        }
+        return std::move(welded_);
+    }
+
+private:
+    template <class Use>
+    void for_each_boundary_corner(Use&& use) const {
+        for (std::size_t f = 0; f < triangles_.size(); ++f) {
+            for (const Index v : mapped(triangles_[f], representative_))
+                if (tolerance_[v] > 0) use(v, f);
+        }
+    }
+
+    // Whether a face of v has a corner that is w or was welded to it.
+    bool is_in_face_with(Index v, Index w) const {
+        for (std::size_t i = offset_[v]; i < offset_[v + std::size_t{1}]; ++i)
+            for (const Index corner : mapped(triangles_[faces_[i]], representative_))
+                if (welded_[corner] == w) return true;
+        return false;
+    }
+
+    const std::vector<Vec3>& positions_;
+    const std::vector<Triangle>& triangles_;
+    const std::vector<Index>& representative_;
+    const std::vector<double>& tolerance_;
+    std::vector<Index> welded_;
+    std::vector<std::size_t> offset_;  // into faces_, by vertex
+    std::vector<Index> faces_;         // of the vertices that have a tolerance
+};
+
+/// Counts edges that have another edge nearby. Of edges that are near each other the middles are, too.
+std::uint64_t count_near_edges(const std::vector<Vec3>& positions, const std::vector<VertexPair>& edges,
+                               const std::vector<double>& reach_of_vertex) {
+    std::vector<Vec3> middles;
+    std::vector<double> reach;
+    for (const auto [a, b] : edges) {
+        const Vec3 &p = positions[a], &q = positions[b];
+        middles.push_back({0.5 * p[0] + 0.5 * q[0], 0.5 * p[1] + 0.5 * q[1], 0.5 * p[2] + 0.5 * q[2]});
+        reach.push_back(std::min(reach_of_vertex[a], reach_of_vertex[b]));
+    }
+    PointGrid grid(middles, reach);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        if (reach[e] > 0) grid.insert(static_cast<Index>(e));
+    std::uint64_t count = 0;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (!(reach[e] > 0)) continue;
+        int candidates = 0;
+        grid.visit_near(static_cast<Index>(e), [&](Index other) {
+            if (other == e) return false;
+            const double r = std::min(reach[e], reach[other]);
+            const auto are_near = [&](Index a, Index b) {
+                return max_norm_distance(positions[a], positions[b]) <= r;
+            };
+            const auto [a, b] = edges[e];
+            const auto [c, d] = edges[other];
+            const bool found = (are_near(a, c) && are_near(b, d)) || (are_near(a, d) && are_near(b, c));
+            if (found) ++count;
+            return found || ++candidates == most_candidates;
+        });
+    }
+    return count;
+}
+
+}  // namespace
+
+RoundingWeld find_rounding_weld(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
+    RoundingWeld result;
+    std::vector<Index> representative = engine::weld_exact(positions);
+    std::vector<VertexPair> edges = boundary_edges(triangles, representative);
+    if (edges.empty()) return result;
+    const Tolerances tolerances(positions, triangles, representative, edges);
+    const std::vector<Index> welded = BoundaryWelder(positions, triangles, representative, tolerances.weld)();
+    for (Index v = 0; v < welded.size(); ++v)
+        if (welded[v] != v) ++result.welded;
+    if (result.welded > 0) {
+        for (Index& r : representative) r = welded[r];
+        edges = boundary_edges(triangles, representative);
+    }
+    result.near_edges = count_near_edges(positions, edges, tolerances.near);
+    if (result.welded > 0) result.representative = std::move(representative);
+    return result;
+}
+
+void apply_rounding_weld(const RoundingWeld& found, std::vector<Vec3>& positions) {
+    for (std::size_t v = 0; v < found.representative.size(); ++v) {
+        const Vec3& position = positions[found.representative[v]];
+        if (positions[v] != position) positions[v] = position;
+    }
+}
+
+std::vector<std::string> rounding_messages(const RoundingWeld& found) {
+    std::vector<std::string> messages;
+    if (found.welded > 0)
+        messages.push_back(pluralized(found.welded, "position") + " that differ" +
+                           (found.welded == 1 ? "s" : "") + " from another one by rounding welded");
+    if (found.near_edges > 0)
+        messages.push_back(
+            pluralized(found.near_edges, "boundary edge") + (found.near_edges == 1 ? " has" : " have") +
+            " another one nearby and may be torn: welded only within a distance that is given");
+    return messages;
+}
+
+std::vector<std::string> weld_rounded_positions(Asset& asset) {
+    std::vector<std::string> warnings;
+    for (std::size_t p = 0; p < asset.parts.size(); ++p) {
+        Part& part = asset.parts[p];
+        const RoundingWeld found = find_rounding_weld(part.positions, part.triangles);
+        apply_rounding_weld(found, part.positions);
+        for (const std::string& message : rounding_messages(found))
+            warnings.push_back(part_title(asset, p) + ": " + message);
+    }
+    return warnings;
+}
+
+}  // namespace faqem::detail
