@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "asset/scene/measured_instances.hpp"
 #include "faqem/error.hpp"
 #include "render/rasterizer.hpp"
 
@@ -64,7 +66,12 @@ void load_textures(Scene& scene) {
 Scene make_scene(Asset asset) {
     Scene scene;
     scene.asset = std::move(asset);
-    for (const Instance& instance : instances(scene.asset)) {
+    const std::vector<Instance> shown = detail::measured_instances(scene.asset);
+    const std::size_t all = instances(scene.asset).size();
+    if (shown.size() < all)
+        scene.warnings.push_back("only " + std::to_string(shown.size()) + " of " + std::to_string(all) +
+                                 " instances are shown: all have too many faces");
+    for (const Instance& instance : shown) {
         const Part& part = scene.asset.parts[instance.part];
         const InstanceTransform transform = instance_transform(instance);
         Scene::PartInstance part_instance;

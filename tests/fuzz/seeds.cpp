@@ -102,6 +102,15 @@ void gltf_seeds() {
     strip.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
     write("strip", strip);
     write("webp", testing::webp_square());
+    testing::GltfBuilder instances = testing::square_gltf();
+    const std::vector<Vec3f> moves = {{0, 0, 0}, {2, 0, 0}};
+    const std::vector<std::array<std::int8_t, 4>> turns = {{0, 0, 0, 127}, {0, 0, 90, 90}};
+    const auto turn = instances.accessor(turns, testing::i8, "VEC4");
+    instances.json["accessors"][turn]["normalized"] = true;
+    instances.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", instances.accessor(moves, testing::f32, "VEC3")}, {"ROTATION", turn}};
+    instances.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    write("instances", instances);
 #ifdef FAQEM_WITH_DRACO
     for (const testing::Method method : {testing::Method::edgebreaker, testing::Method::sequential})
         for (const int bits : {0, 11})
@@ -150,7 +159,8 @@ void text_seeds() {
     put("ply", "big-endian",
         "ply\nformat binary_big_endian" + header + "end_header\n" + std::string(70, '\1'));
     put("ply", "textured",
-        "ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\nproperty float x\nproperty "
+        "float y\n"
         "property float z\nproperty float red\nproperty float green\nproperty float blue\nelement face 1\n"
         "property list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty int texnumber\n"
         "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"

@@ -45,7 +45,7 @@ std::vector<std::string> write_gltf(const Asset& asset, const std::filesystem::p
 FAQEM_EXPORT std::vector<std::uint8_t> encode_glb(const Asset& asset);
 
 /// Lists the instances in the default scene: the first scene if no default is set, all root nodes if there is
-/// no scene. Parts without a source mesh follow, with the identity transform.
+/// no scene. Those of EXT_mesh_gpu_instancing follow each other. Parts without a source mesh follow, with the identity transform.
 /// \pre asset.source is set
 std::vector<Instance> gltf_instances(const Asset& asset);
 

@@ -1,7 +1,7 @@
-#include <cmath>
 #include <utility>
 
 #include "asset/gltf/gltf.hpp"
+#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/source_document.hpp"
 #include "asset/scene/flatten.hpp"
 
@@ -27,35 +27,11 @@ std::array<double, N> number_array(const Json& object, const char* key, std::arr
     return values;
 }
 
-/// T * R * S with R from a unit quaternion (glTF 2.0, section 3.5.3).
 Matrix local_transform(const Json& node) {
     if (node.contains("matrix")) return number_array<16>(node, "matrix", identity_transform);
-    const auto t = number_array<3>(node, "translation", {0, 0, 0});
-    const auto s = number_array<3>(node, "scale", {1, 1, 1});
-    auto [x, y, z, w] = number_array<4>(node, "rotation", {0, 0, 0, 1});
-    const double length = std::sqrt(x * x + y * y + z * z + w * w);
-    if (length > 0) {
-        x /= length;
-        y /= length;
-        z /= length;
-        w /= length;
-    }
-    return {(1 - 2 * (y * y + z * z)) * s[0],
-            2 * (x * y + z * w) * s[0],
-            2 * (x * z - y * w) * s[0],
-            0,
-            2 * (x * y - z * w) * s[1],
-            (1 - 2 * (x * x + z * z)) * s[1],
-            2 * (y * z + x * w) * s[1],
-            0,
-            2 * (x * z + y * w) * s[2],
-            2 * (y * z - x * w) * s[2],
-            (1 - 2 * (x * x + y * y)) * s[2],
-            0,
-            t[0],
-            t[1],
-            t[2],
-            1};
+    return transform_matrix(number_array<3>(node, "translation", {0, 0, 0}),
+                            number_array<4>(node, "rotation", {0, 0, 0, 1}),
+                            number_array<3>(node, "scale", {1, 1, 1}));
 }
 
 /// The nodes of the default scene, or of the first one; without scenes, all nodes without a parent.
@@ -100,8 +76,13 @@ std::vector<Instance> gltf_instances(const Asset& asset) {
         const Json& node = document["nodes"][index];
         const Matrix world = product(parent, local_transform(node));
         const Index mesh = index_member(node, "mesh");
-        if (mesh != no_index)
-            for (const Index part : parts_of[mesh]) instances.push_back({part, world});
+        if (mesh != no_index && !parts_of[mesh].empty()) {
+            std::vector<Matrix> transforms = instance_matrices(*asset.source, node);
+            if (transforms.empty()) transforms.push_back(identity_transform);
+            for (const Matrix& transform : transforms)
+                for (const Index part : parts_of[mesh])
+                    instances.push_back({part, product(world, transform)});
+        }
         const Json& children = member(node, "children");
         for (auto child = children.rbegin(); child != children.rend(); ++child)
             stack.push_back({child->get<Index>(), world});

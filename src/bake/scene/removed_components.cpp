@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/scene/measured_instances.hpp"
 #include "asset/scene/messages.hpp"
 #include "faqem/detail/measure/removed_components.hpp"
 #include "faqem/engine/mesh/vector.hpp"
@@ -26,7 +27,7 @@ void report_removed_components(const Asset& source, SimplifiedParts& result) {
         for (const Index f : result.parts[p].face_origin) is_left[of_part[p].component[f]] = 1;
     }
     std::vector<PlacedFace> faces;
-    for (const Instance& instance : instances(source)) {
+    for (const Instance& instance : measured_instances(source)) {
         const Part& part = source.parts[instance.part];
         const Eigen::Map<const Eigen::Matrix4d> matrix(instance.transform.data());
         const auto place = [&](Index v) {

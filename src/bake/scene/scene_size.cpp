@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "asset/scene/measured_instances.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/options.hpp"
 
@@ -18,6 +19,21 @@ PartScale scale_of(const Eigen::Matrix4d& transform) {
     return {values[2], values[0]};
 }
 
+std::vector<Vec3> box_corners(const std::vector<Vec3>& points) {
+    std::vector<Vec3> corners;
+    if (points.empty()) return corners;
+    Vec3 low = points.front(), high = low;
+    for (const Vec3& p : points) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+    for (unsigned i = 0; i < 8; ++i)
+        corners.push_back({i & 1u ? high[0] : low[0], i & 2u ? high[1] : low[1], i & 4u ? high[2] : low[2]});
+    return corners;
+}
+
 }  // namespace
 
 SceneSize scene_size(const Asset& source) {
@@ -28,9 +44,13 @@ SceneSize scene_size(const Asset& source) {
         const Part& part = source.parts[p];
         positions[p] = extract_surface({part.positions, part.triangles}).positions;
     }
+    const std::vector<Instance> placed = instances(source);
+    // The corners of the box of a part bound the part, which is enough in a scene of very many instances.
+    if (has_excessive_instances(source, placed))
+        for (std::vector<Vec3>& of_part : positions) of_part = box_corners(of_part);
     std::vector<bool> shown(source.parts.size(), false);
     Eigen::AlignedBox3d box;
-    for (const Instance& instance : instances(source)) {
+    for (const Instance& instance : placed) {
         const Eigen::Map<const Eigen::Matrix4d> transform(instance.transform.data());
         const PartScale scale = scale_of(transform);
         PartScale& all = size.scales[instance.part];

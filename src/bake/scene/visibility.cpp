@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "asset/gltf/source_document.hpp"
+#include "asset/scene/measured_instances.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/detail/geometry/vertex_faces.hpp"
@@ -236,7 +237,7 @@ private:
 }  // namespace
 
 VertexVisibility vertex_visibility(const Asset& scene, const Workers& workers) {
-    const std::vector<Instance> all = instances(scene);
+    const std::vector<Instance> all = measured_instances(scene);
     const Occluders occluders(scene, all, workers.check_cancelled);
     std::vector<std::vector<std::optional<float>>> seen(scene.parts.size());
     for (std::size_t p = 0; p < seen.size(); ++p) seen[p].resize(scene.parts[p].positions.size());

@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -7,6 +11,8 @@
 
 #include "asset/file_format.hpp"
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/measured_instances.hpp"
+#include "asset/scene/messages.hpp"
 #include "asset/scene/rounding_weld.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
@@ -55,12 +61,56 @@ ImageInfo image_info(const Image& image) {
     return result;
 }
 
+/// The determinant of the linear part of a transform.
+double volume_scale(const std::array<double, 16>& m) {
+    return m[0] * (m[5] * m[10] - m[9] * m[6]) - m[4] * (m[1] * m[10] - m[9] * m[2]) +
+           m[8] * (m[1] * m[6] - m[5] * m[2]);
+}
+
+/// The totals of a scene that is too large to be flattened: counts of all instances, the box of their boxes, and areas
+/// by the mean scale of each instance.
+MeshInfo sum_of_instances(const Asset& asset, const std::vector<PartInfo>& parts,
+                          const std::vector<Instance>& all) {
+    MeshInfo sum;
+    Vec3 low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (const Instance& instance : all) {
+        const MeshInfo& mesh = parts[instance.part].mesh;
+        const auto& m = instance.transform;
+        sum.faces += mesh.faces;
+        sum.degenerate_faces += mesh.degenerate_faces;
+        sum.vertices += mesh.vertices;
+        sum.components += mesh.components;
+        sum.boundary_edges += mesh.boundary_edges;
+        sum.nonmanifold_edges += mesh.nonmanifold_edges;
+        sum.euler += mesh.euler;
+        sum.area += mesh.area * std::pow(std::abs(volume_scale(m)), 2.0 / 3);
+        if (asset.parts[instance.part].triangles.empty()) continue;
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            Vec3 p;
+            for (unsigned k = 0; k < 3; ++k) p[k] = (corner >> k) & 1u ? mesh.box_max[k] : mesh.box_min[k];
+            for (std::size_t r = 0; r < 3; ++r) {
+                const double x = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
+                low[r] = std::min(low[r], x);
+                high[r] = std::max(high[r], x);
+            }
+        }
+    }
+    sum.box_min = low;
+    sum.box_max = high;
+    sum.diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    return sum;
+}
+
 AssetInfo examine(Asset asset) {
     AssetInfo result;
     result.warnings = asset.warnings;
     for (std::string& warning : detail::weld_rounded_positions(asset))
         result.warnings.push_back(std::move(warning));
     const std::vector<Instance> scene_instances = instances(asset);
+    std::vector<std::size_t> instances_of(asset.parts.size(), 0);
+    for (const Instance& instance : scene_instances) ++instances_of[instance.part];
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const Part& part = asset.parts[p];
         PartInfo one;
@@ -70,13 +120,19 @@ AssetInfo examine(Asset asset) {
         one.uv_sets = part.uvs.size();
         one.colors = !part.colors.empty();
         one.skinned = !part.joints.empty();
-        for (const Instance& instance : scene_instances) one.instances += instance.part == p;
+        one.instances = instances_of[p];
         result.parts.push_back(std::move(one));
     }
     for (const Image& image : asset.images) result.images.push_back(image_info(image));
     result.materials = asset.materials.size();
     result.instances = scene_instances.size();
-    result.scene = info_of(detail::flatten(asset));
+    if (detail::has_excessive_instances(asset, scene_instances)) {
+        result.scene = sum_of_instances(asset, result.parts, scene_instances);
+        result.warnings.push_back("the scene shows " + detail::pluralized(result.scene.faces, "face") +
+                                  ": its totals are sums over the instances");
+    } else {
+        result.scene = info_of(detail::flatten(asset));
+    }
     return result;
 }
 

@@ -10,6 +10,7 @@
 #include "asset/file_format.hpp"
 #include "asset/image/image_size.hpp"
 #include "asset/model_files.hpp"
+#include "asset/scene/measured_instances.hpp"
 #include "bake/transfer/material_groups.hpp"
 #include "cli/file_stamp.hpp"
 #include "cli/memory/gltf_json_memory.hpp"
@@ -96,7 +97,7 @@ double page_bytes(const Asset& asset, const BakeOptions& bake) {
 
 double instanced_face_count(const Asset& asset) {
     double faces = 0;
-    for (const Instance& instance : instances(asset))
+    for (const Instance& instance : detail::measured_instances(asset))
         faces += static_cast<double>(asset.parts[instance.part].triangles.size());
     return faces;
 }

@@ -2,6 +2,7 @@
 #include <array>
 #include <string_view>
 
+#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
@@ -14,9 +15,10 @@ constexpr std::array top_level_arrays = {"accessors", "animations", "buffers", "
                                          "scenes",    "skins",      "textures"};
 
 /// Required extensions that are read, or that are passed through and do not affect meshes and materials.
-constexpr std::array<std::string_view, 8> supported_extensions = {
-    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",    "KHR_xmp_json_ld",
-    "KHR_animation_pointer", "KHR_node_visibility",   "EXT_lights_image_based", "EXT_texture_webp"};
+constexpr std::array<std::string_view, 9> supported_extensions = {
+    "KHR_mesh_quantization",  "KHR_texture_transform", "KHR_lights_punctual",
+    "KHR_xmp_json_ld",        "KHR_animation_pointer", "KHR_node_visibility",
+    "EXT_lights_image_based", "EXT_texture_webp",      instancing_name};
 
 template <class List>
 bool contains(const List& list, std::string_view name) {

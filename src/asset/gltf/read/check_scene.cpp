@@ -1,9 +1,46 @@
+#include <algorithm>
 #include <vector>
 
+#include "asset/gltf/accessor.hpp"
+#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/read/checker.hpp"
+#include "asset/scene/messages.hpp"
 
 namespace faqem::detail {
 namespace {
+
+/// Checks the type of an attribute that places instances: three floats, or for rotations also four normalised integers.
+void check_instance_attribute(const GltfChecker& checker, const std::string& name, const Json& accessor,
+                              const std::string& where) {
+    const bool is_rotation = name == "ROTATION";
+    if (!is_rotation && name != "TRANSLATION" && name != "SCALE") return;
+    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
+    const bool is_normalized = is_rotation && member(accessor, "normalized") == true &&
+                               (type == ComponentType::i8 || type == ComponentType::i16);
+    if (string_member(accessor, "type") != (is_rotation ? "VEC4" : "VEC3") ||
+        !(type == ComponentType::f32 || is_normalized))
+        checker.fail(where, is_rotation ? "is not a VEC4 of floats or of normalised signed bytes or shorts"
+                                        : "is not a VEC3 of floats");
+}
+
+/// Returns the number of instances of the node's mesh, 1 without the extension.
+std::uint64_t checked_instance_count(const GltfChecker& checker, const Json& node, const std::string& where) {
+    const std::string at = where + "/extensions/" + instancing_name;
+    const Json& instancing = member(member(node, "extensions"), instancing_name);
+    std::uint64_t count = 0;
+    for (const auto& [name, reference] : checker.object(instancing, at, "attributes").items()) {
+        const std::string path = at + "/attributes/" + name;
+        const std::uint64_t index = checker.checked_index(reference, path, "accessors");
+        const Json& accessor = member(checker.document, "accessors")[index];
+        const std::uint64_t own = unsigned_member(accessor, "count", 0);
+        if (count != 0 && own != count)
+            checker.fail(path, "has " + pluralized(own, "element") + ", another attribute has " +
+                                   std::to_string(count));
+        count = own;
+        check_instance_attribute(checker, name, accessor, path);
+    }
+    return std::max<std::uint64_t>(count, 1);
+}
 
 void check_node(const GltfChecker& checker, const Json& node, const std::string& where) {
     checker.reference(node, where, "mesh", "meshes");
@@ -15,10 +52,18 @@ void check_node(const GltfChecker& checker, const Json& node, const std::string&
     checker.check_number_array(node, where, "scale", 3);
     checker.array(node, where, "weights");
     checker.object(node, where, "extensions");
-    const std::string at = where + "/extensions/EXT_mesh_gpu_instancing";
-    const Json& instancing = member(member(node, "extensions"), "EXT_mesh_gpu_instancing");
-    for (const auto& [name, accessor] : checker.object(instancing, at, "attributes").items())
-        checker.checked_index(accessor, at + "/attributes/" + name, "accessors");
+}
+
+void check_instance_counts(const GltfChecker& checker, const Json& nodes) {
+    std::uint64_t instances = 0;
+    for (std::uint64_t i = 0; i < nodes.size(); ++i) {
+        const std::uint64_t own = checked_instance_count(checker, nodes[i], child_path("/nodes", i));
+        if (own > 1 && own > max_instances - std::min(instances, max_instances))
+            checker.fail_unsupported(
+                child_path("/nodes", i),
+                "the file has more than " + std::to_string(max_instances) + " instances");
+        instances += own;
+    }
 }
 
 /// Parent of each node; the number of nodes if it has none.
@@ -112,6 +157,7 @@ void check_animation(const GltfChecker& checker, const Json& animation, const st
 void check_scene(const GltfChecker& checker) {
     const Json& nodes = member(checker.document, "nodes");
     for (std::uint64_t i = 0; i < nodes.size(); ++i) check_node(checker, nodes[i], child_path("/nodes", i));
+    check_instance_counts(checker, nodes);
     const std::vector<std::uint64_t> parents = checked_parents(checker, nodes);
     check_no_cycle(checker, parents);
     check_scenes(checker, parents);

@@ -8,6 +8,7 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/container.hpp"
+#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
@@ -253,6 +254,7 @@ LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) 
     move_buffers_and_images(loaded);
     decompress(*loaded.source, loaded.file);
     check_sparse(*loaded.source, loaded.file);
+    check_instances(*loaded.source, loaded.file);
     return loaded;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/write/writer.hpp"
 
 namespace faqem::detail {
@@ -12,7 +13,6 @@ namespace faqem::detail {
 namespace {
 
 constexpr const char* lod_extension = "MSFT_lod";
-constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
 
 /// Node members that are moved to another node together with the mesh.
 constexpr std::array<const char*, 3> mesh_keys = {"mesh", "skin", "weights"};
@@ -54,9 +54,9 @@ Index split_mesh_node(GltfWriter& writer, Index node) {
         child[key] = parent[key];
         parent.erase(key);
     }
-    if (member(parent, "extensions").contains(instancing_extension)) {
-        child["extensions"][instancing_extension] = parent["extensions"][instancing_extension];
-        parent["extensions"].erase(instancing_extension);
+    if (member(parent, "extensions").contains(instancing_name)) {
+        child["extensions"][instancing_name] = parent["extensions"][instancing_name];
+        parent["extensions"].erase(instancing_name);
         if (parent["extensions"].empty()) parent.erase("extensions");
     }
     const Index index = append(writer, "nodes", std::move(child));
@@ -100,8 +100,8 @@ Json level_node(const GltfWriter& writer, const Json& mesh_node, Index mesh, std
     const Json& mesh_weights = member(writer.out["meshes"][index_member(mesh_node, "mesh")], "weights");
     const Json& weights = mesh_node.contains("weights") ? mesh_node["weights"] : mesh_weights;
     if (weights.is_array() && weights.size() == array_size(primitive, "targets")) node["weights"] = weights;
-    if (member(mesh_node, "extensions").contains(instancing_extension))
-        node["extensions"][instancing_extension] = mesh_node["extensions"][instancing_extension];
+    if (member(mesh_node, "extensions").contains(instancing_name))
+        node["extensions"][instancing_name] = mesh_node["extensions"][instancing_name];
     return node;
 }
 

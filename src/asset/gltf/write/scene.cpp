@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
+#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/write/writer.hpp"
 
 namespace faqem::detail {
@@ -14,9 +15,8 @@ namespace {
 
 /// Extensions whose references are remapped, or that have no references.
 constexpr std::array<std::string_view, 7> remapped_extensions = {
-    "EXT_mesh_gpu_instancing", "EXT_lights_image_based", "EXT_texture_webp",
-    "EXT_lights_ies",          "MSFT_texture_dds",       "MSFT_lod",
-    "EXT_mesh_manifold"};
+    instancing_name, "EXT_lights_image_based", "EXT_texture_webp", "EXT_lights_ies", "MSFT_texture_dds",
+    "MSFT_lod",      "EXT_mesh_manifold"};
 
 Index morph_target_count(const GltfWriter& writer, const Json& node) {
     const Index mesh = index_member(node, "mesh");
@@ -40,14 +40,22 @@ bool was_skinned(const GltfWriter& writer, Index mesh) {
 }
 
 void remap_instancing(GltfWriter& writer, Json& node) {
-    if (!member(member(node, "extensions"), "EXT_mesh_gpu_instancing").contains("attributes")) return;
-    for (Json& accessor : node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"])
+    if (!member(member(node, "extensions"), instancing_name).contains("attributes")) return;
+    for (Json& accessor : node["extensions"][instancing_name]["attributes"])
         accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
 }
 
+/// Removes the instances of a node without a mesh, so that their accessors are not written.
+void erase_instancing(Json& node) {
+    if (!member(node, "extensions").contains(instancing_name)) return;
+    node["extensions"].erase(instancing_name);
+    if (node["extensions"].empty()) node.erase("extensions");
+}
+
 void update_node(GltfWriter& writer, Json& node) {
-    remap_instancing(writer, node);
     const Index source_mesh = index_member(node, "mesh");
+    if (source_mesh == no_index || writer.mesh_map[source_mesh] == no_index) erase_instancing(node);
+    remap_instancing(writer, node);
     if (source_mesh == no_index) return;
     const Index mesh = writer.mesh_map[source_mesh];
     if (mesh == no_index) {

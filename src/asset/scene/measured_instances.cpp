@@ -1,0 +1,52 @@
+#include "asset/scene/measured_instances.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace faqem::detail {
+namespace {
+
+constexpr std::uint64_t many_faces = std::uint64_t{1} << 24;
+constexpr std::uint64_t many_copies = 4;
+
+std::uint64_t face_count(const Asset& asset, const Instance& instance) {
+    return asset.parts[instance.part].triangles.size();
+}
+
+}  // namespace
+
+std::uint64_t shown_faces(const Asset& asset, const std::vector<Instance>& all) {
+    std::uint64_t faces = 0;
+    for (const Instance& instance : all) {
+        const std::uint64_t own = face_count(asset, instance);
+        faces = own > std::numeric_limits<std::uint64_t>::max() - faces
+                    ? std::numeric_limits<std::uint64_t>::max()
+                    : faces + own;
+    }
+    return faces;
+}
+
+bool has_excessive_instances(const Asset& asset, const std::vector<Instance>& all) {
+    std::uint64_t faces = 0;
+    for (const Part& part : asset.parts) faces += part.triangles.size();
+    const std::uint64_t shown = shown_faces(asset, all);
+    return shown > many_faces && shown / many_copies > faces;
+}
+
+std::vector<Instance> measured_instances(const Asset& asset) {
+    std::vector<Instance> all = instances(asset);
+    if (!has_excessive_instances(asset, all)) return all;
+    std::vector<std::uint8_t> has_one(asset.parts.size(), 0);
+    std::vector<Instance> measured;
+    std::uint64_t faces = 0;
+    for (const Instance& instance : all) {
+        const std::uint64_t own = face_count(asset, instance);
+        if (has_one[instance.part] && own > many_faces - std::min(faces, many_faces)) continue;
+        has_one[instance.part] = 1;
+        faces += own;
+        measured.push_back(instance);
+    }
+    return measured;
+}
+
+}  // namespace faqem::detail

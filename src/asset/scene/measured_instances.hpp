@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// Scenes with so many instances that they cannot be copied one by one.
+
+#include <cstdint>
+#include <vector>
+
+#include "faqem/asset.hpp"
+#include "faqem/export.hpp"
+
+namespace faqem::detail {
+
+/// Number of faces that all instances show; at most 2^64 - 1.
+FAQEM_EXPORT std::uint64_t shown_faces(const Asset& asset, const std::vector<Instance>& all);
+
+/// Whether a scene shows more than 2^24 faces, and more than four times those that its parts have.
+FAQEM_EXPORT bool has_excessive_instances(const Asset& asset, const std::vector<Instance>& all);
+
+/// The instances for measurements that copy all faces: all, but in a scene with has_excessive_instances() only the
+/// first one of each part, and others in the order of the scene until 2^24 faces are reached.
+/// Complexity: O(instances).
+FAQEM_EXPORT std::vector<Instance> measured_instances(const Asset& asset);
+
+}  // namespace faqem::detail
