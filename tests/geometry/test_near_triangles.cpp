@@ -131,3 +131,40 @@ TEST_CASE("near triangles: a list that cannot be searched stays empty") {
     near.reset({0, 0, 0}, 1, std::vector(NearTriangles::max_size, one.front()));
     CHECK_FALSE(near.empty());
 }
+
+TEST_CASE("near triangles: a narrowed list gives the same results") {
+    Random random;
+    std::size_t found = 0, queries = 0, sizes = 0;
+    for (int repetition = 0; repetition < 100; ++repetition) {
+        const auto all = soup(random, 60, {0, 0, 0}, 1);
+        const Vector3 centre = random.point();
+        const double reach = std::sqrt(brute_force(all, centre).at.distance_squared) + 0.4;
+        NearTriangles large, small;
+        large.reset(centre, reach, within(all, centre, reach));
+        const Vector3 inner = centre + 0.1 * random.point();
+        large.narrow(inner, 0.05, small);
+        REQUIRE_FALSE(small.empty());
+        CHECK(small.size() <= large.size());
+        sizes += large.size() - small.size();
+        for (int i = 0; i < 20; ++i, ++queries) {
+            const Vector3 p = inner + 0.05 * random.point();
+            const auto hit = small.closest(p);
+            if (!hit) continue;
+            ++found;
+            const NearTriangles::Hit best = brute_force(all, p);
+            CHECK(hit->entry->face == best.entry->face);
+            CHECK(hit->at.distance_squared == best.at.distance_squared);
+        }
+    }
+    CHECK(sizes > 0);
+    CHECK(found == queries);
+}
+
+TEST_CASE("near triangles: a list is narrowed only where it is complete") {
+    NearTriangles large, small;
+    large.reset({0, 0, 0}, 1, {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3}});
+    large.narrow({0.1, 0.1, 0.2}, 0.1, small);
+    CHECK(small.size() == 1);
+    large.narrow({0.1, 0.1, 0.2}, 0.4, small);  // 0.24 from the centre, 0.2 from the triangle
+    CHECK(small.empty());
+}

@@ -24,6 +24,8 @@ std::size_t right_angle_corner(const TrianglePlacement& placement) {
 // Samples of a block along each axis, about. More samples share a search for the faces near the block, but there are
 // more of these faces.
 constexpr std::uint32_t block_samples = 8;
+// Blocks along each axis of a large block, whose faces are found together.
+constexpr std::uint32_t large_block = 4;
 // Samples of a block that are searched for one by one. With fewer samples than about twice as many, the search for
 // the faces near the block would take longer than it saves.
 constexpr std::uint32_t single_samples = 4;
@@ -42,7 +44,9 @@ TexelProjector::TexelProjector(const BakeJob& job, const ProjectorInput& page, I
       texel_length_(texel_length()),
       spacing_(texel_length_ / samples),
       block_size_(std::max(1u, block_samples / samples)),
-      box_(bounding_box(placement_.uv)) {
+      box_(bounding_box(placement_.uv)),
+      first_column_(static_cast<std::uint32_t>(std::max(box_.low.x, 0.0)) / block_size_),
+      last_column_(static_cast<std::uint32_t>(std::max(box_.high.x, 0.0)) / block_size_) {
     const std::vector<Vec4f>& tangents = page.tangents[face_.part];
     for (std::size_t i = 0; i < 3 && !tangents.empty(); ++i) {
         const std::size_t c = std::size_t{3} * face_.face + i;
@@ -115,35 +119,47 @@ TexelSample TexelProjector::point(std::uint32_t x, std::uint32_t y, double s, do
 
 // The block of texels around a sample.
 TexelProjector::Block& TexelProjector::block_of(const TexelSample& at, std::uint32_t x, std::uint32_t y) {
-    const std::uint32_t column = x / block_size_, row = y / block_size_;
-    const auto column_at = [&](double texel) {
-        return static_cast<std::uint32_t>(std::max(texel, 0.0)) / block_size_;
-    };
-    const std::uint32_t first = column_at(box_.low.x), last = column_at(box_.high.x);
+    const std::uint32_t column = x / block_size_;
     std::vector<Block>& blocks = blocks_[at.cache_index];
-    if (blocks.empty()) blocks.resize(last - first + 1);
-    Block& block = blocks[std::clamp(column, first, last) - first];
-    if (block.column != column || block.row != row) {
-        block.column = column;
-        block.row = row;
-        block.samples = 0;
-    }
+    if (blocks.empty()) blocks.resize(last_column_ - first_column_ + 1);
+    Block& block = blocks[std::clamp(column, first_column_, last_column_) - first_column_];
+    block.move_to(column, y / block_size_);
     return block;
 }
 
-// Finds the faces of the source near the samples of a block that are on the same face as `at`.
-void TexelProjector::prepare(Block& block, const TexelSample& at, const SurfacePoint& near) const {
-    Box2 box{{double(block.column) * block_size_, double(block.row) * block_size_}, {}};
-    box.high = {box.low.x + block_size_, box.low.y + block_size_};
-    if (at.cache_index == 0) {
+// \param size  of the block in texels
+TexelProjector::Ball TexelProjector::ball_around(const Block& block, std::uint32_t size,
+                                                 std::size_t cache_index) const {
+    Box2 box{{double(block.column) * size, double(block.row) * size}, {}};
+    box.high = {box.low.x + size, box.low.y + size};
+    if (cache_index == 0) {
         const Box2 shared{{std::max(box.low.x, box_.low.x), std::max(box.low.y, box_.low.y)},
                           {std::min(box.high.x, box_.high.x), std::min(box.high.y, box_.high.y)}};
         if (shared.low.x < shared.high.x && shared.low.y < shared.high.y) box = shared;
     }
     const Vec3 w = frame_.at((box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2);
-    const double radius = std::hypot(box.width(), box.height()) / 2 * texel_length_;
-    block.map.prepare(*part_.map, at.face, at.cache_index == 0 ? w : weights_beyond(at.cache_index - 1, w),
-                      radius, near);
+    return {cache_index == 0 ? w : weights_beyond(cache_index - 1, w),
+            std::hypot(box.width(), box.height()) / 2 * texel_length_};
+}
+
+// Finds the faces of the source near the samples of a block that are on the same face as `at`.
+void TexelProjector::prepare(Block& block, const TexelSample& at, const SurfacePoint& near) {
+    const Ball ball = ball_around(block, block_size_, at.cache_index);
+    if (at.cache_index == 0) {
+        const std::uint32_t column = block.column / large_block, first = first_column_ / large_block,
+                            last = last_column_ / large_block;
+        if (large_blocks_.empty()) large_blocks_.resize(last - first + 1);
+        Block& large = large_blocks_[std::clamp(column, first, last) - first];
+        large.move_to(column, block.row / large_block);
+        const Ball around = ball_around(large, large_block * block_size_, 0);
+        if (around.radius > 1.5 * ball.radius) {
+            if (large.samples == 0)
+                large.map.prepare(*part_.map, at.face, around.centre, around.radius, near);
+            large.samples = 1;
+            if (block.map.prepare_from(*part_.map, at.face, ball.centre, ball.radius, large.map)) return;
+        }
+    }
+    block.map.prepare(*part_.map, at.face, ball.centre, ball.radius, near);
 }
 
 SurfacePoint TexelProjector::map_near(const TexelSample& at, std::uint32_t x, std::uint32_t y,

@@ -86,6 +86,17 @@ private:
         std::uint32_t column = 0, row = 0;  // of the block on the page
         std::uint32_t samples = 0;          // number of samples so far
         LocalMap map;                       // prepared when there are enough samples
+
+        // Makes this the block at another place.
+        void move_to(std::uint32_t to_column, std::uint32_t to_row) {
+            if (column == to_column && row == to_row) return;
+            column = to_column, row = to_row, samples = 0;
+        }
+    };
+    // A ball around the samples of a block.
+    struct Ball {
+        Vec3 centre = {};   // barycentric coordinates
+        double radius = 0;  // in the part's units
     };
 
     bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }
@@ -94,7 +105,8 @@ private:
     Vec3 weights_beyond(std::size_t c, const Vec3& w) const;
     SurfacePoint map_near(const TexelSample& at, std::uint32_t x, std::uint32_t y, const SurfacePoint& near);
     Block& block_of(const TexelSample& at, std::uint32_t x, std::uint32_t y);
-    void prepare(Block& block, const TexelSample& at, const SurfacePoint& near) const;
+    Ball ball_around(const Block& block, std::uint32_t size, std::size_t cache_index) const;
+    void prepare(Block& block, const TexelSample& at, const SurfacePoint& near);
     UnfoldedNeighbour unfold(std::size_t c, Index neighbour, std::size_t other) const;
     Vec3 own_weights(const TexelSample& at) const;
 
@@ -107,13 +119,15 @@ private:
     const TriangleMesh& mesh_;
     const double texel_length_;
     const double spacing_;
-    const std::uint32_t block_size_;             // texels along each axis
-    const Box2 box_;                             // of the triangle on the page, in texels
-    std::array<UnfoldedNeighbour, 3> unfolded_;  // by corner opposite the edge
-    std::array<FrameCorner, 3> frames_;          // set if the page has a normal map
-    std::array<WarmStartCache, 4> warm_starts_;  // by TexelSample::cache_index
+    const std::uint32_t block_size_;                  // texels along each axis
+    const Box2 box_;                                  // of the triangle on the page, in texels
+    const std::uint32_t first_column_, last_column_;  // of blocks
+    std::array<UnfoldedNeighbour, 3> unfolded_;       // by corner opposite the edge
+    std::array<FrameCorner, 3> frames_;               // set if the page has a normal map
+    std::array<WarmStartCache, 4> warm_starts_;       // by TexelSample::cache_index
     // By TexelSample::cache_index and column of the block within the triangle: the last block there.
     std::array<std::vector<Block>, 4> blocks_;
+    std::vector<Block> large_blocks_;  // of samples on the triangle, by column
 };
 
 }  // namespace faqem::detail

@@ -26,8 +26,8 @@ FAQEM_INLINE void NearTriangles::Affine::set(int lane, const Vector3& gradient, 
 }
 
 FAQEM_INLINE void NearTriangles::describe(const Entry& entry, Group& group, int lane) const {
-    const std::array<Vector3, 3> at = {(entry.a - centre_) * scale_, (entry.b - centre_) * scale_,
-                                       (entry.c - centre_) * scale_};
+    const std::array<Vector3, 3> at = {(entry.a - origin_) * scale_, (entry.b - origin_) * scale_,
+                                       (entry.c - origin_) * scale_};
     const Vector3 ab = at[1] - at[0], ac = at[2] - at[0], bc = at[2] - at[1];
     const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()});
     const Vector3 area = ab.cross(ac);
@@ -53,28 +53,28 @@ FAQEM_INLINE void NearTriangles::reset(const Vector3& centre, double reach, std:
     const double coordinate = centre.cwiseAbs().maxCoeff() * scale;
     tolerance_ = 4e-6 + 1e-14 * coordinate;
     if (!(tolerance_ < 1)) return;
-    centre_ = centre;
+    origin_ = centre_ = centre;
     reach_ = reach;
     scale_ = scale;
     entries_ = std::move(entries);
-    const std::size_t groups = (entries_.size() + width - 1) / width;
-    groups_.assign(groups, {});
+    groups_.assign((entries_.size() + width - 1) / width, {});
     for (std::size_t i = 0; i < entries_.size(); ++i)
         describe(entries_[i], groups_[i / width], static_cast<int>(i % width));
-    // Lanes without a triangle are far away from every point.
+    fill_last_group();
+}
+
+// Lanes without a triangle are far away from every point.
+FAQEM_INLINE void NearTriangles::fill_last_group() {
     constexpr double far = 1e15;
-    for (std::size_t i = entries_.size(); i < groups * width; ++i)
+    for (std::size_t i = entries_.size(); i < groups_.size() * width; ++i)
         groups_.back().plane.set(static_cast<int>(i % width), Vector3::Zero(), far);
 }
 
-FAQEM_INLINE std::optional<NearTriangles::Hit> NearTriangles::closest(const Vector3& p) const {
-    if (entries_.empty()) return std::nullopt;
-    const Vector3 offset = p - centre_;
-    const double away = offset.norm();
-    if (!(away < reach_)) return std::nullopt;
-    const float x = static_cast<float>(offset.x() * scale_), y = static_cast<float>(offset.y() * scale_),
-                z = static_cast<float>(offset.z() * scale_);
-    std::array<Lanes, max_size / width> bounds;  // lower bounds of the squared distances
+// Computes lower bounds of the squared distances, in units of the list; returns the smallest.
+FAQEM_INLINE float NearTriangles::find_bounds(const Vector3& p, Bounds& bounds) const {
+    const Vector3 offset = (p - origin_) * scale_;
+    const auto x = static_cast<float>(offset.x()), y = static_cast<float>(offset.y()),
+               z = static_cast<float>(offset.z());
     Lanes least = Lanes::Constant(std::numeric_limits<float>::infinity());
     for (std::size_t g = 0; g < groups_.size(); ++g) {
         const auto& [plane, edges] = groups_[g];
@@ -84,33 +84,72 @@ FAQEM_INLINE std::optional<NearTriangles::Hit> NearTriangles::closest(const Vect
         bounds[g] = height * height + inside * inside;
         least = least.min(bounds[g]);
     }
-    const float smallest = least.minCoeff();
-    Hit best;
-    float limit = smallest;
-    // First the triangles with the smallest bound, then the others that may be as close as these.
-    for (const bool is_first : {true, false}) {
-        for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (!(bounds[g].minCoeff() <= limit)) continue;
-            for (int lane = 0; lane < width; ++lane) {
-                const float bound = bounds[g][lane];
-                if (!(bound <= limit) || (bound <= smallest) != is_first) continue;
-                const std::size_t i = g * width + static_cast<std::size_t>(lane);
-                if (i >= entries_.size()) break;
-                const Entry& entry = entries_[i];
-                const ClosestPoint at = closest_point_on_triangle(p, entry.a, entry.b, entry.c);
-                if (at.distance_squared < best.at.distance_squared ||
-                    (at.distance_squared == best.at.distance_squared &&
-                     (!best.entry || entry.face < best.entry->face)))
-                    best = {&entry, at};
-            }
+    return least.minCoeff();
+}
+
+// The bound of triangles within a distance of a point, rounded up.
+FAQEM_INLINE float NearTriangles::bound_of(double distance) const {
+    const double farthest = distance * scale_ + tolerance_;
+    return static_cast<float>(farthest * farthest * (1 + 1e-6));
+}
+
+FAQEM_INLINE bool NearTriangles::is_complete(const Vector3& p, double distance) const {
+    return ((p - centre_).norm() + distance) * scale_ + tolerance_ < reach_ * scale_;
+}
+
+// Calls visit(i) for the entries with a bound from `from` (exclusive) to `to`.
+template <class Visit>
+void NearTriangles::for_each_within(const Bounds& bounds, float from, float to, Visit&& visit) const {
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        if (!(bounds[g].minCoeff() <= to)) continue;
+        const std::size_t lanes = std::min<std::size_t>(width, entries_.size() - g * width);
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const float bound = bounds[g][static_cast<int>(lane)];
+            if (bound <= to && !(bound <= from)) visit(g * width + lane);
         }
-        if (!is_first) break;
-        const double farthest = std::sqrt(best.at.distance_squared) * scale_ + tolerance_;
-        limit = static_cast<float>(farthest * farthest * (1 + 1e-6));
     }
-    const double farthest_needed = (away + std::sqrt(best.at.distance_squared)) * scale_ + tolerance_;
-    if (!best.entry || !(farthest_needed < 1)) return std::nullopt;
+}
+
+FAQEM_INLINE std::optional<NearTriangles::Hit> NearTriangles::closest(const Vector3& p) const {
+    if (entries_.empty() || !is_complete(p, 0)) return std::nullopt;
+    Bounds bounds;
+    const float smallest = find_bounds(p, bounds);
+    Hit best;
+    const auto evaluate = [&](std::size_t i) {
+        const Entry& entry = entries_[i];
+        const ClosestPoint at = closest_point_on_triangle(p, entry.a, entry.b, entry.c);
+        if (at.distance_squared < best.at.distance_squared ||
+            (at.distance_squared == best.at.distance_squared && best.entry && entry.face < best.entry->face))
+            best = {&entry, at};
+    };
+    // First the triangles with the smallest bound, then the others that may be as close as these.
+    for_each_within(bounds, -1, smallest, evaluate);
+    for_each_within(bounds, smallest, bound_of(std::sqrt(best.at.distance_squared)), evaluate);
+    if (!best.entry || !is_complete(p, std::sqrt(best.at.distance_squared))) return std::nullopt;
     return best;
+}
+
+FAQEM_INLINE void NearTriangles::narrow(const Vector3& centre, double radius, NearTriangles& to) const {
+    to.clear();
+    const std::optional<Hit> hit = closest(centre);
+    if (!hit) return;
+    const double reach = std::sqrt(hit->at.distance_squared) + 2 * radius;
+    if (!is_complete(centre, reach)) return;
+    to.origin_ = origin_;
+    to.centre_ = centre;
+    to.reach_ = reach;
+    to.scale_ = scale_;
+    to.tolerance_ = tolerance_;
+    Bounds bounds;
+    find_bounds(centre, bounds);
+    for_each_within(bounds, -1, bound_of(reach), [&](std::size_t i) {
+        const std::size_t at = to.entries_.size();
+        if (at % width == 0) to.groups_.emplace_back();
+        to.groups_.back().copy_lane(static_cast<int>(at % width), groups_[i / width],
+                                    static_cast<int>(i % width));
+        to.entries_.push_back(entries_[i]);
+    });
+    to.fill_last_group();
 }
 
 FAQEM_INLINE bool NearTriangles::contains(Index face) const {

@@ -33,8 +33,8 @@ public:
         ClosestPoint at;
     };
 
-    /// Largest number of triangles for which the list is faster than a tree.
-    static constexpr std::size_t max_size = 64;
+    /// Largest number of triangles in a list.
+    static constexpr std::size_t max_size = 256;
 
     /// Empties the list: closest() finds nothing.
     void clear() { entries_.clear(), groups_.clear(); }
@@ -47,6 +47,16 @@ public:
     /// O(entries)
     void reset(const engine::Vector3& centre, double reach, std::vector<Entry> entries);
 
+    /// Makes the list for a smaller ball from this one, with those of its triangles that can be the closest to points
+    /// of the ball.
+    /// \param centre  of the smaller ball, finite
+    /// \param radius  of the smaller ball, in model units
+    /// \param to      another list; empty if this list is not complete for the ball
+    /// O(entries)
+    void narrow(const engine::Vector3& centre, double radius, NearTriangles& to) const;
+
+    /// Number of triangles.
+    std::size_t size() const { return entries_.size(); }
     bool empty() const { return entries_.empty(); }
 
     /// The triangle closest to p; of several at the same distance, the one with the smallest `face`.
@@ -61,24 +71,42 @@ public:
 private:
     static constexpr int width = 4;
     using Lanes = Eigen::Array<float, width, 1>;
-    /// Values of an affine function for several triangles, in coordinates in which the ball has centre 0 and radius 1.
+    /// Values of an affine function for several triangles, in coordinates relative to origin_, multiplied by scale_.
     struct Affine {
         Lanes x = Lanes::Zero(), y = Lanes::Zero(), z = Lanes::Zero(), constant = Lanes::Zero();
         Lanes at(float px, float py, float pz) const { return x * px + y * py + z * pz + constant; }
         void set(int lane, const engine::Vector3& gradient, double value_at_zero);
+        void copy_lane(int lane, const Affine& from, int other) {
+            x[lane] = from.x[other], y[lane] = from.y[other], z[lane] = from.z[other];
+            constant[lane] = from.constant[other];
+        }
     };
     /// Signed distances of up to four triangles: to the plane, and within it to the edges, positive inside. All are 0
     /// for a triangle without a reliable normal.
     struct Group {
         Affine plane;
         std::array<Affine, 3> edges;
+        void copy_lane(int lane, const Group& from, int other) {
+            plane.copy_lane(lane, from.plane, other);
+            for (std::size_t i = 0; i < 3; ++i) edges[i].copy_lane(lane, from.edges[i], other);
+        }
     };
+    using Bounds = std::array<Lanes, max_size / width>;
 
+    void fill_last_group();
+    float find_bounds(const engine::Vector3& p, Bounds& bounds) const;
+    float bound_of(double distance) const;
+    /// Whether every triangle within a distance of p is in the list.
+    bool is_complete(const engine::Vector3& p, double distance) const;
+    template <class Visit>
+    void for_each_within(const Bounds& bounds, float from, float to, Visit&& visit) const;
     void describe(const Entry& entry, Group& group, int lane) const;
 
-    engine::Vector3 centre_ = engine::Vector3::Zero();
-    double reach_ = 0, scale_ = 0;
-    double tolerance_ = 0;  ///< of distances divided by reach_
+    engine::Vector3 origin_ = engine::Vector3::Zero();  ///< of the coordinates in single precision
+    double scale_ = 0;      ///< factor to these coordinates, in which distances are small
+    double tolerance_ = 0;  ///< of distances in these coordinates
+    engine::Vector3 centre_ = engine::Vector3::Zero();  ///< of the ball
+    double reach_ = 0;                                  ///< radius in which the list is complete
     std::vector<Entry> entries_;
     std::vector<Group> groups_;
 };

@@ -19,6 +19,14 @@ FAQEM_INLINE void LocalMap::prepare(const SurfaceMap& map, Index face, const Vec
         (*projection)->find_accepted_faces(face, barycentric, radius, near, faces_);
 }
 
+FAQEM_INLINE bool LocalMap::prepare_from(const SurfaceMap& map, Index face, const Vec3& barycentric,
+                                         double radius, const LocalMap& larger) {
+    faces_.clear();
+    if (const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map))
+        larger.faces_.narrow((*projection)->position_on(face, barycentric), radius, faces_);
+    return !faces_.empty();
+}
+
 FAQEM_INLINE SurfacePoint LocalMap::map_near(const SurfaceMap& map, Index face, const Vec3& barycentric,
                                              const SurfacePoint& near) const {
     const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map);

@@ -22,6 +22,17 @@ public:
     void prepare(const SurfaceMap& map, Index face, const Vec3& barycentric, double radius,
                  const SurfacePoint& near);
 
+    /// Prepares the map for a smaller ball within one for which another map of the same face is prepared. This takes
+    /// less time than prepare().
+    /// \param map          as for prepare()
+    /// \param face         likewise
+    /// \param barycentric  likewise
+    /// \param radius       likewise
+    /// \param larger       prepared with the same map and face
+    /// \return whether that was possible; otherwise this map is not prepared
+    bool prepare_from(const SurfaceMap& map, Index face, const Vec3& barycentric, double radius,
+                      const LocalMap& larger);
+
     /// Same as SurfaceMap::map_near().
     /// \param map   as in the last call of prepare(), if any
     /// \param face  likewise

@@ -310,10 +310,12 @@ FAQEM_INLINE void SuccessiveProjection::find_accepted_faces(Index face, const Ve
     };
     std::vector<Candidate> candidates;
     std::size_t rejections = 0;
-    constexpr double stop_search = -1;
-    const auto limit = [&] {
-        return rejections < max_rejections ? (least + slack) * (least + slack) : stop_search;
+    // Some of the candidates are left out later, when a closer face is known.
+    const auto is_too_long = [&] {
+        return rejections >= max_rejections || candidates.size() > 2 * NearTriangles::max_size;
     };
+    constexpr double stop_search = -1;
+    const auto limit = [&] { return is_too_long() ? stop_search : (least + slack) * (least + slack); };
     tree_.visit_near(to_array(query.p0), limit, [&](Index f) {
         const double distance = std::sqrt(on_original(f, query.p0).distance_squared);
         if (!(distance <= least + slack)) return;
@@ -324,7 +326,7 @@ FAQEM_INLINE void SuccessiveProjection::find_accepted_faces(Index face, const Ve
         least = std::min(least, distance);
         candidates.push_back({f, distance});
     });
-    if (rejections >= max_rejections) return;
+    if (is_too_long()) return;
     const double reach = least + slack;
     std::erase_if(candidates, [&](const Candidate& c) { return !(c.distance <= reach); });
     if (candidates.size() > NearTriangles::max_size) return;

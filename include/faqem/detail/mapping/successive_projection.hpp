@@ -78,6 +78,13 @@ public:
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near,
                           const NearTriangles& faces) const;
 
+    /// Position of a point of the simplified mesh.
+    /// \param face         face of the simplified mesh
+    /// \param barycentric  weights of its three corners
+    engine::Vector3 position_on(Index face, const Vec3& barycentric) const {
+        return replay_.position_on(face, barycentric);
+    }
+
 private:
     struct Query;
     struct ScoredFace;
