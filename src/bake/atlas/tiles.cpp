@@ -67,17 +67,28 @@ public:
 
     TileOwners finish() {
         TileOwners result;
+        // Most samples have the same triangle as the one before.
+        Index last = no_index;
         for_each_owned_sample([&](std::size_t at) {
-            if (owner_[at] != no_index) result.triangles.push_back(owner_[at]);
+            if (owner_[at] == last) return;
+            last = owner_[at];
+            if (last != no_index) result.triangles.push_back(last);
         });
         std::sort(result.triangles.begin(), result.triangles.end());
         result.triangles.erase(std::unique(result.triangles.begin(), result.triangles.end()),
                                result.triangles.end());
         result.owners.assign(owner_.size(), TileOwners::none);
+        std::uint32_t number = TileOwners::none;
+        last = no_index;
         for_each_owned_sample([&](std::size_t at) {
-            const auto found = std::lower_bound(result.triangles.begin(), result.triangles.end(), owner_[at]);
-            if (found != result.triangles.end())
-                result.owners[at] = static_cast<std::uint32_t>(found - result.triangles.begin());
+            if (owner_[at] != last) {
+                last = owner_[at];
+                const auto found = std::lower_bound(result.triangles.begin(), result.triangles.end(), last);
+                number = found != result.triangles.end()
+                             ? static_cast<std::uint32_t>(found - result.triangles.begin())
+                             : TileOwners::none;
+            }
+            result.owners[at] = number;
         });
         return result;
     }
@@ -112,9 +123,11 @@ private:
     template <class Visit>
     void for_each_owned_sample(Visit&& visit) const {
         for (std::uint32_t j = 0; j < rows_; ++j) {
-            for (std::uint32_t i = 0; i < columns_; ++i) {
-                if (owned_[std::size_t{j / samples_} * tile_.width + i / samples_])
-                    visit(std::size_t{j} * columns_ + i);
+            const std::uint8_t* owned = &owned_[std::size_t{j / samples_} * tile_.width];
+            std::size_t at = std::size_t{j} * columns_;
+            for (std::uint32_t x = 0; x < tile_.width; ++x) {
+                for (std::uint32_t i = 0; i < samples_; ++i, ++at)
+                    if (owned[x]) visit(at);
             }
         }
     }

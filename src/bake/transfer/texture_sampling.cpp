@@ -1,6 +1,7 @@
 #include "bake/transfer/texture_sampling.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -19,7 +20,38 @@ const std::array<float, 256>& srgb_table() {
     return table;
 }
 
+// sRGB bytes of intervals of linear light. An interval has the doubles with the same exponent and first bits of the
+// mantissa.
+class SrgbBytes {
+public:
+    static constexpr double least = 1.0 / 8192;  // smaller values have the byte 0
+
+    SrgbBytes() {
+        const auto scaled = [](double linear) { return srgb_from_linear(linear) * 255 + 0.5; };
+        // More than the rounding errors of srgb_from_linear().
+        constexpr double margin = 1e-9;
+        for (std::size_t i = 0; i < bytes_.size(); ++i) {
+            const double low = std::floor(scaled(begin_of(i)) - margin),
+                         high = std::floor(scaled(begin_of(i + 1)) + margin);
+            bytes_[i] = static_cast<std::int16_t>(low == high ? low : -1);
+        }
+    }
+
+    // The byte of a value from `least` to less than 1; -1 if its interval has two.
+    int at(double linear) const {
+        return bytes_[(std::bit_cast<std::uint64_t>(linear) - std::bit_cast<std::uint64_t>(least)) >> shift];
+    }
+
+private:
+    static constexpr int shift = 43;  // 512 intervals for each power of two
+    static double begin_of(std::size_t i) {
+        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(least) + (std::uint64_t{i} << shift));
+    }
+    std::array<std::int16_t, 13 * 512> bytes_;
+};
+
 std::uint32_t wrapped(std::int64_t i, std::int64_t n, Wrap wrap) {
+    if (i >= 0 && i < n) return static_cast<std::uint32_t>(i);
     if (wrap == Wrap::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, n - 1));
     const std::int64_t period = wrap == Wrap::mirror ? 2 * n : n;
     std::int64_t r = i % period;
@@ -50,6 +82,24 @@ Taps taps(std::uint32_t i, std::uint32_t from, std::uint32_t to) {
     return result;
 }
 
+// Largest integer <= x, for |x| < 2^62. std::floor() is a call of a function without SSE4.
+std::int64_t floor_of(double x) {
+    const auto truncated = static_cast<std::int64_t>(x);
+    return truncated - (static_cast<double>(truncated) > x);
+}
+
+// Four neighbouring texels, and the position between them.
+struct Corners {
+    std::array<std::uint32_t, 2> x, y;
+    float s, t;
+
+    // read: (x, y) -> LinearColor
+    template <class Read>
+    LinearColor interpolate(const Read& read) const {
+        return mix(mix(read(x[0], y[0]), read(x[1], y[0]), s), mix(read(x[0], y[1]), read(x[1], y[1]), s), t);
+    }
+};
+
 double valid_or_zero(double x) { return std::abs(x) < 1e9 ? x : 0.0; }
 
 }  // namespace
@@ -60,21 +110,46 @@ MipImage::MipImage(Pixels pixels, TexelEncoding encoding, const Workers& workers
         levels_.push_back(downsample(level, workers));
 }
 
-LinearColor MipImage::read(std::size_t level, std::uint32_t x, std::uint32_t y) const {
-    const std::size_t at = (std::size_t{y} * width(level) + x) * 4;
+template <class Visit>
+LinearColor MipImage::with_reader(std::size_t level, const Visit& visit) const {
+    const auto row = [columns = std::size_t{width(level)}](std::uint32_t x, std::uint32_t y) {
+        return (y * columns + x) * 4;
+    };
     if (level > 0) {
-        const std::uint16_t* p = &levels_[level - 1].rgba[at];
-        constexpr float unit = 1.0f / 65535;
-        return {p[0] * unit, p[1] * unit, p[2] * unit, p[3] * unit};
+        return visit(
+            [&, texels = levels_[level - 1].rgba.get()](std::uint32_t x, std::uint32_t y) -> LinearColor {
+                const std::uint16_t* p = texels + row(x, y);
+                constexpr float unit = 1.0f / 65535;
+                return {p[0] * unit, p[1] * unit, p[2] * unit, p[3] * unit};
+            });
     }
-    const std::uint8_t* p = &pixels_.rgba[at];
     constexpr float unit = 1.0f / 255;
-    if (encoding_ == TexelEncoding::data) return {p[0] * unit, p[1] * unit, p[2] * unit, p[3] * unit};
-    const auto& linear = srgb_table();
-    if (encoding_ == TexelEncoding::color_and_data_alpha)
-        return {linear[p[0]], linear[p[1]], linear[p[2]], p[3] * unit};
-    const float alpha = encoding_ == TexelEncoding::color ? p[3] * unit : 1;
-    return {linear[p[0]] * alpha, linear[p[1]] * alpha, linear[p[2]] * alpha, alpha};
+    const std::uint8_t* texels = pixels_.rgba.data();
+    const float* linear = srgb_table().data();
+    switch (encoding_) {
+        case TexelEncoding::data:
+            return visit([&](std::uint32_t x, std::uint32_t y) -> LinearColor {
+                const std::uint8_t* p = texels + row(x, y);
+                return {p[0] * unit, p[1] * unit, p[2] * unit, p[3] * unit};
+            });
+        case TexelEncoding::color_and_data_alpha:
+            return visit([&](std::uint32_t x, std::uint32_t y) -> LinearColor {
+                const std::uint8_t* p = texels + row(x, y);
+                return {linear[p[0]], linear[p[1]], linear[p[2]], p[3] * unit};
+            });
+        case TexelEncoding::opaque_color:
+            return visit([&](std::uint32_t x, std::uint32_t y) -> LinearColor {
+                const std::uint8_t* p = texels + row(x, y);
+                return {linear[p[0]], linear[p[1]], linear[p[2]], 1};
+            });
+        case TexelEncoding::color:
+            break;
+    }
+    return visit([&](std::uint32_t x, std::uint32_t y) -> LinearColor {
+        const std::uint8_t* p = texels + row(x, y);
+        const float alpha = p[3] * unit;
+        return {linear[p[0]] * alpha, linear[p[1]] * alpha, linear[p[2]] * alpha, alpha};
+    });
 }
 
 MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) const {
@@ -82,18 +157,25 @@ MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) c
     // Not a vector, since zeroing half a gigabyte takes long and cannot be cancelled.
     result.rgba =
         std::make_unique_for_overwrite<std::uint16_t[]>(std::size_t{result.width} * result.height * 4);
+    std::vector<Taps> all_columns;
+    all_columns.reserve(result.width);
+    for (std::uint32_t x = 0; x < result.width; ++x)
+        all_columns.push_back(taps(x, width(from), result.width));
     const auto fill_row = [&](std::uint32_t y) {
         const Taps rows = taps(y, height(from), result.height);
         std::uint16_t* to = &result.rgba[std::size_t{y} * result.width * 4];
-        for (std::uint32_t x = 0; x < result.width; ++x) {
-            const Taps columns = taps(x, width(from), result.width);
-            LinearColor sum{};
-            for (std::uint32_t j = 0; j < rows.count; ++j) {
-                for (std::uint32_t i = 0; i < columns.count; ++i) {
-                    const LinearColor c = read(from, columns.first + i, rows.first + j);
-                    for (std::size_t k = 0; k < 4; ++k) sum[k] += rows.weight[j] * columns.weight[i] * c[k];
+        for (const Taps& columns : all_columns) {
+            const LinearColor sum = with_reader(from, [&](const auto& read) {
+                LinearColor weighted{};
+                for (std::uint32_t j = 0; j < rows.count; ++j) {
+                    for (std::uint32_t i = 0; i < columns.count; ++i) {
+                        const LinearColor c = read(columns.first + i, rows.first + j);
+                        for (std::size_t k = 0; k < 4; ++k)
+                            weighted[k] += rows.weight[j] * columns.weight[i] * c[k];
+                    }
                 }
-            }
+                return weighted;
+            });
             for (float c : sum) *to++ = static_cast<std::uint16_t>(std::clamp(c, 0.0f, 1.0f) * 65535 + 0.5f);
         }
     };
@@ -106,24 +188,22 @@ MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) c
     return result;
 }
 
-LinearColor MipImage::texel(std::size_t level, std::int64_t x, std::int64_t y,
-                            const TextureRef& texture_ref) const {
-    return read(level, wrapped(x, width(level), texture_ref.wrap_u),
-                wrapped(y, height(level), texture_ref.wrap_v));
-}
-
 LinearColor MipImage::sample_level(std::size_t level, double u, double v,
                                    const TextureRef& texture_ref) const {
-    const double x = u * width(level), y = v * height(level);
+    const std::uint32_t columns = width(level), rows = height(level);
+    const double x = u * columns, y = v * rows;
     if (texture_ref.filter == Filter::nearest) {
-        return texel(level, static_cast<std::int64_t>(std::floor(x)),
-                     static_cast<std::int64_t>(std::floor(y)), texture_ref);
+        const std::uint32_t i = wrapped(floor_of(x), columns, texture_ref.wrap_u),
+                            j = wrapped(floor_of(y), rows, texture_ref.wrap_v);
+        return with_reader(level, [&](const auto& read) { return read(i, j); });
     }
-    const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
-    const auto i = static_cast<std::int64_t>(left), j = static_cast<std::int64_t>(top);
-    const float s = static_cast<float>(x - 0.5 - left), t = static_cast<float>(y - 0.5 - top);
-    return mix(mix(texel(level, i, j, texture_ref), texel(level, i + 1, j, texture_ref), s),
-               mix(texel(level, i, j + 1, texture_ref), texel(level, i + 1, j + 1, texture_ref), s), t);
+    const std::int64_t i = floor_of(x - 0.5), j = floor_of(y - 0.5);
+    const Corners corners{
+        {wrapped(i, columns, texture_ref.wrap_u), wrapped(i + 1, columns, texture_ref.wrap_u)},
+        {wrapped(j, rows, texture_ref.wrap_v), wrapped(j + 1, rows, texture_ref.wrap_v)},
+        static_cast<float>(x - 0.5 - static_cast<double>(i)),
+        static_cast<float>(y - 0.5 - static_cast<double>(j))};
+    return with_reader(level, [&](const auto& read) { return corners.interpolate(read); });
 }
 
 LinearColor MipImage::sample(const TextureRef& texture_ref, double u, double v, double lod) const {
@@ -139,7 +219,7 @@ LinearColor MipImage::sample(const TextureRef& texture_ref, double u, double v, 
 
 Vec3f MipImage::stored_color(const TextureRef& texture_ref, double u, double v) const {
     const auto index = [](double at, std::uint32_t n, Wrap wrap) {
-        return wrapped(static_cast<std::int64_t>(std::floor(valid_or_zero(at) * n)), n, wrap);
+        return wrapped(floor_of(valid_or_zero(at) * n), n, wrap);
     };
     const std::size_t x = index(u, pixels_.width, texture_ref.wrap_u);
     const std::size_t y = index(v, pixels_.height, texture_ref.wrap_v);
@@ -160,7 +240,11 @@ std::uint8_t linear_byte(double value) {
 }
 
 std::uint8_t srgb_byte(double linear) {
-    return linear > 0 ? linear_byte(srgb_from_linear(std::min(linear, 1.0))) : 0;
+    if (!(linear >= SrgbBytes::least)) return 0;
+    if (linear >= 1) return 255;
+    static const SrgbBytes table;
+    const int byte = table.at(linear);
+    return byte >= 0 ? static_cast<std::uint8_t>(byte) : linear_byte(srgb_from_linear(linear));
 }
 
 }  // namespace faqem::detail

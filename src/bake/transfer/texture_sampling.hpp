@@ -50,8 +50,9 @@ private:
         std::uint32_t width, height;
         std::unique_ptr<std::uint16_t[]> rgba;
     };
-    LinearColor texel(std::size_t level, std::int64_t x, std::int64_t y, const TextureRef& texture_ref) const;
-    LinearColor read(std::size_t level, std::uint32_t x, std::uint32_t y) const;
+    // Returns visit(read) for the function read(x, y) -> LinearColor of the texels of a level.
+    template <class Visit>
+    LinearColor with_reader(std::size_t level, const Visit& visit) const;
     LinearColor sample_level(std::size_t level, double u, double v, const TextureRef& texture_ref) const;
     Level downsample(std::size_t from, const Workers& workers) const;
     std::uint32_t width(std::size_t level) const { return level ? levels_[level - 1].width : pixels_.width; }

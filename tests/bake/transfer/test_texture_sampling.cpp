@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "asset/image/srgb.hpp"
 #include "bake/texture/push_pull.hpp"
 #include "bake/transfer/texture_sampling.hpp"
 #include "support/catch.hpp"
@@ -136,6 +137,22 @@ TEST_CASE("byte encodings round and clamp") {
     CHECK(srgb_byte(std::nan("")) == 0);
     CHECK(linear_byte(0.5) == 128);
     CHECK(linear_byte(-1) == 0);
+}
+
+TEST_CASE("sRGB bytes are those of the formula, also next to the borders between them") {
+    const auto formula = [](double x) { return linear_byte(srgb_from_linear(std::min(x, 1.0))); };
+    std::size_t different = 0;
+    for (int i = 0; i <= 200000; ++i) {
+        for (const double x : {i / 200000.0, static_cast<double>(static_cast<float>(i / 1e7))})
+            different += srgb_byte(x) != formula(x);
+    }
+    for (int byte = 0; byte < 256; ++byte) {
+        const double border = linear_from_srgb((byte + 0.5) / 255);
+        for (const double x :
+             {border * (1 - 1e-9), border * (1 - 1e-15), border, border * (1 + 1e-15), border * (1 + 1e-9)})
+            different += srgb_byte(x) != formula(x);
+    }
+    CHECK(different == 0);
 }
 
 TEST_CASE("push-pull keeps known texels and fills all others") {
