@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "asset/image/image.hpp"
 #include "faqem/engine/mesh/vector.hpp"
@@ -50,17 +53,33 @@ Pixels decode_for(const Asset& asset, Index image, Index material) {
 
 }  // namespace
 
+// An image that is not decoded yet.
+struct SourceSampler::MissingImage {
+    Index image;
+    TexelEncoding encoding;
+    Index material;  // the first one with the image
+    Pixels pixels = {};
+    std::exception_ptr error = {};
+};
+
 SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers,
                              std::span<const std::uint8_t> skipped_parts, DecodedImages* decoded)
     : asset_(asset), wanted_(wanted) {
     DecodedImages own;
     DecodedImages& images = decoded ? *decoded : own;
     const std::vector<bool> used = used_materials(asset, skipped_parts);
+    std::vector<MissingImage> missing;
+    const auto index = [&](std::size_t m) {
+        return m == asset.materials.size() ? no_index : static_cast<Index>(m);
+    };
+    for (std::size_t m = 0; m <= asset.materials.size(); ++m)
+        if (used[m]) load_material(index(m), images, missing);
+    decode_images(missing, workers, images);
     for (std::size_t m = 0; m <= asset.materials.size(); ++m) {
-        const Index index = m == asset.materials.size() ? no_index : static_cast<Index>(m);
-        material_slots_.push_back(
-            used[m] ? load_material(index, images, workers)
-                    : MaterialSlots{&material_or_default(asset, index), {}, {}, {}, {}, {}, {}});
+        if (used[m])
+            material_slots_.push_back(load_material(index(m), images, missing));
+        else
+            material_slots_.emplace_back().material = &material_or_default(asset, index(m));
     }
     densities_.resize(asset.parts.size());
     tangents_.resize(asset.parts.size());
@@ -72,8 +91,8 @@ SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const W
     }
 }
 
-SourceSampler::MaterialSlots SourceSampler::load_material(Index index, DecodedImages& images,
-                                                          const Workers& workers) {
+SourceSampler::MaterialSlots SourceSampler::load_material(Index index, const DecodedImages& images,
+                                                          std::vector<MissingImage>& missing) {
     MaterialSlots result;
     result.material = &material_or_default(asset_, index);
     const Material& m = *result.material;
@@ -81,12 +100,15 @@ SourceSampler::MaterialSlots SourceSampler::load_material(Index index, DecodedIm
         m.alpha_mode == AlphaMode::opaque ? TexelEncoding::opaque_color : TexelEncoding::color;
     const auto set = [&](TextureSlot& to, bool wanted, const TextureRef& texture_ref,
                          TexelEncoding encoding) {
-        if (wanted) to = load_slot(texture_ref, encoding, index, images, workers);
+        if (wanted) to = load_slot(texture_ref, encoding, index, images, missing);
     };
     set(result.base, wanted_.base, m.base_color_texture, color);
     set(result.metallic_roughness, wanted_.metallic_roughness, m.metallic_roughness_texture,
         TexelEncoding::data);
     set(result.occlusion, wanted_.occlusion, m.occlusion_texture, TexelEncoding::data);
+    result.shares_occlusion = result.occlusion.image &&
+                              result.occlusion.image == result.metallic_roughness.image &&
+                              m.occlusion_texture == m.metallic_roughness_texture;
     set(result.emissive, wanted_.emissive, m.emissive_texture, TexelEncoding::opaque_color);
     set(result.normal, wanted_.normal && !m.unlit, m.normal_texture, TexelEncoding::data);
     if (!wanted_.layers) return result;
@@ -100,22 +122,44 @@ SourceSampler::MaterialSlots SourceSampler::load_material(Index index, DecodedIm
 }
 
 SourceSampler::TextureSlot SourceSampler::load_slot(const TextureRef& texture_ref, TexelEncoding encoding,
-                                                    Index material, DecodedImages& images,
-                                                    const Workers& workers) {
+                                                    Index material, const DecodedImages& images,
+                                                    std::vector<MissingImage>& missing) {
     if (!texture_ref) return {};
-    auto& image = images[{texture_ref.image, encoding}];
-    if (!image) {
-        workers.check_cancelled.now();
-        Pixels pixels = decode_for(asset_, texture_ref.image, material);
-        if (pixels.width == 0 || pixels.height == 0) {
-            throw InputError("", "material " + std::to_string(material), "an image of it has no pixels");
-        }
-        image = std::make_shared<const MipImage>(std::move(pixels), encoding, workers);
+    const auto found = images.find({texture_ref.image, encoding});
+    if (found == images.end()) {
+        const bool is_listed = std::any_of(missing.begin(), missing.end(), [&](const MissingImage& m) {
+            return m.image == texture_ref.image && m.encoding == encoding;
+        });
+        if (!is_listed) missing.push_back({texture_ref.image, encoding, material});
+        return {};
     }
-    const double texels = double(image->width()) * image->height();
-    return {image, &texture_ref,
+    const MipImage& image = *found->second;
+    const double texels = double(image.width()) * image.height();
+    return {found->second, &texture_ref,
             std::sqrt(texels * std::abs(double(texture_ref.scale[0]) * texture_ref.scale[1])),
             uv_transform(texture_ref)};
+}
+
+// Decodes the images on all threads. Of several errors, that of the first image is thrown.
+void SourceSampler::decode_images(std::vector<MissingImage>& missing, const Workers& workers,
+                                  DecodedImages& images) const {
+    parallel_blocks(missing.size(), 1, workers, [&](std::size_t i, std::size_t) {
+        MissingImage& m = missing[i];
+        try {
+            m.pixels = decode_for(asset_, m.image, m.material);
+            if (m.pixels.width == 0 || m.pixels.height == 0)
+                throw InputError("", "material " + std::to_string(m.material),
+                                 "an image of it has no pixels");
+        } catch (...) {
+            m.error = std::current_exception();
+        }
+    });
+    for (MissingImage& m : missing) {
+        if (m.error) std::rethrow_exception(m.error);
+        workers.check_cancelled.now();
+        images[{m.image, m.encoding}] =
+            std::make_shared<const MipImage>(std::move(m.pixels), m.encoding, workers);
+    }
 }
 
 void SourceSampler::measure_densities(const Part& part, PartDensity& density) const {
@@ -153,14 +197,25 @@ std::array<double, 2> SourceSampler::uv_at(const TextureSlot& slot, const Part& 
                                 blend(part.uvs[set], t, point.barycentric, 1));
 }
 
-LinearColor SourceSampler::fetch(const TextureSlot& slot, Index p, const SurfacePoint& point,
-                                 double spacing) const {
+LinearColor SourceSampler::fetch(const TextureSlot& slot, Index p, const SurfacePoint& point, double spacing,
+                                 FetchCache& cache) const {
     const Part& part = asset_.parts[p];
     const std::uint32_t set = slot.texture_ref->uv_set;
-    const auto uv = uv_at(slot, part, point);
-    if (set >= part.uvs.size()) return slot.image->sample(*slot.texture_ref, uv[0], uv[1], 0);
-    const double footprint = densities_[p].uv_per_length[set][point.face] * slot.texels_per_uv * spacing;
-    return slot.image->sample(*slot.texture_ref, uv[0], uv[1], footprint > 1 ? std::log2(footprint) : 0);
+    if (set >= part.uvs.size()) return slot.image->sample(*slot.texture_ref, 0, 0, 0);
+    if (cache.set != set) {
+        const Triangle& t = part.triangles[point.face];
+        cache.set = set;
+        cache.uv = {blend(part.uvs[set], t, point.barycentric, 0),
+                    blend(part.uvs[set], t, point.barycentric, 1)};
+        cache.uv_per_length = densities_[p].uv_per_length[set][point.face];
+    }
+    const double footprint = cache.uv_per_length * slot.texels_per_uv * spacing;
+    if (cache.footprint != footprint) {
+        cache.footprint = footprint;
+        cache.lod = footprint > 1 ? std::log2(footprint) : 0;
+    }
+    const auto uv = slot.transform.apply(cache.uv[0], cache.uv[1]);
+    return slot.image->sample(*slot.texture_ref, uv[0], uv[1], cache.lod);
 }
 
 Vec4f SourceSampler::base_factor(const Material& material, const Part& part,
@@ -193,24 +248,28 @@ Appearance SourceSampler::sample(Index p, const SurfacePoint& point, double spac
     const MaterialSlots& s = slots(p, point);
     const Material& m = *s.material;
     Appearance result;
+    FetchCache cache;
     const Vec4f factor = base_factor(m, part, point);
-    const LinearColor base = s.base.image ? fetch(s.base, p, point, spacing) : LinearColor{1, 1, 1, 1};
+    const LinearColor base = s.base.image ? fetch(s.base, p, point, spacing, cache) : LinearColor{1, 1, 1, 1};
     for (std::size_t k = 0; k < 3; ++k) result.base[k] = base[k] * factor[k] * factor[3];
     result.base[3] = base[3] * factor[3];
 
     result.metallic = m.metallic;
     result.roughness = m.roughness;
+    LinearColor data{};
     if (s.metallic_roughness.image) {
-        const LinearColor c = fetch(s.metallic_roughness, p, point, spacing);
-        result.roughness *= c[1];
-        result.metallic *= c[2];
+        data = fetch(s.metallic_roughness, p, point, spacing, cache);
+        result.roughness *= data[1];
+        result.metallic *= data[2];
     }
     if (s.occlusion.image) {
-        result.occlusion = 1 + m.occlusion_strength * (fetch(s.occlusion, p, point, spacing)[0] - 1);
+        // Most materials have occlusion, roughness and metalness in one image.
+        if (!s.shares_occlusion) data = fetch(s.occlusion, p, point, spacing, cache);
+        result.occlusion = 1 + m.occlusion_strength * (data[0] - 1);
     }
     result.emissive = m.emissive;
     if (s.emissive.image) {
-        const LinearColor c = fetch(s.emissive, p, point, spacing);
+        const LinearColor c = fetch(s.emissive, p, point, spacing, cache);
         for (std::size_t k = 0; k < 3; ++k) result.emissive[k] *= c[k];
     }
     return result;
@@ -229,7 +288,8 @@ Vector3 SourceSampler::perturbed_normal(const TextureSlot& slot, double scale, I
     const Vector3 smooth = interpolated_normal(part, point);
     Vector3 result = smooth;
     if (slot.image) {
-        const LinearColor c = fetch(slot, p, point, spacing);
+        FetchCache cache;
+        const LinearColor c = fetch(slot, p, point, spacing, cache);
         const Vector3 tangent_space_normal(scale * (2 * c[0] - 1.0), scale * (2 * c[1] - 1.0),
                                            2 * c[2] - 1.0);
         std::array<FrameCorner, 3> corners;
@@ -247,7 +307,8 @@ Vector3 SourceSampler::perturbed_normal(const TextureSlot& slot, double scale, I
 
 LinearColor SourceSampler::layer(Index p, const SurfacePoint& point, double spacing,
                                  const ExtensionLayer& layer) const {
-    return fetch(slots(p, point).extensions[layer.textures.front()], p, point, spacing);
+    FetchCache cache;
+    return fetch(slots(p, point).extensions[layer.textures.front()], p, point, spacing, cache);
 }
 
 Vector3 SourceSampler::layer_normal(Index p, const SurfacePoint& point, double spacing,

@@ -104,6 +104,7 @@ private:
     struct MaterialSlots {  // a material and its textures
         const Material* material = nullptr;
         TextureSlot base, metallic_roughness, occlusion, emissive, normal;
+        bool shares_occlusion = false;        // `occlusion` and `metallic_roughness` are the same texture
         std::vector<TextureSlot> extensions;  // by Material::extension_textures; only the first of each layer
 
         template <class Visit>
@@ -114,19 +115,32 @@ private:
                 if (slot.image) visit(slot);
         }
     };
+    struct FetchCache {  // what most textures of a material have in common at one point and spacing
+        std::uint32_t set = no_index;  // of UVs
+        std::array<double, 2> uv = {};
+        double uv_per_length = 0;
+        double footprint = -1, lod = 0;  // in texels, and its logarithm for footprints above 1
+    };
     struct PartDensity {
         // By UV set and face; empty for sets that no texture uses.
         std::vector<std::vector<float>> uv_per_length;
         double untextured_density = 1;
     };
 
-    MaterialSlots load_material(Index material, DecodedImages& images, const Workers& workers);
+    struct MissingImage;
+
+    // The textures of a material. Images that are not decoded are added to `missing` and not in the result.
+    MaterialSlots load_material(Index material, const DecodedImages& images,
+                                std::vector<MissingImage>& missing);
     TextureSlot load_slot(const TextureRef& texture_ref, TexelEncoding encoding, Index material,
-                          DecodedImages& images, const Workers& workers);
+                          const DecodedImages& images, std::vector<MissingImage>& missing);
+    void decode_images(std::vector<MissingImage>& missing, const Workers& workers,
+                       DecodedImages& images) const;
     void measure_densities(const Part& part, PartDensity& density) const;
     Vec4f base_factor(const Material& material, const Part& part, const SurfacePoint& point) const;
     std::array<double, 2> uv_at(const TextureSlot& slot, const Part& part, const SurfacePoint& point) const;
-    LinearColor fetch(const TextureSlot& slot, Index part, const SurfacePoint& point, double spacing) const;
+    LinearColor fetch(const TextureSlot& slot, Index part, const SurfacePoint& point, double spacing,
+                      FetchCache& cache) const;
     engine::Vector3 perturbed_normal(const TextureSlot& slot, double scale, Index part,
                                      const SurfacePoint& point, double spacing,
                                      const engine::Vector3& face_normal) const;

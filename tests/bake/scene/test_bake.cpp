@@ -414,3 +414,19 @@ TEST_CASE("wrong objects of faces are rejected") {
     asset.parts[0].face_object = {0, 1};
     CHECK_THROWS_AS(simplify(asset, {}), InputError);
 }
+
+TEST_CASE("of several damaged images, the error names the material of the first") {
+    Asset asset = textured_square(ramp(4));
+    asset.materials.push_back(asset.materials[0]);
+    asset.materials[0].name = "first";
+    asset.materials[1].name = "second";
+    asset.materials[1].base_color_texture.image = add_texture(asset, ramp(8));
+    asset.parts[0].face_material = {0, 1};
+    for (Image& image : asset.images) image.encoded.resize(40);
+    Options options;
+    options.bake.kind = Bake::atlas;
+    for (const std::uint32_t threads : {1u, 4u}) {
+        options.threads = threads;
+        CHECK_THROWS_WITH(bake(asset, unchanged(asset), options), ContainsSubstring("first"));
+    }
+}
