@@ -27,7 +27,7 @@ TEST_CASE("cancellation is checked often during the creation of charts") {
               charts = make_charts(faces, {1, check_cancelled});
           }) < most_steps);
     CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
-              pack_charts(charts.charts, faces.size(), 2048, check_cancelled);
+              pack_charts(charts.charts, faces.size(), 2048, {1, check_cancelled});
           }) < most_steps);
 }
 

@@ -304,10 +304,56 @@ ChartPage make_page(std::span<const Chart> charts, std::span<const OrientedChart
     return page;
 }
 
+// The search for the largest scale with which the charts fit.
+struct ScaleSearch {
+    double low, high;  // the largest scale that fits, and the smallest that does not
+    double next = 0;   // to be tried
+
+    void start(double scale) {
+        next = scale;
+        settle();
+    }
+    bool is_done() const { return !(high - low > 0.01 * high && high > 1e-6); }
+    // fits: the charts fit with `next`
+    void proceed(bool fits) {
+        (fits ? low : high) = next;
+        next *= fits ? 1.07 : 1 / 1.07;
+        settle();
+    }
+
+    // `next`, and the scales that are tried after it if the following results are as the last one.
+    std::vector<double> likely_scales(bool last, std::size_t count) const {
+        std::vector<double> result;
+        for (ScaleSearch ahead = *this; result.size() < count && !ahead.is_done(); ahead.proceed(last))
+            result.push_back(ahead.next);
+        return result;
+    }
+
+private:
+    void settle() {
+        if (!(next > low && next < high)) next = (low + high) / 2;
+    }
+};
+
+// Packs with several scales in parallel.
+std::map<double, std::optional<ChartPacking>> attempt_all(const std::vector<double>& scales,
+                                                          std::span<const OrientedChart> shapes,
+                                                          std::uint32_t width, std::uint32_t height,
+                                                          const Workers& workers) {
+    std::map<double, std::optional<ChartPacking>> result;
+    for (const double scale : scales) result[scale];
+    parallel_blocks(scales.size(), 1, workers,
+                    [&](std::size_t i, std::size_t, engine::CancellationCheck check_cancelled) {
+                        ChartPacking packing(shapes, scales[i], width, height);
+                        if (packing.run(check_cancelled)) result.at(scales[i]) = std::move(packing);
+                    });
+    return result;
+}
+
 }  // namespace
 
 std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t max_size,
-                                     engine::CancellationCheck check_cancelled) {
+                                     const Workers& workers) {
     std::vector<OrientedChart> shapes;
     double area = 0;
     for (const Chart& chart : charts) {
@@ -315,29 +361,37 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
         area += shapes.back().area;
     }
     std::uint32_t width = 4, height = 4;
-    bool fits = false;
-    for (; !fits; width *= 2) {
+    std::optional<ChartPacking> best;
+    const auto fits = [&](double scale) {
+        ChartPacking packing(shapes, scale, width, height);
+        if (!packing.run(workers.check_cancelled)) return false;
+        best = std::move(packing);
+        return true;
+    };
+    for (;; width *= 2) {
         for (const std::uint32_t h : {width / 2, width}) {
             height = h;
-            fits =
-                area <= double(width) * height && ChartPacking(shapes, 1, width, height).run(check_cancelled);
-            if (fits) break;
+            if (area <= double(width) * height && fits(1)) break;
         }
-        if (fits || width == max_size) break;
+        if (best || width == max_size) break;
     }
     if (charts.size() > std::size_t{width} * height) return std::nullopt;
-    double low = fits ? 1 : 0, high = fits ? std::sqrt(2.0) : 1;
+    ScaleSearch search = best ? ScaleSearch{1, std::sqrt(2.0)} : ScaleSearch{0, 1};
     // Most pages end up about half full, so the search starts there and proceeds in small steps.
-    double next = std::sqrt(0.55 * double(width) * height / area);
-    while (high - low > 0.01 * high && high > 1e-6) {
-        if (!(next > low && next < high)) next = (low + high) / 2;
-        const bool good = ChartPacking(shapes, next, width, height).run(check_cancelled);
-        (good ? low : high) = next;
-        next *= good ? 1.07 : 1 / 1.07;
+    search.start(std::sqrt(0.55 * double(width) * height / area));
+    std::map<double, std::optional<ChartPacking>> attempts;  // nothing: the charts do not fit
+    for (bool last = true; !search.is_done();) {
+        if (!attempts.contains(search.next)) {
+            attempts = attempt_all(search.likely_scales(last, thread_count(workers.threads)), shapes, width,
+                                   height, workers);
+        }
+        std::optional<ChartPacking>& attempt = attempts[search.next];
+        last = attempt.has_value();
+        if (attempt) best = std::move(attempt);
+        search.proceed(last);
     }
-    ChartPacking packing(shapes, low, width, height);
-    if (!packing.run(check_cancelled)) return std::nullopt;
-    return make_page(charts, shapes, packing, faces, width, height, low);
+    if (!best && !fits(search.low)) return std::nullopt;
+    return make_page(charts, shapes, *best, faces, width, height, search.low);
 }
 
 }  // namespace faqem::detail

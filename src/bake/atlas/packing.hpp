@@ -9,7 +9,7 @@
 
 #include "bake/atlas/chart.hpp"
 #include "bake/atlas/per_triangle.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 
@@ -46,9 +46,11 @@ struct ChartPage {
 /// \param charts    all charts of the page
 /// \param faces     number of faces of all charts together
 /// \param max_size  largest width and height in texels, a power of two
+/// \param workers   number of threads, with more than one of which attempts are made ahead of time, and a cancellation
+///                  check that is called for each chart in each attempt. The result does not depend on the number.
 /// \return nothing if there are more charts than texels
-/// \param check_cancelled  called for each chart in each attempt; exceptions pass through
+/// \throws whatever the cancellation check throws
 std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t max_size,
-                                     engine::CancellationCheck check_cancelled = {});
+                                     const Workers& workers = {});
 
 }  // namespace faqem::detail

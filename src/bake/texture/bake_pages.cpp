@@ -114,10 +114,17 @@ constexpr double min_relative_density = 0.5;
 // Texel density of the page divided by that of the source, both root mean squares over the simplified
 // surface.
 double relative_density(const BakeJob& job, const SourceSampler& sampler, const GroupPage& page) {
-    const CancellationCheck check_cancelled = job.cancellation_check();
+    std::vector<double> densities(page.faces.size());  // of the source at the middle of the face
+    parallel_blocks(page.faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end) {
+        constexpr double third = 1.0 / 3;
+        for (std::size_t i = begin; i < end; ++i) {
+            const PageFace& at = page.faces[i];
+            const SurfacePoint point = job.parts[at.part].map->map(at.face, {third, third, third});
+            densities[i] = sampler.texel_density(at.part, point.face);
+        }
+    });
     double own = 0, wanted = 0;
     for (std::size_t i = 0; i < page.faces.size(); ++i) {
-        check_cancelled(map_query_cost);
         const PageFace& at = page.faces[i];
         const BakePart& part = job.parts[at.part];
         const Triangle& t = part.simplified->mesh.triangles[at.face];
@@ -127,12 +134,9 @@ double relative_density(const BakeJob& job, const SourceSampler& sampler, const 
         const Triangle2& uv = page.atlas->atlas.placements[i].uv;
         const double area = engine::area_vector(corner(0), corner(1), corner(2)).norm();
         const double texels = std::abs(twice_signed_area(uv[0], uv[1], uv[2]));
-        constexpr double third = 1.0 / 3;
-        const double density =
-            sampler.texel_density(at.part, part.map->map(at.face, {third, third, third}).face);
-        if (!std::isfinite(area * density * density)) continue;
+        if (!std::isfinite(area * densities[i] * densities[i])) continue;
         own += texels;
-        wanted += area * density * density;
+        wanted += area * densities[i] * densities[i];
     }
     return wanted > 0 ? std::sqrt(own / wanted) : 0;
 }

@@ -215,7 +215,7 @@ bool layout_charts(const BakeJob& job, std::span<const PageFace> faces, const st
         return layout_triangles(job, faces, density, result);
     }
     std::optional<ChartPage> page =
-        pack_charts(charts.charts, faces.size(), job.options.bake.texture_size, job.cancellation_check());
+        pack_charts(charts.charts, faces.size(), job.options.bake.texture_size, job.workers());
     if (!page) return false;
     result.atlas = std::move(page->atlas);
     result.charts = std::move(page->charts);

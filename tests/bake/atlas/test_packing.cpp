@@ -230,3 +230,20 @@ TEST_CASE("charts with coordinates out of range become one texel without affecti
         CHECK(page->charts.back().is_single_texel);
     }
 }
+
+TEST_CASE("the page is the same for every number of threads") {
+    const auto faces = test::chart_faces(test::soup(1, 100, 1000), 30);
+    const Charts charts = make_charts(faces, 1);
+    for (const std::uint32_t side : {64u, 2048u}) {  // scaled down, and up
+        const auto expected = pack_charts(charts.charts, faces.size(), side, 1);
+        REQUIRE(expected);
+        for (const std::uint32_t threads : {2u, 5u}) {
+            const auto page = pack_charts(charts.charts, faces.size(), side, threads);
+            REQUIRE(page);
+            CHECK(page->atlas.scale == expected->atlas.scale);
+            REQUIRE(page->atlas.placements.size() == expected->atlas.placements.size());
+            for (std::size_t i = 0; i < page->atlas.placements.size(); ++i)
+                CHECK(page->atlas.placements[i].uv == expected->atlas.placements[i].uv);
+        }
+    }
+}
