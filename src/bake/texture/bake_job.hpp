@@ -3,9 +3,12 @@
 /// State that all kinds of baking share: the parts with their surface maps, and the result.
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "bake/texture/pending_images.hpp"
@@ -44,9 +47,13 @@ public:
     /// \param fraction  of the phase, 0 to 1
     /// \throws engine::Cancelled if the callback cancels or the time is over, and whatever it throws
     void report_progress(Phase phase, double fraction) const {
+        set_progress(phase, fraction);
+        cancellation_check().now();
+    }
+    /// Sets what the next call of the progress callback is told. On the calling thread only.
+    void set_progress(Phase phase, double fraction) const {
         phase_ = phase;
         fraction_ = fraction;
-        cancellation_check().now();
     }
     /// Check for loops on the calling thread. It passes on the progress that was reported last.
     CancellationCheck cancellation_check() const { return CancellationCheck(monitor_); }
@@ -100,15 +107,17 @@ void map_parts(BakeJob& job, std::span<const SimplifyResult> simplified);
 template <class Work>
 void parallel_blocks_with_progress(const BakeJob& job, Phase phase, std::size_t size, std::size_t block,
                                    double done, double total, Work&& work) {
-    const std::size_t batch = std::max(block, (size / 32 / block + 1) * block);
-    for (std::size_t begin = 0; begin < size; begin += batch) {
-        job.report_progress(phase, std::min(1.0, (done + static_cast<double>(begin)) / total));
-        const std::size_t count = std::min(batch, size - begin);
-        parallel_blocks(count, block, job.workers(),
-                        [&](std::size_t b, std::size_t e, CancellationCheck check_cancelled) {
-                            work(begin + b, begin + e, check_cancelled);
-                        });
-    }
+    job.report_progress(phase, std::min(1.0, done / total));
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<std::size_t> finished{0};
+    parallel_blocks(size, block, job.workers(),
+                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+                        work(begin, end, check_cancelled);
+                        const std::size_t now = finished += end - begin;
+                        // The callback is called on this thread only, after each block.
+                        if (std::this_thread::get_id() == caller)
+                            job.set_progress(phase, std::min(1.0, (done + static_cast<double>(now)) / total));
+                    });
 }
 
 /// Bakes new images with a new atlas.

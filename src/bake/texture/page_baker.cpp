@@ -35,8 +35,8 @@ struct TexelSums {
     std::vector<LinearColor> layers;   // of the page's own material; normals in tangent space in RGB
     std::uint32_t layer_samples = 0;
     std::array<std::uint8_t, 3> steps{};  // samples by MapStep
-    TexelOrigin origin;                   // of the sample closest to the centre
-    double distance_to_center = std::numeric_limits<double>::infinity();
+    TexelOrigin origin;                   // of the sample closest to the centre, at squared_distance from it
+    double squared_distance = std::numeric_limits<double>::infinity();
 
     void add(const Appearance& a, float share) {
         for (std::size_t k = 0; k < 4; ++k) base[k] += share * a.base[k];
@@ -181,9 +181,9 @@ private:
         ++sum.steps[static_cast<std::size_t>(point.step)];
         sum.add(sampler_.sample(projector.part(), point, projector.spacing()),
                 1.0f / static_cast<float>(samples_ * samples_));
-        const double distance_to_center = std::hypot(at.x - x - 0.5, at.y - y - 0.5);
-        if (distance_to_center < sum.distance_to_center) {
-            sum.distance_to_center = distance_to_center;
+        const double dx = at.x - x - 0.5, dy = at.y - y - 0.5, squared_distance = dx * dx + dy * dy;
+        if (squared_distance < sum.squared_distance) {
+            sum.squared_distance = squared_distance;
             sum.origin = {projector.part(), point};
         }
         if (request_.channels.normal) {
@@ -314,7 +314,9 @@ PageImages bake_page(const BakeJob& job, const SourceSampler& sampler, const Pag
             });
         done += static_cast<double>(pieces.size());
     };
-    bake_all(request.atlas.cells, 4);
+    // Cells are in descending order. Blocks of several small ones cost little to hand out, but every block has to be
+    // small compared with the work of a thread.
+    bake_all(request.atlas.cells, std::clamp<std::size_t>(request.atlas.cells.size() / 256, 1, 4));
     bake_all(request.tiles, 1);
     return page.finish();
 }
