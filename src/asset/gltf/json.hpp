@@ -15,6 +15,10 @@ namespace faqem::detail {
 
 using Json = nlohmann::json;
 
+/// Names of the extensions that compress geometry.
+inline constexpr const char* meshopt_name = "EXT_meshopt_compression";
+inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
+
 /// object[key], or null if `object` is not an object or has no such key.
 const Json& member(const Json& object, const char* key);
 

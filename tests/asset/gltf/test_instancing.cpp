@@ -13,13 +13,12 @@ using Vec3s = std::vector<Vec3f>;
 
 namespace {
 
-constexpr const char* name = detail::instancing_name;
 const std::string where = "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/";
 
 /// The square, with the instances of the given attributes.
 GltfBuilder instanced(GltfBuilder builder, const Json& attributes) {
-    builder.json["nodes"][0]["extensions"][name]["attributes"] = attributes;
-    builder.json["extensionsUsed"] = {name};
+    builder.json["nodes"][0]["extensions"][detail::instancing_name]["attributes"] = attributes;
+    builder.json["extensionsUsed"] = {detail::instancing_name};
     return builder;
 }
 
@@ -104,17 +103,17 @@ TEST_CASE("instances may have some of the attributes, as integers and without a 
 
 TEST_CASE("instancing may be required and is kept in glTF files") {
     GltfBuilder builder = three_squares();
-    builder.json["extensionsRequired"] = {name};
+    builder.json["extensionsRequired"] = {detail::instancing_name};
     const TemporaryFolder folder;
     save(load_glb(builder), folder / "out.glb");
     const Asset back = load(folder / "out.glb");
     check_near(corners(back), {{1, 0, 0}, {5, 2, 0}, {9, 1, 0}});
-    CHECK(back.source->document["extensionsRequired"] == Json::array({name}));
+    CHECK(back.source->document["extensionsRequired"] == Json::array({detail::instancing_name}));
 }
 
 TEST_CASE("invalid instances are rejected with the attribute") {
     GltfBuilder builder = three_squares();
-    const Json attributes = builder.json["nodes"][0]["extensions"][name]["attributes"];
+    const Json attributes = builder.json["nodes"][0]["extensions"][detail::instancing_name]["attributes"];
     Json& t = builder.json["accessors"][attributes["TRANSLATION"].get<std::size_t>()];
     Json& r = builder.json["accessors"][attributes["ROTATION"].get<std::size_t>()];
     SECTION("different counts") {

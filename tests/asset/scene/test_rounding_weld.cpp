@@ -24,11 +24,15 @@ std::uint64_t boundary_edges_after(const TriangleMesh& mesh) {
     return open_edges(welded);
 }
 
-/// Two sheets of 2 n^2 faces in the plane z = 0, from x = 0 to 1 and from there to 2, with a gap between them.
+/// Two sheets of 2 n^2 faces in the plane z = 0, from x = 0 to 1 and from there to 2, with a gap between them. The
+/// coordinates are floats.
 TriangleMesh two_sheets(Index n, double gap) {
     TriangleMesh left = square(n, 1, 0), right = square(n, 1, 0);
     for (Vec3& p : right.positions) p[0] += 1 + gap;
-    return both(left, right);
+    TriangleMesh result = both(left, right);
+    for (Vec3& p : result.positions)
+        for (double& x : p) x = static_cast<float>(x);
+    return result;
 }
 
 }  // namespace
@@ -107,8 +111,8 @@ TEST_CASE("two corners of a face are not welded") {
 }
 
 TEST_CASE("ties are broken by index") {
-    // Vertex 6 has the same distance from vertices 0 and 3.
-    const double s = 8 * unit;
+    // Vertex 6 has the same distance from vertices 0 and 3, which are farther apart than the rounding of 2.
+    const double s = 12 * unit;
     const TriangleMesh mesh = make({{1, 0, 0},
                                     {1, 1, 1},
                                     {1, 1, 0},

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/extension_names.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/source_document.hpp"
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/extension_names.hpp"
 #include "asset/gltf/write/meshopt_encoder.hpp"
 
 namespace faqem::detail {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "asset/gltf/write/accessor_use.hpp"
+#include "asset/gltf/write/buffer_builder.hpp"
 
 namespace faqem::detail {
 
