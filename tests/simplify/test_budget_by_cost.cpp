@@ -102,6 +102,30 @@ TEST_CASE("face budget: costs scale with the fourth power of the size and with t
                                  22) == Shares{12, 10});
 }
 
+TEST_CASE("face budget: a mesh keeps its floor, however cheap its collapses are beside those of others") {
+    const std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7}, 1000)};
+    const std::vector<double> weights = {1, 1};
+    CHECK(distribute_face_budget(curves, weights, 16) == Shares{4, 12});
+    CHECK(distribute_face_budget(curves, weights, 16, Shares{8, 8}) == Shares{8, 8});
+    CHECK(distribute_face_budget(curves, weights, 16, Shares{7, 7}) == Shares{8, 8});
+    CHECK(distribute_face_budget(curves, weights, 16, Shares{6, 6}) == Shares{6, 10});
+    CHECK(distribute_face_budget(curves, weights, 16, Shares{0, 0}) == Shares{4, 12});
+}
+
+TEST_CASE("face budget: floors that do not fit in the budget are not kept") {
+    const std::vector<CostCurve> curves = {stairs({1, 2, 5, 9}), stairs({3, 4, 6, 7})};
+    CHECK(distribute_face_budget(curves, std::vector<double>{1, 1}, 14, Shares{10, 10}) == Shares{6, 8});
+}
+
+TEST_CASE("face budget: flat collapses are taken below the floor, up to the first that is not flat") {
+    // Six faces of area 1 / 12 that move by a distance d.
+    const auto cost = [](double d) { return 0.5 * d * d; };
+    const double flat = 0.9 * detail::flat_distance, bent = 2 * detail::flat_distance;
+    const std::vector<CostCurve> curves = {stairs({cost(flat), cost(flat), cost(bent), cost(bent)}, 1e-3),
+                                           stairs({3, 4, 6, 7})};
+    CHECK(distribute_face_budget(curves, std::vector<double>{1, 1}, 16, Shares{12, 8}) == Shares{8, 8});
+}
+
 TEST_CASE("face budget: sizes of 1e-150 and 1e150 neither overflow nor underflow") {
     const std::vector<double> weights = {1, 1};
     for (const double unit : {1e-150, 1.0, 1e150}) {

@@ -2,6 +2,7 @@
 
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/instancing.hpp"
+#include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
 #include "asset/scene/flatten.hpp"
 
@@ -9,15 +10,6 @@ namespace faqem::detail {
 namespace {
 
 using Matrix = std::array<double, 16>;
-
-/// Product of column-major matrices.
-Matrix product(const Matrix& a, const Matrix& b) {
-    Matrix c = {};
-    for (std::size_t column = 0; column < 4; ++column)
-        for (std::size_t row = 0; row < 4; ++row)
-            for (std::size_t k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
-    return c;
-}
 
 template <std::size_t N>
 std::array<double, N> number_array(const Json& object, const char* key, std::array<double, N> values) {
@@ -27,11 +19,12 @@ std::array<double, N> number_array(const Json& object, const char* key, std::arr
     return values;
 }
 
-Matrix local_transform(const Json& node) {
+/// \param scale  instead of that of the node
+Matrix local_transform(const Json& node, const std::optional<std::array<double, 3>>& scale) {
     if (node.contains("matrix")) return number_array<16>(node, "matrix", identity_transform);
     return transform_matrix(number_array<3>(node, "translation", {0, 0, 0}),
                             number_array<4>(node, "rotation", {0, 0, 0, 1}),
-                            number_array<3>(node, "scale", {1, 1, 1}));
+                            scale ? *scale : number_array<3>(node, "scale", {1, 1, 1}));
 }
 
 /// The nodes of the default scene, or of the first one; without scenes, all nodes without a parent.
@@ -54,17 +47,17 @@ std::vector<Index> root_nodes(const Json& document) {
 
 }  // namespace
 
-std::vector<Instance> gltf_instances(const Asset& asset) {
-    const Json& document = asset.source->document;
-    std::vector<std::vector<Index>> parts_of(array_size(document, "meshes"));
-    std::vector<Instance> instances;
-    std::vector<Index> unassigned_parts;
-    for (Index i = 0; i < asset.parts.size(); ++i)
-        if (asset.parts[i].source < parts_of.size())
-            parts_of[asset.parts[i].source].push_back(i);
-        else
-            unassigned_parts.push_back(i);
+Matrix product(const Matrix& a, const Matrix& b) {
+    Matrix c = {};
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t row = 0; row < 4; ++row)
+            for (std::size_t k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
+    return c;
+}
 
+std::vector<PlacedNode> placed_nodes(const Json& document,
+                                     std::span<const std::optional<std::array<double, 3>>> scales) {
+    std::vector<PlacedNode> placed;
     // An explicit stack: nodes may be nested deeper than the call stack allows.
     std::vector<std::pair<Index, Matrix>> stack;
     const std::vector<Index> roots = root_nodes(document);
@@ -74,21 +67,41 @@ std::vector<Instance> gltf_instances(const Asset& asset) {
         const auto [index, parent] = stack.back();
         stack.pop_back();
         const Json& node = document["nodes"][index];
-        const Matrix world = product(parent, local_transform(node));
-        const Index mesh = index_member(node, "mesh");
-        if (mesh != no_index && !parts_of[mesh].empty()) {
-            std::vector<Matrix> transforms = instance_matrices(*asset.source, node);
-            if (transforms.empty()) transforms.push_back(identity_transform);
-            for (const Matrix& transform : transforms)
-                for (const Index part : parts_of[mesh])
-                    instances.push_back({part, product(world, transform)});
-        }
+        const Matrix world =
+            product(parent, local_transform(node, scales.empty() ? std::nullopt : scales[index]));
+        placed.push_back({index, world});
         const Json& children = member(node, "children");
         for (auto child = children.rbegin(); child != children.rend(); ++child)
             stack.push_back({child->get<Index>(), world});
     }
+    return placed;
+}
+
+std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNode> nodes) {
+    const Json& document = asset.source->document;
+    std::vector<std::vector<Index>> parts_of(array_size(document, "meshes"));
+    std::vector<Instance> instances;
+    std::vector<Index> unassigned_parts;
+    for (Index i = 0; i < asset.parts.size(); ++i)
+        if (asset.parts[i].source < parts_of.size())
+            parts_of[asset.parts[i].source].push_back(i);
+        else
+            unassigned_parts.push_back(i);
+    for (const auto& [index, world] : nodes) {
+        const Json& node = document["nodes"][index];
+        const Index mesh = index_member(node, "mesh");
+        if (mesh == no_index || parts_of[mesh].empty()) continue;
+        std::vector<Matrix> transforms = instance_matrices(*asset.source, node);
+        if (transforms.empty()) transforms.push_back(identity_transform);
+        for (const Matrix& transform : transforms)
+            for (const Index part : parts_of[mesh]) instances.push_back({part, product(world, transform)});
+    }
     for (const Index part : unassigned_parts) instances.push_back({part, identity_transform});
     return instances;
+}
+
+std::vector<Instance> gltf_instances(const Asset& asset) {
+    return instances_at(asset, placed_nodes(asset.source->document));
 }
 
 }  // namespace faqem::detail

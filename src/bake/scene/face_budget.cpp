@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <string>
 
+#include "asset/scene/messages.hpp"
+#include "bake/scene/visibility.hpp"
 #include "faqem/detail/measure/removed_components.hpp"
 #include "faqem/detail/simplify/run.hpp"
 
@@ -76,6 +78,43 @@ std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t tar
     for (std::size_t i = 0; i < order.size() && left >= 1; ++i, --left) ++share[order[i]];
     for (const std::size_t p : order) share[p] = std::min<std::uint64_t>(share[p], faces_of(asset, p));
     return share;
+}
+
+std::vector<double> proportional_shares(const Asset& asset, std::uint64_t target_faces,
+                                        std::span<const std::vector<float>> visibility) {
+    double faces = 0;
+    for (std::size_t p = 0; p < asset.parts.size(); ++p) faces += static_cast<double>(faces_of(asset, p));
+    std::vector<double> shares;
+    for (std::size_t p = 0; p < asset.parts.size(); ++p) {
+        double share = faces > 0 ? static_cast<double>(faces_of(asset, p)) / faces : 0;
+        if (!visibility.empty() && !visibility[p].empty()) {
+            const auto hidden = std::count_if(visibility[p].begin(), visibility[p].end(),
+                                              [](float seen) { return !(seen > min_visibility); });
+            share *= 1 - static_cast<double>(hidden) / static_cast<double>(visibility[p].size());
+        }
+        shares.push_back(share * static_cast<double>(target_faces));
+    }
+    return shares;
+}
+
+void warn_of_small_shares(const Asset& source, std::span<const double> shares, SimplifiedParts& simplified) {
+    constexpr std::size_t most_named = 5;
+    std::size_t count = 0;
+    std::string names;
+    for (std::size_t p = 0; p < shares.size(); ++p) {
+        const std::size_t left = simplified.parts[p].mesh.triangles.size();
+        if (!(static_cast<double>(left) < shares[p] / 10)) continue;
+        if (++count > most_named) continue;
+        names += (count == 1 ? "" : ", ") + part_title(source, p) + " (" + std::to_string(left) + " of " +
+                 std::to_string(faces_of(source, p)) + ")";
+    }
+    if (count == 0) return;
+    if (count > most_named) names += " and " + std::to_string(count - most_named) + " more";
+    simplified.report.warnings.push_back(
+        pluralized(count, "part") +
+        (count == 1 ? " has less than a tenth of its proportional share of the faces: "
+                    : " have less than a tenth of their proportional share of the faces: ") +
+        names);
 }
 
 std::vector<double> cost_weights(std::size_t parts, std::span<const Instance> instances) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/bake.hpp"
 
 namespace faqem::detail {
 
@@ -17,11 +18,28 @@ namespace faqem::detail {
 /// Complexity: O(faces).
 std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t target_faces);
 
+/// The number of faces below which budget_by_cost() reduces only flat parts: a share of the faces that a part would have
+/// in proportion to the face counts.
+inline constexpr double min_share = 0.65;
+
+/// The faces that each part would have in proportion to the face counts, times the share of its vertices that are not
+/// hidden.
+/// \param visibility  VertexVisibility::weights, or empty
+/// Complexity: O(vertices)
+std::vector<double> proportional_shares(const Asset& asset, std::uint64_t target_faces,
+                                        std::span<const std::vector<float>> visibility);
+
+/// Warns of the parts that have less than a tenth of their proportional share, and names up to five of them.
+/// \param shares      of proportional_shares()
+/// \param simplified  not cancelled; the warning is added to its report
+/// Complexity: O(parts)
+void warn_of_small_shares(const Asset& source, std::span<const double> shares, SimplifiedParts& simplified);
+
 /// Weights by part that convert costs (squared distance times area) from a part's units to those of the
 /// scene: the fourth power of an instance's scale, summed over the instances of the part. 1 for parts that
 /// have no size in the scene, or none that is finite.
 /// \param parts      number of parts
-/// \param instances  all instances of the scene
+/// \param instances  all instances of the scene, as seen_instances() lists them
 std::vector<double> cost_weights(std::size_t parts, std::span<const Instance> instances);
 
 }  // namespace faqem::detail

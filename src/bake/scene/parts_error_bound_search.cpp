@@ -35,9 +35,11 @@ SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& 
     const MeasurementMonitor monitor(options, 0);
     const ReferenceParts measured(source, options, monitor.cancellation_check());
     const double allowed = measured.size()(*options.max_error);
+    std::vector<LevelTarget> found;
+    if (options.target.kind == Target::Kind::unset) found.resize(1);
     return search_within_error<SimplifiedParts>(
         options, measured.faces(), allowed,
-        [&](const Options& own) { return simplify_welded_parts(source, own); },
+        [&](const Options& own) { return simplify_welded_parts(source, own, found); },
         [&](const SimplifiedParts& simplified, MeasureMode mode, CancellationCheck check_cancelled) {
             return measured(simplified, allowed, mode, check_cancelled);
         });

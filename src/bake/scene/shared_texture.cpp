@@ -90,7 +90,7 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
     const std::vector<SimplifiedPartsLevel> made = run_lod_chain<SimplifiedPartsLevel>(
         level_targets.first(1), finest_options, measured.faces(),
         [&](const std::vector<std::uint64_t>& targets, const Options& own) {
-            return simplify_parts_to_targets(source, targets, own);
+            return simplify_parts_to_targets(source, targets, own, level_targets.first(1));
         },
         measured);
     const SimplifiedPartsLevel& finest = made.front();
@@ -104,7 +104,8 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
     std::vector<SimplifiedPartsLevel> others = run_lod_chain<SimplifiedPartsLevel>(
         level_targets.subspan(1), other_level_options(baking(1)), finest.result.report.faces_out,
         [&](const std::vector<std::uint64_t>& targets, const Options& own) {
-            std::vector<SimplifiedParts> results = simplify_parts_to_targets(baked.asset, targets, own);
+            std::vector<SimplifiedParts> results =
+                simplify_parts_to_targets(baked.asset, targets, own, level_targets.subspan(1));
             for (SimplifiedParts& simplified : results)
                 add_counts_of_finest(simplified, finest.result, baked.report);
             return results;

@@ -25,7 +25,7 @@ std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, con
     std::vector<SimplifiedPartsLevel> made = detail::run_lod_chain<SimplifiedPartsLevel>(
         level_targets, own, measured.faces(),
         [&](const std::vector<std::uint64_t>& targets, const Options& tried) {
-            return detail::simplify_parts_to_targets(welded.asset(), targets, tried);
+            return detail::simplify_parts_to_targets(welded.asset(), targets, tried, level_targets);
         },
         measured);
     for (SimplifiedPartsLevel& level : made) welded.add_to(level.result.report);

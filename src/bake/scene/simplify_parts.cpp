@@ -1,10 +1,11 @@
 #include <algorithm>
-
 #include <cmath>
 #include <optional>
-#include <string>
-#include "asset/scene/messages.hpp"
+#include <span>
+#include <utility>
 
+#include "asset/gltf/seen_instances.hpp"
+#include "asset/scene/messages.hpp"
 #include "bake/keep/kept_uvs.hpp"
 #include "bake/keep/part_reports.hpp"
 #include "bake/scene/check_asset.hpp"
@@ -77,7 +78,8 @@ struct PartInput {
 // Simplification of all parts to all targets.
 class PartsRun {
 public:
-    PartsRun(const Asset& source, const Options& options) : source_(source), options_(options) {
+    PartsRun(const Asset& source, const Options& options, std::span<const detail::LevelTarget> levels = {})
+        : source_(source), options_(options), levels_(levels) {
         const Bake kind = options.bake.kind;
         const bool merged = kind != Bake::keep && kind != Bake::none;
         if (merged) groups_ = detail::group_materials(source, options.bake);
@@ -95,7 +97,12 @@ public:
             level.report.preset = options_.preset;
         }
         if (options_.visibility == Visibility::weighted) compute_visibility();
-        return run(budgets(targets));
+        std::vector<SimplifiedParts> results = run(budgets(targets));
+        for (std::size_t i = 0; i < results.size() && i < shares_.size(); ++i) {
+            if (results[i].report.stop != StopReason::cancelled)
+                detail::warn_of_small_shares(source_, shares_[i], results[i]);
+        }
+        return results;
     }
 
     /// Simplifies all parts to given face counts, by part.
@@ -161,18 +168,28 @@ private:
             options_.budget == Budget::scene && filled >= 2 && static_cast<double>(targets.back()) < faces_;
         if (by_cost) by_cost = compute_cost_curves();
         std::vector<std::vector<std::uint64_t>> result(source_.parts.size());
-        for (const std::uint64_t target : targets) {
-            const std::uint64_t target_faces = std::min(target, static_cast<std::uint64_t>(faces_));
-            const std::vector<std::uint64_t> share =
-                by_cost ? detail::distribute_face_budget(
-                              curves_, detail::cost_weights(curves_.size(), instances(source_)), target_faces)
-                        : detail::budget_by_faces(source_, target_faces);
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const std::uint64_t target_faces = std::min(targets[i], static_cast<std::uint64_t>(faces_));
+            const std::vector<std::uint64_t> share = by_cost ? budget_by_cost(target_faces, is_asked_for(i))
+                                                             : detail::budget_by_faces(source_, target_faces);
             for (std::size_t p = 0; p < share.size(); ++p)
                 result[p].push_back(result[p].empty() ? share[p] : std::min(share[p], result[p].back()));
         }
         curves_.clear();
         results_.front().report.seconds.simplify += watch.seconds();
         return result;
+    }
+
+    bool is_asked_for(std::size_t target) const { return levels_.empty() || levels_[target].faces; }
+
+    std::vector<std::uint64_t> budget_by_cost(std::uint64_t target_faces, bool has_floors) {
+        std::vector<double> shares;
+        if (has_floors) shares = detail::proportional_shares(source_, target_faces, weights_);
+        std::vector<std::uint64_t> floors;
+        for (const double share : shares)
+            floors.push_back(static_cast<std::uint64_t>(std::ceil(detail::min_share * share)));
+        shares_.push_back(std::move(shares));
+        return detail::distribute_face_budget(curves_, cost_weights_, target_faces, floors);
     }
 
     // Returns false if the time is over; then there are no curves.
@@ -183,6 +200,7 @@ private:
             curves_[p] = detail::cost_curve(view, own);
             is_cancelled_ = curves_[p].stop == StopReason::cancelled;
         });
+        cost_weights_ = detail::cost_weights(curves_.size(), detail::seen_instances(source_));
         return !engine::is_over(deadline_);
     }
 
@@ -225,7 +243,10 @@ private:
     const Options& options_;
     std::optional<detail::MaterialGroups> groups_;
     std::vector<SimplifiedParts> results_;
+    std::span<const detail::LevelTarget> levels_;  // see simplify_parts_to_targets()
+    std::vector<std::vector<double>> shares_;      // by target: of proportional_shares(), or empty
     std::vector<detail::CostCurve> curves_;
+    std::vector<double> cost_weights_;  // by part
     detail::Deadline deadline_ = detail::deadline_of(options_);
     bool is_cancelled_ = false;
     detail::SceneSize size_;
@@ -239,8 +260,9 @@ private:
 
 std::vector<SimplifiedParts> detail::simplify_parts_to_targets(const Asset& source,
                                                                std::span<const std::uint64_t> targets,
-                                                               const Options& options) {
-    return PartsRun(source, options)(targets);
+                                                               const Options& options,
+                                                               std::span<const LevelTarget> levels) {
+    return PartsRun(source, options, levels)(targets);
 }
 
 namespace {
@@ -271,7 +293,8 @@ void add_kept_parts(const Asset& source, const Options& options, detail::Deadlin
 
 }  // namespace
 
-SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options& options) {
+SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options& options,
+                                              std::span<const LevelTarget> levels) {
     std::uint64_t faces = 0;
     for (const Part& part : source.parts) faces += part.triangles.size();
     const std::uint64_t target = detail::target_face_count(options.target, static_cast<double>(faces));
@@ -280,7 +303,8 @@ SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options
     const bool tries_uvs = detail::may_keep_uvs(options) && has_appearance(source) &&
                            !detail::has_plain_materials(source, options.bake) && target < faces;
     const Options own = detail::step_options(options, Phase::simplify, 0, tries_uvs ? 0.5 : 1);
-    SimplifiedParts result = std::move(detail::simplify_parts_to_targets(source, {&target, 1}, own).front());
+    SimplifiedParts result =
+        std::move(detail::simplify_parts_to_targets(source, {&target, 1}, own, levels).front());
     if (tries_uvs && result.report.stop != StopReason::cancelled && !engine::is_over(deadline))
         add_kept_parts(source, options, deadline, result);
     return result;

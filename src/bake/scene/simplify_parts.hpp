@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "faqem/bake.hpp"
+#include "faqem/detail/lod/lod_chain.hpp"
 
 namespace faqem::detail {
 
@@ -15,14 +16,19 @@ namespace faqem::detail {
 /// \param source   must have passed check_asset()
 /// \param targets  face counts of all parts together: at least one, in descending order
 /// \param options  must be valid
+/// \param levels   what the targets are for, at least as many: a target that was found for a distance is distributed by
+///                 error alone. Empty: all targets were asked for, and Options::budget may limit how little a part gets
 /// \return one result per target; a single one with StopReason::cancelled if the progress callback cancels
 std::vector<SimplifiedParts> simplify_parts_to_targets(const Asset& source,
                                                        std::span<const std::uint64_t> targets,
-                                                       const Options& options);
+                                                       const Options& options,
+                                                       std::span<const LevelTarget> levels = {});
 
 /// As simplify_parts() without Options::max_error, for a source that is welded (WeldedSource).
 /// \param source   must have passed check_asset()
 /// \param options  must be valid, without max_error
-SimplifiedParts simplify_welded_parts(const Asset& source, const Options& options);
+/// \param levels   as for simplify_parts_to_targets()
+SimplifiedParts simplify_welded_parts(const Asset& source, const Options& options,
+                                      std::span<const LevelTarget> levels = {});
 
 }  // namespace faqem::detail

@@ -2,10 +2,13 @@
 
 #include <cmath>
 
+#include "bake/scene/visibility.hpp"
 #include "support/catch.hpp"
+#include "support/scenes.hpp"
 
 using namespace faqem;
 using detail::cost_weights;
+using detail::proportional_shares;
 
 namespace {
 
@@ -36,4 +39,35 @@ TEST_CASE("cost weights of flattened parts use the remaining axes and are 1 with
     CHECK(weights[1] == 1);
     CHECK(weights[2] == 1);
     CHECK(cost_weights(0, {}).empty());
+}
+
+TEST_CASE("proportional shares count faces, and only the vertices that are not hidden") {
+    Asset asset;
+    asset.parts = {test::square(), Part{}, test::square(), test::square()};
+    CHECK(proportional_shares(asset, 3, {}) == std::vector<double>{1, 0, 1, 1});
+    const float hidden = detail::min_visibility;
+    const std::vector<std::vector<float>> seen = {
+        {1, 1, 1, 1}, {}, {hidden, 0.5f, hidden, hidden}, {hidden, hidden, hidden, hidden}};
+    CHECK(proportional_shares(asset, 3, seen) == std::vector<double>{1, 0, 0.25, 0});
+    CHECK(proportional_shares(Asset{}, 3, {}).empty());
+}
+
+TEST_CASE("a warning names the parts with less than a tenth of their share") {
+    Asset asset;
+    asset.parts.assign(8, test::square());
+    asset.parts[1].name = "wall";
+    SimplifiedParts simplified = test::unchanged(asset);
+    std::vector<double> shares(8, 20);
+    detail::warn_of_small_shares(asset, shares, simplified);
+    CHECK(simplified.report.warnings.empty());
+    shares[1] = 20.5;
+    detail::warn_of_small_shares(asset, shares, simplified);
+    REQUIRE(simplified.report.warnings.size() == 1);
+    CHECK(simplified.report.warnings[0] ==
+          "1 part has less than a tenth of its proportional share of the faces: part 'wall' (2 of 2)");
+    shares.assign(8, 30);
+    detail::warn_of_small_shares(asset, shares, simplified);
+    const std::string& all = simplified.report.warnings.at(1);
+    CHECK(all.find("8 parts have less") == 0);
+    CHECK(all.find("part 'square' (2 of 2) and 3 more") != std::string::npos);
 }

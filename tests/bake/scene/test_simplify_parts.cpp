@@ -39,6 +39,47 @@ TEST_CASE("the budget by error gives a flat part few faces") {
     CHECK(simplified.parts[2].mesh.triangles.empty());
 }
 
+TEST_CASE("a part keeps 65% of its share, however small it is beside another one") {
+    Asset asset;
+    asset.parts = {bumpy(20), bumpy(20)};
+    const double size = GENERATE(30.0, 1e3, 1e6);
+    for (Vec3& p : asset.parts[1].positions)
+        for (double& x : p) x *= size;
+    Options options;
+    options.target = ratio(0.25);
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(simplified.report.faces_out <= 400);
+    CHECK(simplified.report.faces_out > 390);
+    CHECK(simplified.report.warnings.empty());
+    CHECK(simplified.parts[0].mesh.triangles.size() >= 130);
+    CHECK(simplified.parts[0].mesh.triangles.size() <= 135);
+}
+
+TEST_CASE("within an error, a small part keeps only what the error needs") {
+    Asset asset;
+    asset.parts = {bumpy(20), bumpy(20)};
+    for (Vec3& p : asset.parts[1].positions)
+        for (double& x : p) x *= 1000;
+    Options options;
+    options.max_error = model_units(100);
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    CHECK(simplified.parts[1].mesh.triangles.size() > 100);
+    CHECK(simplified.parts[0].mesh.triangles.size() <= 4);
+    CHECK(simplified.report.warnings.empty());
+}
+
+TEST_CASE("a warning names a flat part that keeps less than a tenth of its share") {
+    Asset asset;
+    asset.parts = {bumpy(20), bumpy(20)};
+    for (Vec3& p : asset.parts[1].positions) p[2] = 0;
+    asset.parts[1].name = "floor";
+    Options options;
+    options.target = ratio(0.5);
+    const SimplifiedParts simplified = simplify_parts(asset, options);
+    REQUIRE(simplified.report.warnings.size() == 1);
+    CHECK(simplified.report.warnings[0].find("part 'floor' (") != std::string::npos);
+}
+
 TEST_CASE("a surface split into two parts gets about as many faces as one part") {
     // Split across the rows: two thirds of the faces are in the first part.
     Asset whole, cut;

@@ -5,42 +5,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "faqem/detail/simplify/run.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const CostCurve> curves,
-                                                               std::span<const double> weights,
-                                                               std::uint64_t face_budget) {
-    // Costs grow with the fourth power of the size of a mesh. Relative to the largest mesh they cannot
-    // overflow.
-    std::vector<double> size;
-    for (std::size_t m = 0; m < curves.size(); ++m)
-        size.push_back(curves[m].diagonal * std::sqrt(std::sqrt(weights[m])));
-    const double largest = size.empty() ? 0 : *std::max_element(size.begin(), size.end());
+namespace budget {
 
-    struct Reduction {
-        double cost;
-        std::uint32_t mesh;
-        std::uint64_t faces;  // number of faces of the mesh after the reduction
-    };
-    std::vector<Reduction> reductions;
-    std::vector<std::uint64_t> share;
-    std::uint64_t sum = 0;
-    for (std::size_t m = 0; m < curves.size(); ++m) {
-        const auto& [steps, min_faces, diagonal, stop] = curves[m];
-        const double relative = largest > 0 ? size[m] / largest : 0;
-        const double unit = relative * relative * relative * relative;
-        share.push_back(steps.empty() ? min_faces : steps.front().faces);
-        sum += share.back();
-        for (std::size_t i = 0; i < steps.size(); ++i) {
-            const std::uint64_t after = i + 1 < steps.size() ? steps[i + 1].faces : min_faces;
-            reductions.push_back({steps[i].cost * unit, static_cast<std::uint32_t>(m),
-                                  std::max(after, std::min(min_target_faces, share.back()))});
-        }
+// A step of the curve of a mesh.
+struct Reduction {
+    double cost;  // comparable between meshes
+    std::uint32_t mesh;
+    std::uint64_t faces;  // number of faces of the mesh after the reduction
+};
+
+// Factors that make the costs of the curves comparable. Costs grow with the fourth power of the size of a mesh.
+// Relative to the largest mesh they cannot overflow.
+inline std::vector<double> cost_units(std::span<const CostCurve> curves, std::span<const double> weights) {
+    std::vector<double> units;
+    for (std::size_t m = 0; m < curves.size(); ++m)
+        units.push_back(curves[m].diagonal * std::sqrt(std::sqrt(weights[m])));
+    const double largest = units.empty() ? 0 : *std::max_element(units.begin(), units.end());
+    for (double& unit : units) {
+        const double relative = largest > 0 ? unit / largest : 0;
+        unit = relative * relative * relative * relative;
     }
+    return units;
+}
+
+// Whether all collapses up to this step are flat. The faces at a vertex have an area of at most about 6 / faces, since
+// the diagonal is 1.
+inline bool is_flat(const CostCurve::Step& step) {
+    return step.cost * static_cast<double>(step.faces) < 6 * flat_distance * flat_distance;
+}
+
+// Takes the cheapest reductions of all meshes until `sum` is at most `face_budget`.
+inline void take_cheapest(std::vector<Reduction> reductions, std::uint64_t face_budget,
+                          std::vector<std::uint64_t>& share, std::uint64_t& sum) {
     std::stable_sort(reductions.begin(), reductions.end(),
                      [](const Reduction& a, const Reduction& b) { return a.cost < b.cost; });
     for (const Reduction& reduction : reductions) {
@@ -54,6 +57,34 @@ FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const C
             sum = face_budget;
         }
     }
+}
+
+}  // namespace budget
+
+FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const CostCurve> curves,
+                                                               std::span<const double> weights,
+                                                               std::uint64_t face_budget,
+                                                               std::span<const std::uint64_t> floors) {
+    const std::vector<double> units = budget::cost_units(curves, weights);
+    std::vector<budget::Reduction> reductions, below_floor;
+    std::vector<std::uint64_t> share;
+    std::uint64_t sum = 0;
+    for (std::size_t m = 0; m < curves.size(); ++m) {
+        const auto& [steps, min_faces, diagonal, stop] = curves[m];
+        share.push_back(steps.empty() ? min_faces : steps.front().faces);
+        sum += share.back();
+        // The steps of a mesh are taken in their order: no flat one follows one that is not.
+        bool is_deferred = false;
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            const std::uint64_t after = std::max(i + 1 < steps.size() ? steps[i + 1].faces : min_faces,
+                                                 std::min(min_target_faces, share.back()));
+            is_deferred = is_deferred || (!floors.empty() && after < floors[m] && !budget::is_flat(steps[i]));
+            (is_deferred ? below_floor : reductions)
+                .push_back({steps[i].cost * units[m], static_cast<std::uint32_t>(m), after});
+        }
+    }
+    budget::take_cheapest(std::move(reductions), face_budget, share, sum);
+    budget::take_cheapest(std::move(below_floor), face_budget, share, sum);
     return share;
 }
 

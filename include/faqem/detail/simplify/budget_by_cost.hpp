@@ -29,6 +29,10 @@ struct CostCurve {
     StopReason stop = StopReason::no_legal_collapse;
 };
 
+/// A collapse is flat if it moves the surface by less than this share of the mesh's diagonal (root mean square over the
+/// faces at the vertex). Positions rounded to 16 bits lie this close to a plane.
+inline constexpr double flat_distance = 3e-5;
+
 /// Simplifies a copy of the mesh with preset fast as far as its locks and seams permit, and records the
 /// costs. Defined in run-inl.hpp.
 /// \param mesh     see simplify(); read only during the call
@@ -39,15 +43,18 @@ struct CostCurve {
 FAQEM_EXPORT CostCurve cost_curve(const MeshView& mesh, const Options& options);
 
 /// Computes how many faces each mesh keeps so that the total is at most `face_budget`. The cheapest collapses
-/// of all meshes are taken first.
+/// of all meshes are taken first, without those that would reduce a mesh below its floor and that are not flat: these
+/// follow if the others are not enough.
 /// \param curves       one per mesh
 /// \param weights      one per mesh, > 0: factor on costs in model units (an area times a squared distance)
 /// \param face_budget  total number of faces
+/// \param floors       face count per mesh below which only flat collapses are taken; empty: none
 /// \return face count per mesh. The sum exceeds `face_budget` only if no curve permits fewer faces.
 /// Complexity: O(n log n) in the number of steps of all curves
 FAQEM_EXPORT std::vector<std::uint64_t> distribute_face_budget(std::span<const CostCurve> curves,
                                                                std::span<const double> weights,
-                                                               std::uint64_t face_budget);
+                                                               std::uint64_t face_budget,
+                                                               std::span<const std::uint64_t> floors = {});
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

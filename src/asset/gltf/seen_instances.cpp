@@ -1,0 +1,146 @@
+#include "asset/gltf/seen_instances.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "asset/gltf/accessor.hpp"
+#include "asset/gltf/scene.hpp"
+#include "asset/gltf/source_document.hpp"
+#include "asset/scene/flatten.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using Matrix4 = std::array<double, 16>;
+using NodeScales = std::vector<std::optional<std::array<double, 3>>>;
+
+// The node whose scale a channel animates, or no_index.
+Index scaled_node(const Json& target, std::size_t nodes) {
+    const std::string path = string_member(target, "path");
+    if (path == "scale") return index_member(target, "node");
+    if (path != "pointer") return no_index;
+    const Json& extension = member(member(target, "extensions"), "KHR_animation_pointer");
+    const std::string pointer = string_member(extension, "pointer");
+    // Only its own indices give the text that is compared: 01 or 1e0 do not.
+    const std::string before = "/nodes/";
+    if (pointer.compare(0, before.size(), before) != 0) return no_index;
+    const std::string number = pointer.substr(before.size(), 9);
+    const auto node = static_cast<Index>(std::strtoul(number.c_str(), nullptr, 10));
+    return node < nodes && pointer == before + std::to_string(node) + "/scale" ? node : no_index;
+}
+
+void raise_to_keyframes(const SourceDocument& source, const Json& sampler, std::array<double, 3>& scale) {
+    const auto values = read_vectors<double, 3>(source, index_member(sampler, "output"));
+    // A keyframe of a spline has the value between its two tangents.
+    const bool is_spline = string_member(sampler, "interpolation") == "CUBICSPLINE";
+    for (std::size_t i = is_spline ? 1 : 0; i < values.size(); i += is_spline ? 3 : 1) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double value = std::abs(values[i][axis]);
+            if (std::isfinite(value)) scale[axis] = std::max(scale[axis], value);
+        }
+    }
+}
+
+// By node: the largest scale of the nodes whose scale is animated.
+NodeScales largest_scales(const SourceDocument& source) {
+    const Json& nodes = member(source.document, "nodes");
+    NodeScales scales(nodes.size());
+    for (const Json& animation : member(source.document, "animations")) {
+        for (const Json& channel : member(animation, "channels")) {
+            const Index node = scaled_node(member(channel, "target"), nodes.size());
+            if (node == no_index) continue;
+            if (!scales[node]) {
+                scales[node] = {1, 1, 1};
+                const Json& own = member(nodes[node], "scale");
+                for (std::size_t axis = 0; axis < own.size(); ++axis)
+                    (*scales[node])[axis] = std::abs(own[axis].get<double>());
+            }
+            const Json& sampler = member(animation, "samplers")[unsigned_member(channel, "sampler", 0)];
+            raise_to_keyframes(source, sampler, *scales[node]);
+        }
+    }
+    return scales;
+}
+
+// Mean squared singular value of the linear part.
+double squared_scale(const Matrix4& matrix) {
+    double squares = 0;
+    for (const std::size_t column : {0u, 4u, 8u})
+        for (std::size_t row = 0; row < 3; ++row) squares += matrix[column + row] * matrix[column + row];
+    return squares / 3;
+}
+
+// By joint of a skin: the squared scale from mesh to world space; 0 for joints outside the scene.
+std::vector<double> joint_scales(const SourceDocument& source, const Json& skin,
+                                 const std::vector<const PlacedNode*>& node_at) {
+    const Json& joints = member(skin, "joints");
+    const Index accessor = index_member(skin, "inverseBindMatrices");
+    std::vector<std::uint8_t> bytes;
+    if (accessor != no_index) {
+        bytes = dense_bytes(source, accessor);
+        const Json& layout = source.document["accessors"][accessor];
+        if (string_member(layout, "type") != "MAT4" ||
+            unsigned_member(layout, "componentType", 0) != static_cast<std::uint64_t>(ComponentType::f32))
+            bytes.clear();
+    }
+    std::vector<double> result;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        Matrix4 inverse_bind = identity_transform;
+        std::array<float, 16> stored;
+        if (bytes.size() >= (j + 1) * sizeof stored) {
+            std::memcpy(stored.data(), bytes.data() + j * sizeof stored, sizeof stored);
+            std::copy(stored.begin(), stored.end(), inverse_bind.begin());
+        }
+        const PlacedNode* node = node_at[joints[j].get<Index>()];
+        result.push_back(node ? squared_scale(product(node->world, inverse_bind)) : 0);
+    }
+    return result;
+}
+
+// Root mean square of the scales of the joints, weighted by the joint weights of a mesh; nothing without weights.
+std::optional<double> posed_scale(const Asset& asset, Index mesh, const std::vector<double>& of_joint) {
+    double sum = 0, total = 0;
+    for (const Part& part : asset.parts) {
+        if (part.source != mesh) continue;
+        for (std::size_t v = 0; v < part.joints.size() && v < part.weights.size(); ++v) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::size_t joint = part.joints[v][k];
+                const double weight = part.weights[v][k];
+                if (!(weight > 0) || joint >= of_joint.size()) continue;
+                sum += weight * of_joint[joint];
+                total += weight;
+            }
+        }
+    }
+    const double scale = std::sqrt(sum / total);
+    return std::isfinite(scale) ? std::optional(scale) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Instance> seen_instances(const Asset& asset) {
+    if (!asset.source) return instances(asset);
+    const Json& document = asset.source->document;
+    std::vector<PlacedNode> nodes = placed_nodes(document, largest_scales(*asset.source));
+    const std::vector<PlacedNode> unposed = nodes;
+    std::vector<const PlacedNode*> node_at(array_size(document, "nodes"), nullptr);
+    for (const PlacedNode& placed : unposed) node_at[placed.node] = &placed;
+    for (PlacedNode& placed : nodes) {
+        const Json& node = document["nodes"][placed.node];
+        const Index skin = index_member(node, "skin"), mesh = index_member(node, "mesh");
+        if (skin == no_index || mesh == no_index) continue;
+        const std::optional<double> scale =
+            posed_scale(asset, mesh, joint_scales(*asset.source, document["skins"][skin], node_at));
+        if (!scale) continue;
+        placed.world = identity_transform;
+        for (const std::size_t diagonal : {0u, 5u, 10u}) placed.world[diagonal] = *scale;
+    }
+    return instances_at(asset, nodes);
+}
+
+}  // namespace faqem::detail
