@@ -11,6 +11,7 @@
 #include "bake/scene/check_asset.hpp"
 #include "bake/scene/coincident_faces.hpp"
 #include "bake/scene/face_budget.hpp"
+#include "bake/scene/moving_vertices.hpp"
 #include "bake/scene/parts_error_bound_search.hpp"
 #include "bake/scene/removed_components.hpp"
 #include "bake/scene/scene_size.hpp"
@@ -24,6 +25,7 @@
 #include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
+#include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/run.hpp"
 
 namespace faqem {
@@ -62,14 +64,25 @@ std::vector<Index> face_groups(const Part& part, const std::optional<detail::Mat
 struct PartInput {
     std::vector<Index> groups;
     CornerAttributes attributes;
+    std::vector<Triangle> welded;  // if vertices at one position move apart: the triangles after the weld
     MeshView view;
 
-    PartInput(const Part& part, const std::optional<detail::MaterialGroups>& material_groups, Bake bake,
-              std::span<const float> weights)
+    // Sets the weld of the options to none if the part is welded here.
+    PartInput(const Asset& source, const Part& part,
+              const std::optional<detail::MaterialGroups>& material_groups, std::span<const float> weights,
+              Options& own)
         : groups(face_groups(part, material_groups)) {
         if (material_groups) groups = detail::separate_coincident_faces(part, std::move(groups));
-        if (bake == Bake::keep) attributes = corner_attributes(part);
-        view = {part.positions, part.triangles, groups, attributes.width ? &attributes : nullptr, {},
+        if (own.bake.kind == Bake::keep) attributes = corner_attributes(part);
+        if (own.topology.weld != Weld::none)
+            welded = detail::welded_by_motion(part, detail::motion_rounding(source, part),
+                                              detail::settings(own).weld_distance);
+        if (!welded.empty()) own.topology.weld = Weld::none;
+        view = {part.positions,
+                welded.empty() ? part.triangles : welded,
+                groups,
+                attributes.width ? &attributes : nullptr,
+                {},
                 weights};
     }
     PartInput(const PartInput&) = delete;
@@ -234,7 +247,8 @@ private:
             }
             const auto& groups = keeps_groups() ? std::nullopt : groups_;
             const std::span<const float> weights = weights_.empty() ? std::span<const float>() : weights_[p];
-            work(p, PartInput(part, groups, options_.bake.kind, weights).view, own);
+            const PartInput input(source_, part, groups, weights, own);
+            work(p, input.view, own);
             done_ += size;
         }
     }
