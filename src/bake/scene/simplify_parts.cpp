@@ -11,6 +11,7 @@
 #include "bake/scene/check_asset.hpp"
 #include "bake/scene/coincident_faces.hpp"
 #include "bake/scene/face_budget.hpp"
+#include "bake/scene/morph_shape.hpp"
 #include "bake/scene/moving_vertices.hpp"
 #include "bake/scene/parts_error_bound_search.hpp"
 #include "bake/scene/removed_components.hpp"
@@ -132,7 +133,7 @@ private:
     std::vector<SimplifiedParts> run(const std::vector<std::vector<std::uint64_t>>& share) {
         for_each_part([&](std::size_t p, const MeshView& view, Options& own) {
             own.history = Recording::on;
-            std::vector<SimplifyResult> results = detail::run_to_targets(view, share[p], own);
+            std::vector<SimplifyResult> results = simplify_part(source_.parts[p], view, share[p], own);
             is_cancelled_ = results.back().report.stop == StopReason::cancelled;
             for (std::size_t i = 0; i < results.size(); ++i) {
                 results_[i].parts[p] = std::move(results[i]);
@@ -153,6 +154,16 @@ private:
         }
         for (SimplifiedParts& level : results_) level.report.seconds.total = level.report.seconds.simplify;
         return std::move(results_);
+    }
+
+    // run_to_targets(), with a hint of its shape for a part that is flat at rest and not in a morph target.
+    static std::vector<SimplifyResult> simplify_part(const Part& part, MeshView view,
+                                                     const std::vector<std::uint64_t>& targets,
+                                                     const Options& own) {
+        std::vector<Vec3> bent;
+        if (detail::has_displacements(part)) bent = detail::bent_positions(part, view, own, targets.front());
+        if (!bent.empty()) view.positions = bent;
+        return detail::run_to_targets(view, targets, own);
     }
 
     void compute_visibility() try {
@@ -179,7 +190,7 @@ private:
         // Without a target below the number of faces there is nothing to distribute.
         bool by_cost =
             options_.budget == Budget::scene && filled >= 2 && static_cast<double>(targets.back()) < faces_;
-        if (by_cost) by_cost = compute_cost_curves();
+        if (by_cost) by_cost = compute_cost_curves(targets.front());
         std::vector<std::vector<std::uint64_t>> result(source_.parts.size());
         for (std::size_t i = 0; i < targets.size(); ++i) {
             const std::uint64_t target_faces = std::min(targets[i], static_cast<std::uint64_t>(faces_));
@@ -206,11 +217,18 @@ private:
     }
 
     // Returns false if the time is over; then there are no curves.
-    bool compute_cost_curves() {
+    bool compute_cost_curves(std::uint64_t target) {
         passes_ = 2;
         curves_.resize(source_.parts.size());
         for_each_part([&](std::size_t p, const MeshView& view, const Options& own) {
+            const Part& part = source_.parts[p];
             curves_[p] = detail::cost_curve(view, own);
+            if (detail::has_displacements(part)) {
+                const double share =
+                    static_cast<double>(part.triangles.size()) * static_cast<double>(target) / faces_;
+                curves_[p] = detail::curve_in_motion(std::move(curves_[p]), part, view, own,
+                                                     static_cast<std::uint64_t>(share));
+            }
             is_cancelled_ = curves_[p].stop == StopReason::cancelled;
         });
         cost_weights_ = detail::cost_weights(curves_.size(), detail::seen_instances(source_));

@@ -61,6 +61,15 @@ inline void take_cheapest(std::vector<Reduction> reductions, std::uint64_t face_
 
 }  // namespace budget
 
+FAQEM_INLINE bool is_flat_down_to(const CostCurve& curve, std::uint64_t faces) {
+    bool is_flat = curve.min_faces <= faces;
+    for (const CostCurve::Step& step : curve.steps) {
+        if (step.faces <= faces) break;
+        is_flat = is_flat && budget::is_flat(step);
+    }
+    return is_flat;
+}
+
 FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const CostCurve> curves,
                                                                std::span<const double> weights,
                                                                std::uint64_t face_budget,

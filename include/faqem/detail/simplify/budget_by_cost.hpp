@@ -42,6 +42,9 @@ inline constexpr double flat_distance = 3e-5;
 /// Complexity: O(n log n)
 FAQEM_EXPORT CostCurve cost_curve(const MeshView& mesh, const Options& options);
 
+/// Whether a mesh can be simplified to a number of faces by flat collapses alone.
+FAQEM_EXPORT bool is_flat_down_to(const CostCurve& curve, std::uint64_t faces);
+
 /// Computes how many faces each mesh keeps so that the total is at most `face_budget`. The cheapest collapses
 /// of all meshes are taken first, without those that would reduce a mesh below its floor and that are not flat: these
 /// follow if the others are not enough.
