@@ -90,6 +90,16 @@ struct MorphTarget {
     std::vector<Vec3f> positions, normals;
 };
 
+/// A vertex attribute of an application, such as the numbers of features: in glTF one whose name begins with an
+/// underscore.
+struct CustomAttribute {
+    std::string name;                           ///< with the underscore
+    std::vector<std::array<double, 4>> values;  ///< V; components that the attribute does not have are 0
+    std::uint32_t components = 1;               ///< 1 to 4
+    std::uint32_t component_type = 5126;        ///< how glTF stores them: 5120 to 5123, 5125 or 5126 (float)
+    bool normalized = false;  ///< whether integers stand for [0, 1] or [-1, 1], as in `values`
+};
+
 /// Order of the faces and vertices of a part in a glTF file. Other formats are written in the given order.
 enum class FileOrder {
     given,    ///< that of the arrays; faces are grouped by material
@@ -117,6 +127,8 @@ struct Part {
     std::vector<std::string> object_names;  ///< names of the objects
     /// Mesh of the source document whose name, extras, points and lines are written too; no_index: none.
     Index source = no_index;
+    /// bake() copies integers and feature ids (`_BATCHID`, `_FEATURE_ID_n`) from a vertex, and interpolates floats.
+    std::vector<CustomAttribute> custom_attributes;
     /// bake() sets FileOrder::for_gpu for parts that lost faces. Their arrays are in the order of the history.
     FileOrder file_order = FileOrder::given;
 };

@@ -160,6 +160,7 @@ std::vector<std::array<T, N>> read_vectors(const SourceDocument& source, Index i
 }
 
 template std::vector<Vec3> read_vectors<double, 3>(const SourceDocument&, Index, double);
+template std::vector<std::array<double, 4>> read_vectors<double, 4>(const SourceDocument&, Index, double);
 template std::vector<Vec2f> read_vectors<float, 2>(const SourceDocument&, Index, float);
 template std::vector<Vec3f> read_vectors<float, 3>(const SourceDocument&, Index, float);
 template std::vector<Vec4f> read_vectors<float, 4>(const SourceDocument&, Index, float);

@@ -130,6 +130,8 @@ std::vector<std::string> flattening_losses(const Asset& asset, const std::string
         losses.push_back(cannot + "skins: the mesh keeps its rest pose");
     if (any([](const Part& p) { return !p.morph_targets.empty(); }))
         losses.push_back(cannot + "morph targets");
+    if (any([](const Part& p) { return !p.custom_attributes.empty(); }))
+        losses.push_back(cannot + "custom attributes");
     if (any([](const Part& p) { return !p.tangents.empty(); })) losses.push_back(cannot + "tangents");
     return losses;
 }

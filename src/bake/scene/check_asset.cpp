@@ -34,6 +34,12 @@ public:
             check(target.positions, "positions of a morph target");
             check(target.normals, "normals of a morph target");
         }
+        for (const CustomAttribute& attribute : part_.custom_attributes) {
+            check_size(attribute.values, attribute.name);
+            check_finite(attribute.values, attribute.name);
+            if (attribute.components < 1 || attribute.components > 4)
+                fail(attribute.name, "must have 1 to 4 components");
+        }
         check_faces();
     }
 

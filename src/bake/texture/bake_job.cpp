@@ -6,10 +6,10 @@
 namespace faqem::detail {
 namespace {
 
-// Without textures and transferred normals, the map is needed only for skin weights and morph targets.
+// Without textures and transferred normals, the map is needed only for skin weights, morph targets and custom attributes.
 bool needs_map(const Part& part, const BakeOptions& bake) {
     const bool is_bare = bake.kind == Bake::none && bake.normals != Normals::transfer;
-    return !is_bare || !part.joints.empty() || !part.morph_targets.empty();
+    return !is_bare || !part.joints.empty() || !part.morph_targets.empty() || !part.custom_attributes.empty();
 }
 
 }  // namespace

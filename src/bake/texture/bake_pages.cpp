@@ -10,6 +10,7 @@
 #include "bake/texture/normal_map.hpp"
 #include "bake/texture/page_baker.hpp"
 #include "bake/texture/page_material.hpp"
+#include "bake/transfer/custom_attributes.hpp"
 #include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/vertex_attributes.hpp"
 #include "faqem/engine/mesh/vector.hpp"
@@ -250,6 +251,7 @@ bool bake_pages(BakeJob& job) {
         }
         CornerValues values{job.normals[part.index].normals, {}, {}, std::move(tangents[part.index])};
         if (!uvs[part.index].empty()) values.uvs.push_back(std::move(uvs[part.index]));
+        values.custom = corner_custom_attributes(part, job.cancellation_check());
         WeldedPart welded = weld_corners(part, values);
         transfer_skin_and_morphs(part, welded, job.cancellation_check());
         for (Index f : part.simplified->history.kept_faces) {

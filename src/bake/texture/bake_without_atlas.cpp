@@ -6,6 +6,7 @@
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"
 #include "bake/transfer/corner_transfer.hpp"
+#include "bake/transfer/custom_attributes.hpp"
 #include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/texture_sampling.hpp"
 #include "bake/transfer/vertex_attributes.hpp"
@@ -43,8 +44,8 @@ Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere
     return result;
 }
 
-void finish_part(BakeJob& job, const BakePart& part, const CornerValues& values,
-                 std::vector<Index> materials) {
+void finish_part(BakeJob& job, const BakePart& part, CornerValues values, std::vector<Index> materials) {
+    values.custom = corner_custom_attributes(part, job.cancellation_check());
     WeldedPart welded = weld_corners(part, values);
     transfer_skin_and_morphs(part, welded, job.cancellation_check());
     welded.part.face_material = std::move(materials);
@@ -117,7 +118,7 @@ void bake_vertex(BakeJob& job) {
         if (part.map) values.colors = corner_colors(part, sampler, normals, job.workers());
         std::vector<Index> materials = kept_materials(part);
         for (Index& m : materials) m = groups.group_of(m);
-        finish_part(job, part, values, std::move(materials));
+        finish_part(job, part, std::move(values), std::move(materials));
     }
 }
 
@@ -154,7 +155,7 @@ void bake_keep(BakeJob& job) {
             values.colors.push_back({corner[0], corner[1], corner[2], corner[3]});
         }
         values.tangents = kept_tangents(job, part, materials, values.uvs);
-        finish_part(job, part, values, std::move(materials));
+        finish_part(job, part, std::move(values), std::move(materials));
     }
     if (crossing_faces > 0) {
         job.warn(std::to_string(crossing_faces) +

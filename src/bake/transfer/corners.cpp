@@ -27,6 +27,10 @@ int compare(const CornerValues& values, std::uint64_t a, std::uint64_t b) {
     if (!values.tangents.empty()) {
         if (const int c = compare(values.tangents[a], values.tangents[b])) return c;
     }
+    for (const CustomAttribute& attribute : values.custom) {
+        if (attribute.values[a] != attribute.values[b])
+            return attribute.values[a] < attribute.values[b] ? -1 : 1;
+    }
     return values.colors.empty() ? 0 : compare(values.colors[a], values.colors[b]);
 }
 
@@ -83,6 +87,9 @@ WeldedPart weld_corners(const BakePart& bake_part, const CornerValues& values) {
     part.source = bake_part.source->source;
     part.triangles.resize(mesh.triangles.size());
     part.uvs.resize(values.uvs.size());
+    part.custom_attributes = bake_part.source->custom_attributes;
+    part.custom_attributes.resize(values.custom.size());
+    for (CustomAttribute& attribute : part.custom_attributes) attribute.values.clear();
     for (std::uint64_t c = 0; c < first.size(); ++c) {
         Index& n = number[first[c]];
         if (n == no_index) {
@@ -93,6 +100,8 @@ WeldedPart weld_corners(const BakePart& bake_part, const CornerValues& values) {
             for (std::size_t s = 0; s < values.uvs.size(); ++s) part.uvs[s].push_back(values.uvs[s][c]);
             if (!values.colors.empty()) part.colors.push_back(values.colors[c]);
             if (!values.tangents.empty()) part.tangents.push_back(values.tangents[c]);
+            for (std::size_t a = 0; a < values.custom.size(); ++a)
+                part.custom_attributes[a].values.push_back(values.custom[a].values[c]);
         }
         part.triangles[c / 3][c % 3] = n;
     }

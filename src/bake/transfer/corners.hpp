@@ -49,6 +49,7 @@ struct CornerValues {
     std::vector<std::vector<Vec2f>> uvs;
     std::vector<Vec4f> colors;
     std::vector<Vec4f> tangents = {};
+    std::vector<CustomAttribute> custom = {};
 };
 
 /// An output part.

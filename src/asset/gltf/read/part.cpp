@@ -17,12 +17,14 @@ using Attributes = std::map<std::string, int>;
 struct PartLayout {
     bool normals = false, tangents = false, colors = false, joints = false, target_normals = false;
     std::size_t uv_sets = 0, targets = 0;
+    std::vector<CustomAttribute> custom;  // without values
     std::set<std::string> ignored_attributes;
 };
 
 /// Numbers of non-finite values that were replaced.
 struct Repairs {
-    std::uint64_t positions = 0, normals = 0, tangents = 0, uvs = 0, colors = 0, weights = 0, targets = 0;
+    std::uint64_t positions = 0, normals = 0, tangents = 0, uvs = 0, colors = 0, weights = 0, targets = 0,
+                  custom = 0;
 };
 
 std::string uv_name(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
@@ -36,8 +38,38 @@ Index find_accessor(const Attributes& attributes, const std::string& name) {
     return found == attributes.end() ? no_index : static_cast<Index>(found->second);
 }
 
-PartLayout layout_of(const tinygltf::Mesh& mesh) {
+// The attributes of applications that all triangle primitives store in the same way. Feature ids have no value that
+// stands for none, so that an attribute which some primitives lack cannot be joined.
+std::vector<CustomAttribute> custom_attributes(const tinygltf::Mesh& mesh, const Json& accessors) {
+    std::map<std::string, CustomAttribute> found;
+    std::map<std::string, std::size_t> uses;
+    std::size_t primitives = 0;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        if (!is_triangle_primitive(primitive)) continue;
+        ++primitives;
+        for (const auto& [name, index] : primitive.attributes) {
+            if (name.empty() || name[0] != '_') continue;
+            const Json& accessor = accessors[static_cast<std::size_t>(index)];
+            CustomAttribute own{name, {}};
+            const std::string type = string_member(accessor, "type");
+            own.components = type.compare(0, 3, "MAT") == 0 ? 0 : component_count(type);
+            own.component_type = static_cast<std::uint32_t>(unsigned_member(accessor, "componentType", 0));
+            own.normalized = member(accessor, "normalized") == true;
+            const CustomAttribute& first = found.try_emplace(name, own).first->second;
+            const bool is_equal = first.components == own.components && first.normalized == own.normalized &&
+                                  first.component_type == own.component_type;
+            if (is_equal && own.components > 0) ++uses[name];
+        }
+    }
+    std::vector<CustomAttribute> result;
+    for (const auto& [name, attribute] : found)
+        if (uses[name] == primitives) result.push_back(attribute);
+    return result;
+}
+
+PartLayout layout_of(const tinygltf::Mesh& mesh, const Json& accessors) {
     PartLayout layout;
+    layout.custom = custom_attributes(mesh, accessors);
     std::set<std::string> names, target_names;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
         if (!is_triangle_primitive(primitive)) continue;
@@ -57,6 +89,7 @@ PartLayout layout_of(const tinygltf::Mesh& mesh) {
         names.erase("JOINTS_0");
         names.erase("WEIGHTS_0");
     }
+    for (const CustomAttribute& attribute : layout.custom) names.erase(attribute.name);
     layout.target_normals = target_names.erase("NORMAL") != 0;
     layout.ignored_attributes = std::move(names);
     for (const std::string& name : target_names) layout.ignored_attributes.insert("morph target " + name);
@@ -65,16 +98,16 @@ PartLayout layout_of(const tinygltf::Mesh& mesh) {
 
 /// Appends `count` vectors to `out`: those of the accessor, or `fill` if there is no accessor.
 /// \return the number of non-finite vectors that were replaced by `fill`
-template <std::size_t N>
-std::uint64_t append(std::vector<std::array<float, N>>& out, const SourceDocument& source, Index accessor,
-                     std::size_t count, const std::array<float, N>& fill) {
+template <class T, std::size_t N>
+std::uint64_t append(std::vector<std::array<T, N>>& out, const SourceDocument& source, Index accessor,
+                     std::size_t count, const std::array<T, N>& fill) {
     if (accessor == no_index) {
         out.insert(out.end(), count, fill);
         return 0;
     }
     std::uint64_t repaired = 0;
-    std::vector<std::array<float, N>> values = read_vectors<float, N>(source, accessor, fill[N - 1]);
-    for (std::array<float, N>& value : values)
+    std::vector<std::array<T, N>> values = read_vectors<T, N>(source, accessor, fill[N - 1]);
+    for (std::array<T, N>& value : values)
         if (!is_finite(value)) {
             value = fill;
             ++repaired;
@@ -122,6 +155,9 @@ std::uint64_t append_vertices(Part& part, const PartLayout& layout, const Source
         repairs.colors +=
             append(part.colors, source, find_accessor(from, "COLOR_0"), count, Vec4f{1, 1, 1, 1});
     if (layout.joints) append_joints(part, source, from, count, repairs);
+    for (CustomAttribute& attribute : part.custom_attributes)
+        repairs.custom += append(attribute.values, source, find_accessor(from, attribute.name), count,
+                                 std::array<double, 4>{});
     for (std::size_t t = 0; t < layout.targets; ++t) {
         static const Attributes none;
         const Attributes& target = t < primitive.targets.size() ? primitive.targets[t] : none;
@@ -195,6 +231,7 @@ void add_warnings(LoadedGltf& loaded, const std::string& where, const Repairs& r
     warn(loaded, where, repairs.colors, "non-finite vertex colours were reset");
     warn(loaded, where, repairs.weights, "non-finite joint weights were reset");
     warn(loaded, where, repairs.targets, "non-finite morph target vectors were reset");
+    warn(loaded, where, repairs.custom, "non-finite values of custom attributes were reset");
     warn(loaded, where, excess_corners,
          "indices at the end of a triangle list do not form a triangle and were left out");
     for (const std::string& name : layout.ignored_attributes)
@@ -206,12 +243,13 @@ void add_warnings(LoadedGltf& loaded, const std::string& where, const Repairs& r
 Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_faces) {
     const tinygltf::Mesh& mesh = loaded.model.meshes[mesh_index];
     const std::string where = child_path("/meshes", mesh_index);
-    const PartLayout layout = layout_of(mesh);
+    const PartLayout layout = layout_of(mesh, loaded.source->document["accessors"]);
     Part part;
     part.name = mesh.name;
     part.source = mesh_index;
     part.uvs.resize(layout.uv_sets);
     part.morph_targets.resize(layout.targets);
+    part.custom_attributes = layout.custom;
     Repairs repairs;
     std::uint64_t dropped = 0, excess = 0;
     // Primitives often share their vertices and differ only in indices and material.

@@ -13,6 +13,8 @@ constexpr std::uint64_t first_triangle_mode = 4;
 constexpr const char* variants_name = "KHR_materials_variants";
 
 /// Extensions of primitives and meshes that describe the source vertices or triangles, which no longer exist.
+constexpr const char* features_name = "EXT_mesh_features";
+
 constexpr std::array<std::string_view, 6> vertex_extensions = {
     "KHR_draco_mesh_compression", "EXT_mesh_features", "EXT_structural_metadata",
     "CESIUM_primitive_outline",   "EXT_mesh_manifold", "FB_ngon_encoding"};
@@ -162,6 +164,28 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
     return append(writer, "meshes", std::move(mesh));
 }
 
+/// Keeps the feature ids of EXT_mesh_features that are vertex attributes of the part. Those in textures, and the numbers
+/// of vertices, are left out with a warning.
+/// \return whether any are left
+bool keep_feature_ids(GltfWriter& writer, const Part& part, Json& extensions) {
+    if (!member(member(extensions, features_name), "featureIds").is_array()) return false;
+    Json kept = Json::array();
+    const Json& all = extensions[features_name]["featureIds"];
+    for (const Json& ids : all) {
+        const bool is_kept =
+            std::any_of(part.custom_attributes.begin(), part.custom_attributes.end(), [&](const auto& own) {
+                return member(ids, "attribute").is_number_unsigned() &&
+                       own.name == "_FEATURE_ID_" + std::to_string(ids["attribute"].get<std::uint64_t>());
+            });
+        if (is_kept) kept.push_back(ids);
+    }
+    if (kept.empty()) return false;
+    if (kept.size() < all.size())
+        warn_mesh(writer, part.name, "feature ids that are not in vertex attributes were left out");
+    extensions[features_name]["featureIds"] = std::move(kept);
+    return true;
+}
+
 }  // namespace
 
 Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material_index) {
@@ -182,14 +206,16 @@ Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material
         warn_mesh(writer, part.name, "extensions of primitives that were joined differ and were left out");
         return kept;
     }
+    const bool has_features = keep_feature_ids(writer, part, extensions);
     for (const std::string_view name : vertex_extensions)
-        if (extensions.erase(std::string(name)) != 0 && name != "KHR_draco_mesh_compression")
+        if (!(has_features && name == features_name) && extensions.erase(std::string(name)) != 0 &&
+            name != "KHR_draco_mesh_compression")
             warn_mesh(writer, part.name,
                       std::string(name) + " does not fit the new vertices and triangles and was left out");
     // What an unknown extension says may not hold for other triangles.
     if (part.file_order == FileOrder::for_gpu) {
         for (auto extension = extensions.begin(); extension != extensions.end();) {
-            if (extension.key() == variants_name) {
+            if (extension.key() == variants_name || extension.key() == features_name) {
                 ++extension;
                 continue;
             }

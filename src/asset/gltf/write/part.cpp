@@ -1,13 +1,15 @@
 #include <algorithm>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
-#include "asset/scene/messages.hpp"
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
+#include "asset/scene/messages.hpp"
 #include "asset/scene/repair.hpp"
 
 namespace faqem::detail {
@@ -114,6 +116,46 @@ Json write_morph_targets(GltfWriter& writer, const Part& part, const PrimitiveDa
     return targets;
 }
 
+template <class T>
+Index add_integers(GltfWriter& writer, const CustomAttribute& attribute, const PrimitiveData& data,
+                   Json description) {
+    const double unit = attribute.normalized ? static_cast<double>(std::numeric_limits<T>::max()) : 1;
+    std::vector<T> values;
+    for (const Index v : data.vertices)
+        for (std::size_t c = 0; c < attribute.components; ++c)
+            values.push_back(static_cast<T>(std::clamp(std::round(attribute.values[v][c] * unit),
+                                                       static_cast<double>(std::numeric_limits<T>::min()),
+                                                       static_cast<double>(std::numeric_limits<T>::max()))));
+    return add_vertices(writer, std::move(description), values);
+}
+
+Index add_custom(GltfWriter& writer, const CustomAttribute& attribute, const PrimitiveData& data) {
+    const auto component = static_cast<ComponentType>(attribute.component_type);
+    constexpr std::array<const char*, 4> types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    Json description =
+        accessor_description(component, types.at(attribute.components - 1), data.vertices.size());
+    if (attribute.normalized) description["normalized"] = true;
+    switch (component) {
+        case ComponentType::i8:
+            return add_integers<std::int8_t>(writer, attribute, data, description);
+        case ComponentType::u8:
+            return add_integers<std::uint8_t>(writer, attribute, data, description);
+        case ComponentType::i16:
+            return add_integers<std::int16_t>(writer, attribute, data, description);
+        case ComponentType::u16:
+            return add_integers<std::uint16_t>(writer, attribute, data, description);
+        case ComponentType::u32:
+            return add_integers<std::uint32_t>(writer, attribute, data, description);
+        case ComponentType::f32:
+            break;
+    }
+    std::vector<float> values;
+    for (const Index v : data.vertices)
+        for (std::size_t c = 0; c < attribute.components; ++c)
+            values.push_back(static_cast<float>(attribute.values[v][c]));
+    return add_vertices(writer, std::move(description), values);
+}
+
 Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData& data) {
     const std::size_t count = data.vertices.size();
     // Vertices and triangles that are not those of the source may be changed by compression.
@@ -137,6 +179,8 @@ Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData&
         json["WEIGHTS_0"] =
             add_vertices(writer, accessor_description(ComponentType::f32, "VEC4", count), data.weights);
     }
+    for (const CustomAttribute& attribute : part.custom_attributes)
+        json[attribute.name] = add_custom(writer, attribute, data);
     return json;
 }
 
