@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/transfer/corner_points.hpp"
 #include "bake/transfer/source_normals.hpp"
 #include "bake/transfer/vector_conversion.hpp"
 #include "faqem/detail/base/parallel.hpp"
@@ -95,6 +96,19 @@ std::vector<std::uint8_t> faces_with_reversed_winding(const BakePart& part) {
     return result;
 }
 
+// Sets the normals of the corners for which the source has one.
+void transfer_normals(const BakePart& part, const Workers& workers, std::vector<Vector3>& normals) {
+    const auto set = [&](std::uint64_t corner, const SurfacePoint& point) {
+        const Vector3 original = interpolated_normal(*part.source, point);
+        if (!original.isZero(0)) normals[corner] = original;
+    };
+    if (!part.map) return visit_corner_points(part, corner_inset, workers, set);
+    parallel_blocks(normals.size(), 768, workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c)
+            set(c, part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset)));
+    });
+}
+
 }  // namespace
 
 Vector3 oriented_face_normal(const BakePart& part, const CornerNormals& normals, std::size_t face) {
@@ -121,20 +135,15 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Wor
         for (std::size_t f = begin; f < end; ++f) {
             face_normals[f] = transfers ? oriented_face_normal(part, result, f)
                                         : winding_normal(mesh.positions, mesh.triangles[f]);
-        }
-        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
-            const Vector3& face_normal = face_normals[c / 3];
-            raw[c] = face_normal;
-            if (transfers) {
-                const SurfacePoint point =
-                    part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset));
-                const Vector3 original = interpolated_normal(*part.source, point);
-                if (!original.isZero(0)) raw[c] = original;
-            }
-            if (raw[c].isZero(0)) raw[c] = Vector3(0, 0, 1);
-            if (!face_normal.isZero(0) && !(raw[c].dot(face_normal) > 0)) raw[c] = face_normal;
+            for (std::size_t c = 3 * f; c < 3 * f + 3; ++c) raw[c] = face_normals[f];
         }
     });
+    if (transfers) transfer_normals(part, workers, raw);
+    for (std::size_t c = 0; c < corners; ++c) {
+        const Vector3& face_normal = face_normals[c / 3];
+        if (raw[c].isZero(0)) raw[c] = Vector3(0, 0, 1);
+        if (!face_normal.isZero(0) && !(raw[c].dot(face_normal) > 0)) raw[c] = face_normal;
+    }
     // The tolerance allows for rounding differences between equal normals.
     const double min_normal_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
     const VertexCorners at = vertex_corners(mesh);

@@ -17,7 +17,7 @@ struct BakePart {
     Index index = 0;  ///< index into Asset::parts
     const Part* source = nullptr;
     const SimplifyResult* simplified = nullptr;
-    /// Null if the simplified mesh has no faces, or nothing is transferred from the source.
+    /// Null if the simplified mesh has no faces, or at most normals are transferred from the source.
     std::unique_ptr<const SurfaceMap> map;
 
     std::size_t faces() const { return simplified->mesh.triangles.size(); }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "faqem/bake.hpp"
+#include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
