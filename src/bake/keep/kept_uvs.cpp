@@ -22,6 +22,9 @@ using engine::to_eigen;
 // and lit pictures are judged apart: a better surface does not make up for torn colours.
 constexpr double allowed_mean_loss = 0.25, allowed_loss = 0.8;
 
+// The same where new images would have less than an eighth of the resolution: closer views show the difference.
+constexpr double allowed_loss_if_coarse = 2, coarse_share = 1.0 / 64;
+
 // Mean squared difference of a channel that is not seen: 50 dB.
 constexpr double invisible_difference = 1e-5;
 
@@ -35,12 +38,15 @@ std::uint64_t lost_components(const Report& report) {
     return report.components_collapsed + report.components_deleted;
 }
 
-// Whether a part was simplified with UVs as far as without, and lost no more on the way. Coincident faces of
+// By how many times as many components may be lost: which of the smallest ones are is a matter of chance.
+constexpr std::uint64_t allowed_component_factor = 2;
+
+// Whether a part was simplified with UVs as far as without, and lost hardly more on the way. Coincident faces of
 // different colour are one face where UVs are kept.
 bool is_as_complete(const SimplifyResult& kept, const SimplifyResult& free) {
     return !kept.mesh.triangles.empty() && kept.mesh.triangles.size() <= free.mesh.triangles.size() &&
            kept.report.faces_dropped <= free.report.faces_dropped &&
-           lost_components(kept.report) <= lost_components(free.report);
+           lost_components(kept.report) <= allowed_component_factor * lost_components(free.report);
 }
 
 // Sets of parts that share images.
@@ -63,6 +69,7 @@ engine::UnionFind image_sharing_parts(const Asset& asset) {
 struct ExpectedPages {
     std::vector<double> texels;
     std::vector<std::uint8_t> has_normal_map;
+    std::vector<double> share;  // of the texels of the source, at most 1
 };
 
 ExpectedPages expected_pages(const BakeJob& job, const SourceSampler& sampler) {
@@ -93,13 +100,15 @@ ExpectedPages expected_pages(const BakeJob& job, const SourceSampler& sampler) {
         }
     }
     ExpectedPages result{std::vector<double>(job.parts.size(), 0),
-                         std::vector<std::uint8_t>(job.parts.size(), 0)};
+                         std::vector<std::uint8_t>(job.parts.size(), 0),
+                         std::vector<double>(job.parts.size(), 1)};
     const double side = job.options.bake.texture_size;
     for (std::size_t g = 0; g < faces.size(); ++g) {
         const bool normal_map = wants_normal_map(job, groups.groups[g], faces[g]);
         const double share = std::min(1.0, usual_fill * side * side / needed[g]);
         for (const PageFace& face : faces[g]) {
             if (normal_map) result.has_normal_map[face.part] = 1;
+            result.share[face.part] = std::min(result.share[face.part], share);
             const double spacing = std::sqrt(area[face.part] / (texels[face.part] * share));
             if (spacing > result.texels[face.part] && std::isfinite(spacing))
                 result.texels[face.part] = spacing;
@@ -114,7 +123,7 @@ double lost_psnr(double kept, double baked, std::uint64_t points) {
     return 10 * std::log10((kept + invisible) / (baked + invisible));
 }
 
-bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses) {
+bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses, bool is_coarse) {
     std::array<double, 2> sum{};  // unlit, lit
     double worst = 0;
     for (const auto& [kept, baked] : losses) {
@@ -125,9 +134,8 @@ bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses) {
             worst = std::max(worst, lost[k]);
         }
     }
-    return *std::max_element(sum.begin(), sum.end()) / static_cast<double>(losses.size()) <=
-               allowed_mean_loss &&
-           worst <= allowed_loss;
+    const double mean = *std::max_element(sum.begin(), sum.end()) / static_cast<double>(losses.size());
+    return is_coarse ? worst <= allowed_loss_if_coarse : mean <= allowed_mean_loss && worst <= allowed_loss;
 }
 
 // The parts with faces by set, without those whose set has a part that cannot keep its UVs.
@@ -186,7 +194,10 @@ std::vector<Index> good_parts(BakeJob& job, const BakeJob& kept,
     const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
     std::vector<Index> result;
     for (const std::vector<Index>& set : sets) {
-        if (shows_single_texels(job.source, set) || is_as_good(compare_pictures(scenes, set, size)))
+        const bool is_coarse =
+            std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });
+        if (shows_single_texels(job.source, set) ||
+            is_as_good(compare_pictures(scenes, set, size), is_coarse))
             result.insert(result.end(), set.begin(), set.end());
     }
     return result;

@@ -75,7 +75,7 @@ MotionRounding motion_rounding(const Asset& asset, const Part& part) {
     const double of_positions = 2.5e-7 * largest(part.positions);
     for (const MorphTarget& target : part.morph_targets)
         rounding.shift.push_back(1e-6 * largest(target.positions) + of_positions);
-    if (!asset.source || part.source >= array_size(asset.source->document, "meshes")) return rounding;
+    if (!asset.source || part.source >= member(asset.source->document, "meshes").size()) return rounding;
     const Json& document = asset.source->document;
     const auto step = [&](const Json& attributes, const char* name) {
         const Index accessor = index_member(attributes, name);

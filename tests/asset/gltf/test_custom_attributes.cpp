@@ -69,6 +69,7 @@ TEST_CASE("EXT_mesh_features keeps the feature ids that are vertex attributes") 
     const Asset asset = load_glb(builder);
     const TemporaryFolder folder;
     const std::vector<std::string> losses = save(asset, folder / "b.gltf");
+    CAPTURE(losses);
     REQUIRE(losses.size() == 1);
     CHECK(losses[0].find("feature ids that are not in vertex attributes") != std::string::npos);
     const Json out = Json::parse(get(folder / "b.gltf"));

@@ -14,9 +14,9 @@ namespace faqem::detail {
 namespace {
 
 /// Extensions whose references are remapped, or that have no references.
-constexpr std::array<std::string_view, 7> remapped_extensions = {
+constexpr std::array<std::string_view, 8> remapped_extensions = {
     instancing_name, "EXT_lights_image_based", "EXT_texture_webp", "EXT_lights_ies", "MSFT_texture_dds",
-    "MSFT_lod",      "EXT_mesh_manifold"};
+    "MSFT_lod",      "EXT_mesh_manifold",      "EXT_mesh_features"};
 
 Index morph_target_count(const GltfWriter& writer, const Json& node) {
     const Index mesh = index_member(node, "mesh");
