@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -20,16 +21,16 @@ inline constexpr const char* meshopt_name = "EXT_meshopt_compression";
 inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
 
 /// object[key], or null if `object` is not an object or has no such key.
-const Json& member(const Json& object, const char* key);
+FAQEM_EXPORT const Json& member(const Json& object, const char* key);
 
 /// Number of elements of the array object[key]; 0 if there is none.
 std::uint64_t array_size(const Json& object, const char* key);
 
 /// The index stored under `key`, or no_index if absent. \pre the document was validated
-Index index_member(const Json& object, const char* key);
+FAQEM_EXPORT Index index_member(const Json& object, const char* key);
 
 /// The unsigned number stored under `key`, or `fallback`. \pre the document was validated
-std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t fallback);
+FAQEM_EXPORT std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t fallback);
 
 /// The string stored under `key`, or an empty string.
 std::string string_member(const Json& object, const char* key);

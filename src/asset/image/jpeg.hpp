@@ -6,6 +6,7 @@
 #include <string>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -39,6 +40,6 @@ struct JpegRounding {
 };
 
 /// The same with steps instead of a quality.
-Image write_jpeg(const Pixels& pixels, const std::string& name, const JpegRounding& rounding);
+FAQEM_EXPORT Image write_jpeg(const Pixels& pixels, const std::string& name, const JpegRounding& rounding);
 
 }  // namespace faqem::detail

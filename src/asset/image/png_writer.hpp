@@ -5,6 +5,7 @@
 #include <string>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -17,6 +18,6 @@ namespace faqem::detail {
 ///                        2 max_difference + 1 and compress better. Alpha does not change. This is the near-lossless
 ///                        mode of JPEG-LS (ISO/IEC 14495-1, A.4.4), with the filters as predictors
 /// O(pixels)
-Image write_png(const Pixels& pixels, const std::string& name, int max_difference = 0);
+FAQEM_EXPORT Image write_png(const Pixels& pixels, const std::string& name, int max_difference = 0);
 
 }  // namespace faqem::detail

@@ -30,7 +30,7 @@ struct Settings {
 
 /// The settings of a preset with the weights and topology options applied.
 /// \pre options are valid
-Settings settings(const Options& options);
+FAQEM_EXPORT Settings settings(const Options& options);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END
