@@ -179,8 +179,8 @@ constexpr bool has_image_quality(ImageFormat format) {
 enum class Compression {
     source,  ///< `meshopt` if the source has it, else `none`
     none,
-    /// EXT_meshopt_compression, which viewers must know. Normals and tangents are rounded to multiples of 2^-11, texture
-    /// coordinates to 2^-15; positions and all else are exact.
+    /// EXT_meshopt_compression, which viewers must know. Normals and tangents are rounded to multiples of 2^-11, UVs
+    /// to 2^-15; positions and all else are exact.
     meshopt,
 };
 

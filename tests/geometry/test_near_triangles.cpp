@@ -1,9 +1,9 @@
 #include "faqem/detail/geometry/near_triangles.hpp"
 
 #include <cmath>
-#include <random>
 
 #include "support/catch.hpp"
+#include "support/meshes.hpp"
 
 using faqem::Index;
 using faqem::no_index;
@@ -11,20 +11,15 @@ using faqem::detail::closest_point_on_triangle;
 using faqem::detail::ClosestPoint;
 using faqem::detail::NearTriangles;
 using faqem::engine::Vector3;
+using faqem::test::Random;
 
 namespace {
 
-class Random {
-public:
-    double unit() { return engine_() / 4294967296.0; }
-    Vector3 point() {
-        const double x = unit() - 0.5, y = unit() - 0.5, z = unit() - 0.5;
-        return {x, y, z};
-    }
-
-private:
-    std::mt19937 engine_{7};
-};
+// In the unit cube around the origin.
+Vector3 random_point(Random& random) {
+    const double x = random.unit() - 0.5, y = random.unit() - 0.5, z = random.unit() - 0.5;
+    return {x, y, z};
+}
 
 // Triangles of sizes from 0.01 to 100 around a point; every sixth is a segment, a point or a needle.
 std::vector<NearTriangles::Entry> soup(Random& random, std::size_t count, const Vector3& around,
@@ -32,8 +27,8 @@ std::vector<NearTriangles::Entry> soup(Random& random, std::size_t count, const 
     std::vector<NearTriangles::Entry> result;
     for (std::size_t i = 0; i < count; ++i) {
         const double size = std::pow(10.0, 4 * random.unit() - 2);
-        const Vector3 a = around + scale * random.point(), b = a + scale * size * random.point();
-        Vector3 c = a + scale * size * random.point();
+        const Vector3 a = around + scale * random_point(random), b = a + scale * size * random_point(random);
+        Vector3 c = a + scale * size * random_point(random);
         if (i % 6 == 0) c = i % 12 == 0 ? a : Vector3(a + 0.3 * (b - a) + 1e-7 * (c - a));
         result.push_back({a, i % 24 == 0 ? a : b, c, static_cast<Index>(1000 - 7 * i), i % 2 == 0});
     }
@@ -65,20 +60,20 @@ std::vector<NearTriangles::Entry> within(const std::vector<NearTriangles::Entry>
 }  // namespace
 
 TEST_CASE("near triangles: a result is that of all triangles, bit by bit") {
-    Random random;
+    Random random(7);
     std::size_t found = 0, queries = 0;
     for (const double scale : {1.0, 1e-12, 1e12}) {
         for (const double offset : {0.0, 1e3, 1e9}) {
             for (int repetition = 0; repetition < 30; ++repetition) {
                 const Vector3 around = Vector3(1, -2, 3) * offset * scale;
                 const auto all = soup(random, 40, around, scale);
-                const Vector3 centre = around + scale * random.point();
+                const Vector3 centre = around + scale * random_point(random);
                 const double radius = 0.1 * scale;
                 const double reach = std::sqrt(brute_force(all, centre).at.distance_squared) + 2 * radius;
                 NearTriangles near;
                 near.reset(centre, reach, within(all, centre, reach));
                 for (int i = 0; i < 20; ++i, ++queries) {
-                    const Vector3 p = centre + 1.1 * radius * random.point();
+                    const Vector3 p = centre + 1.1 * radius * random_point(random);
                     const auto hit = near.closest(p);
                     if (!hit) continue;
                     ++found;
@@ -133,21 +128,21 @@ TEST_CASE("near triangles: a list that cannot be searched stays empty") {
 }
 
 TEST_CASE("near triangles: a narrowed list gives the same results") {
-    Random random;
+    Random random(7);
     std::size_t found = 0, queries = 0, sizes = 0;
     for (int repetition = 0; repetition < 100; ++repetition) {
         const auto all = soup(random, 60, {0, 0, 0}, 1);
-        const Vector3 centre = random.point();
+        const Vector3 centre = random_point(random);
         const double reach = std::sqrt(brute_force(all, centre).at.distance_squared) + 0.4;
         NearTriangles large, small;
         large.reset(centre, reach, within(all, centre, reach));
-        const Vector3 inner = centre + 0.1 * random.point();
+        const Vector3 inner = centre + 0.1 * random_point(random);
         large.narrow(inner, 0.05, small);
         REQUIRE_FALSE(small.empty());
         CHECK(small.size() <= large.size());
         sizes += large.size() - small.size();
         for (int i = 0; i < 20; ++i, ++queries) {
-            const Vector3 p = inner + 0.05 * random.point();
+            const Vector3 p = inner + 0.05 * random_point(random);
             const auto hit = small.closest(p);
             if (!hit) continue;
             ++found;

@@ -12,8 +12,8 @@
 
 namespace faqem::test {
 
-/// Every face with three vertices of its own. Each coordinate is off by up to `units` times the rounding of a float of the
-/// size of the largest coordinate, and rounded to a float.
+/// Every face with three vertices of its own. Each coordinate is off by up to `units` times the rounding of a float
+/// of the size of the largest coordinate, and rounded to a float.
 inline TriangleMesh float_soup(const TriangleMesh& mesh, double units) {
     double largest = 0;
     for (const Vec3& p : mesh.positions)

@@ -44,8 +44,9 @@ std::vector<std::string> write_gltf(const Asset& asset, const std::filesystem::p
 /// \throws WriteError  if the GLB exceeds 4 GiB, or a position exceeds the range of float
 FAQEM_EXPORT std::vector<std::uint8_t> encode_glb(const Asset& asset);
 
-/// Lists the instances in the default scene: the first scene if no default is set, all root nodes if there is
-/// no scene. Those of EXT_mesh_gpu_instancing follow each other. Parts without a source mesh follow, with the identity transform.
+/// Lists the instances in the default scene: the first scene if no default is set, all root nodes if there is no
+/// scene. Those of EXT_mesh_gpu_instancing follow each other. Parts without a source mesh follow, with the identity
+/// transform.
 /// \pre asset.source is set
 std::vector<Instance> gltf_instances(const Asset& asset);
 

@@ -14,10 +14,10 @@ struct KeptPart {
     bool keeps_images = false;  ///< whether its images stay as they are
 };
 
-/// Adds the images of parts that keep their UVs to the pending ones, so that they are encoded again; only the
-/// texels that the parts show count for their loss. An image with a side of more than BakeOptions::texture_size texels is halved first. Images stay as they are
-/// if another part keeps its images, or if it is not known what they hold. Images that are shown with
-/// Filter::nearest keep their resolution.
+/// Adds the images of parts that keep their UVs to the pending ones, so that they are encoded again; only the texels
+/// that the parts show count for their loss. An image with a side of more than BakeOptions::texture_size texels is
+/// halved first. Images stay as they are if another part keeps its images, or if it is not known what they hold.
+/// Images that are shown with Filter::nearest keep their resolution.
 /// \param parts  all parts of the result that were not baked
 /// Complexity: that of decoding each image, and O(faces).
 void add_kept_images(BakeJob& job, std::span<const KeptPart> parts);

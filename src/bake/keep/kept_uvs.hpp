@@ -20,12 +20,12 @@ struct KeptUvs {
 };
 
 /// Compares pictures of SimplifiedParts::kept with those of perfect new images. Parts that share images are accepted
-/// together: if each of them has reached the face count of its simplification without UVs and lost no more
-/// faces and hardly more components, and if pictures of them have a PSNR at most 0.8 dB lower, and 0.25 dB in the mean of small and
-/// large ones (unlit and lit pictures each), 2 dB where new images would have less than an eighth of the resolution, or
-/// if their textures are shown without filter.
-/// Accepted parts are skipped in the job, and their simplified meshes and reports are those with UVs. If the time is
-/// over before the comparison is complete, no part is accepted.
+/// together: if each of them has reached the face count of its simplification without UVs and lost no more faces and
+/// hardly more components, and if pictures of them have a PSNR at most 0.8 dB lower, and 0.25 dB in the mean of small
+/// and large ones (unlit and lit pictures each), 2 dB where new images would have less than an eighth of the
+/// resolution, or if their textures are shown without filter. Accepted parts are skipped in the job, and their
+/// simplified meshes and reports are those with UVs. If the time is over before the comparison is complete, no part
+/// is accepted.
 /// \param job         after map_parts()
 /// \param simplified  must outlive the job
 /// \throws engine::Cancelled

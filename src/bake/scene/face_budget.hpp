@@ -18,8 +18,8 @@ namespace faqem::detail {
 /// Complexity: O(faces).
 std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t target_faces);
 
-/// The number of faces below which budget_by_cost() reduces only flat parts: a share of the faces that a part would have
-/// in proportion to the face counts.
+/// The number of faces below which budget_by_cost() reduces only flat parts: a share of the faces that a part would
+/// have in proportion to the face counts.
 inline constexpr double min_share = 0.65;
 
 /// The faces that each part would have in proportion to the face counts, times the share of its vertices that are not

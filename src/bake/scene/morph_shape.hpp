@@ -14,8 +14,8 @@ namespace faqem::detail {
 /// Whether a part has morph targets with displacements that are not all zero. O(vertices)
 bool has_displacements(const Part& part);
 
-/// The curve for the face budget of a part with displacements: that of the part at rest unless it is flat down to `faces`
-/// faces; then, that of the first morph target, at weight 1, in which it is not.
+/// The curve for the face budget of a part with displacements: that of the part at rest unless it is flat down to
+/// `faces` faces; then, that of the first morph target, at weight 1, in which it is not.
 /// \param rest     of cost_curve() for `mesh`
 /// \param part     has_displacements()
 /// \param mesh     the part as the input of the engine

@@ -14,9 +14,8 @@ struct MotionRounding {
     std::vector<double> shift;  ///< by morph target: of a component of a displacement, model units
 };
 
-/// The rounding of the joint weights and the displacements of a part: that of the accessors in its source document, or of
-/// floats.
-/// Complexity: O(vertices)
+/// The rounding of the joint weights and the displacements of a part: that of the accessors in its source document,
+/// or of floats. Complexity: O(vertices)
 MotionRounding motion_rounding(const Asset& asset, const Part& part);
 
 /// Welds the vertices of a part by position and motion.

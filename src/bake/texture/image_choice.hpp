@@ -22,8 +22,8 @@ struct ImageLimits {
     bool tries_webp = false;
 };
 
-/// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 4 less for roughness
-/// and other data, but not less than 30 if colours have more (docs/measurements/appearance.md, "Image formats"). Normals
+/// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 4 less for roughness and
+/// other data, but not less than 30 if colours have more (docs/measurements/appearance.md, "Image formats"). Normals
 /// are between, since their errors show in reflections.
 /// \param roughness  of the surface, in [0, 1]; for normals
 double least_psnr(const BakeOptions& bake, TextureContent content, double roughness);

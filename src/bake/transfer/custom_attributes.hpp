@@ -9,13 +9,13 @@
 
 namespace faqem::detail {
 
-/// Whether the values of an attribute are copied from a vertex, and not interpolated: those of integers and of feature ids
-/// (`_BATCHID`, `_FEATURE_ID_n`), whatever their type.
+/// Whether the values of an attribute are copied from a vertex, and not interpolated: those of integers and of
+/// feature ids (`_BATCHID`, `_FEATURE_ID_n`), whatever their type.
 bool is_copied(const CustomAttribute& attribute);
 
-/// Custom attributes at the corners of the simplified mesh.
-/// Copied values are those of the vertex, among those of the source face, that is closest to the corner. Interpolated ones
-/// that differ by less than 1e-4 of the range of the attribute at a vertex are equal there.
+/// Custom attributes at the corners of the simplified mesh. Copied values are those of the vertex, among those of the
+/// source face, that is closest to the corner. Interpolated ones that differ by less than 1e-4 of the range of the
+/// attribute at a vertex are equal there.
 /// \return the attributes of the source with values by corner; none if there is no map
 /// \throws whatever `check_cancelled` throws
 /// Complexity: O(corners) map queries

@@ -26,7 +26,8 @@ Part bending_sheet() {
     return part;
 }
 
-// The largest vertical distance of the posed result from the surface, over the centroids and edge midpoints of its faces.
+// The largest vertical distance of the posed result from the surface, over the centroids and edge midpoints of its
+// faces.
 double largest_error(const Part& part) {
     double most = 0;
     for (const Triangle& t : part.triangles) {

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::uint32_t u16 = 5123, f32 = 5126;
 
-// A wavy sheet of 800 faces in two halves with vertices of their own: feature 7 for x < 10, 9 beyond. `_HEIGHT` is x + 2 y.
+// A wavy sheet of 800 faces in two halves with vertices of their own: feature 7 for x < 10, 9 beyond. `_HEIGHT` is x
+// + 2 y.
 Part two_features() {
     Part part = test::sheet(20, [](double x, double y) {
         return Vec3{x, y, std::sin(0.4 * x) + std::cos(0.5 * y)};

@@ -65,11 +65,6 @@ Index split_mesh_node(GltfWriter& writer, Index node) {
     return index;
 }
 
-/// Number of morph targets of a mesh; 0 if there is no mesh.
-std::uint64_t morph_targets_of(const Json& document, Index mesh) {
-    return mesh == no_index ? 0 : array_size(document["meshes"][mesh]["primitives"][0], "targets");
-}
-
 /// Lets the animations of the morph weights of a node move another node, too.
 void copy_weight_channels(Json& document, Index from, Index to) {
     if (!document.contains("animations")) return;
@@ -122,8 +117,8 @@ void attach_levels(GltfWriter& writer, const LeveledAsset& leveled, const std::v
             const Index level_mesh = mesh[level * leveled.parts_per_level + part];
             Json node = level_node(writer, writer.out["nodes"][mesh_node], level_mesh, level);
             const Index level_index = append(writer, "nodes", std::move(node));
-            const std::uint64_t targets = morph_targets_of(writer.out, level_mesh);
-            if (targets > 0 && targets == morph_targets_of(writer.out, node_mesh))
+            const Index targets = morph_target_count(writer, level_mesh);
+            if (targets > 0 && targets == morph_target_count(writer, node_mesh))
                 copy_weight_channels(writer.out, mesh_node, level_index);
             ids.push_back(level_index);
         }

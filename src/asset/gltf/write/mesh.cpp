@@ -164,8 +164,8 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
     return append(writer, "meshes", std::move(mesh));
 }
 
-/// Keeps the feature ids of EXT_mesh_features that are vertex attributes of the part. Those in textures, and the numbers
-/// of vertices, are left out with a warning.
+/// Keeps the feature ids of EXT_mesh_features that are vertex attributes of the part. Those in textures, and the
+/// numbers of vertices, are left out with a warning.
 /// \return whether any are left
 bool keep_feature_ids(GltfWriter& writer, const Part& part, Json& extensions) {
     if (!member(member(extensions, features_name), "featureIds").is_array()) return false;

@@ -23,6 +23,15 @@ constexpr int direction_exponent = -11, texture_coordinate_exponent = -15;
 // Mantissas have 24 bits with their sign.
 constexpr float max_mantissa = (1 << 23) - 1;
 
+// The versions are global in meshoptimizer: they are set once, since files may be written by several threads.
+void set_codec_versions() {
+    [[maybe_unused]] static const bool is_set = [] {
+        meshopt_encodeVertexVersion(vertex_codec_version);
+        meshopt_encodeIndexVersion(index_codec_version);
+        return true;
+    }();
+}
+
 // Floats as multiples of 2^exponent, in the layout of the filter EXPONENTIAL; nothing if one is out of range.
 std::optional<std::vector<std::uint8_t>> rounded_floats(std::span<const std::uint8_t> bytes, int exponent) {
     std::vector<std::uint8_t> result(bytes.size());
@@ -66,8 +75,7 @@ std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t> bytes
                                              AccessorUse use) {
     constexpr std::uint64_t max_stride = 256;
     if (bytes.empty()) return std::nullopt;
-    meshopt_encodeVertexVersion(vertex_codec_version);
-    meshopt_encodeIndexVersion(index_codec_version);
+    set_codec_versions();
     std::optional<CompressedView> view;
     if (use == AccessorUse::triangles && bytes.size() / stride % 3 == 0)
         view = encoded_triangles(bytes, stride);

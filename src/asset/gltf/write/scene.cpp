@@ -18,15 +18,6 @@ constexpr std::array<std::string_view, 8> remapped_extensions = {
     instancing_name, "EXT_lights_image_based", "EXT_texture_webp", "EXT_lights_ies", "MSFT_texture_dds",
     "MSFT_lod",      "EXT_mesh_manifold",      "EXT_mesh_features"};
 
-Index morph_target_count(const GltfWriter& writer, const Json& node) {
-    const Index mesh = index_member(node, "mesh");
-    if (mesh == no_index) return 0;
-    Index targets = 0;
-    for (const Json& primitive : member(writer.out, "meshes")[mesh]["primitives"])
-        targets = std::max(targets, static_cast<Index>(array_size(primitive, "targets")));
-    return targets;
-}
-
 bool is_skinned(const GltfWriter& writer, Index mesh) {
     for (const Json& primitive : member(writer.out, "meshes")[mesh]["primitives"])
         if (primitive["attributes"].contains("JOINTS_0")) return true;
@@ -68,7 +59,7 @@ void update_node(GltfWriter& writer, Json& node) {
         writer.warnings.push_back("node '" + string_member(node, "name") +
                                   "': its mesh no longer has joints; the skin was left out");
     }
-    if (node.contains("weights") && array_size(node, "weights") != morph_target_count(writer, node))
+    if (node.contains("weights") && array_size(node, "weights") != morph_target_count(writer, mesh))
         node.erase("weights");
 }
 
@@ -121,7 +112,7 @@ bool update_channel(GltfWriter& writer, Json& channel) {
     Json& target = channel["target"];
     const Index node = index_member(target, "node");
     if (string_member(target, "path") == "weights" && node != no_index &&
-        morph_target_count(writer, writer.out["nodes"][node]) == 0)
+        morph_target_count(writer, index_member(writer.out["nodes"][node], "mesh")) == 0)
         return false;
     const Json& pointer = member(member(target, "extensions"), "KHR_animation_pointer");
     if (!pointer.contains("pointer")) return true;
@@ -187,6 +178,14 @@ void warn_about_unknown_extensions(GltfWriter& writer) {
 }
 
 }  // namespace
+
+Index morph_target_count(const GltfWriter& writer, Index mesh) {
+    if (mesh == no_index) return 0;
+    Index targets = 0;
+    for (const Json& primitive : member(writer.out, "meshes")[mesh]["primitives"])
+        targets = std::max(targets, static_cast<Index>(array_size(primitive, "targets")));
+    return targets;
+}
 
 void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes) {
     if (writer.out.contains("nodes"))

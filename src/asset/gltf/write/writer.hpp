@@ -82,6 +82,9 @@ void write_part(GltfWriter& writer, const Part& part, Json& primitives);
 /// \param new_meshes  receives the output meshes of parts without a source mesh
 void write_meshes(GltfWriter& writer, std::vector<Index>& new_meshes);
 
+/// Number of morph targets of an output mesh: the most of its primitives; 0 for no_index.
+Index morph_target_count(const GltfWriter& writer, Index mesh);
+
 /// Writes nodes, skins and animations, and remaps the references of extensions.
 /// \param new_meshes  output meshes that get new nodes
 void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes);
