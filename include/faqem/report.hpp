@@ -109,6 +109,12 @@ struct ResultImage {
     std::uint64_t bytes = 0;              ///< encoded
 };
 
+/// A buffer view of the result.
+struct ResultView {
+    std::string content;      ///< what it stores, for example "POSITION" or "indices"; several are separated by commas
+    std::uint64_t bytes = 0;  ///< as stored, possibly compressed
+};
+
 /// Summary of one run. Counts are sums if several meshes were simplified.
 struct Report {
     Preset preset = Preset::balanced;
@@ -139,6 +145,10 @@ struct Report {
     std::vector<std::string> kept_uvs;
     std::vector<std::string> warnings;
     std::vector<ResultImage> images;  ///< of the result, in the order of Asset::images
+    /// Buffer views of a glTF file without those of images. Set by the command.
+    std::vector<ResultView> buffer_views;
+    /// What the command gave up so that the result has no more bytes than the input, also in a warning.
+    std::vector<std::string> given_up;
     /// Total size of the files of the model before and after, without those of history and correspondence. Set by
     /// the command; 0: unknown.
     std::uint64_t bytes_in = 0, bytes_out = 0;

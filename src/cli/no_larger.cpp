@@ -75,6 +75,7 @@ SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simpl
         }
         if (!given_up.empty())
             report.warnings.push_back("given up, to have no more bytes than the input: " + joined(given_up));
+        report.given_up = given_up;
         if (is_larger)
             report.warnings.push_back("the result has " + std::to_string(size.total()) +
                                       " bytes, more than the input with " + std::to_string(rule.bytes_in));

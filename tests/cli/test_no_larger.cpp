@@ -74,6 +74,8 @@ TEST_CASE("images that were asked for are not given up, with a warning") {
         "simplify in.glb out.glb --ratio 0.5 --image-quality 40 --quiet --report r.json";
     REQUIRE(run(folder, asked).code == 0);
     CHECK(read(folder / "out.glb") == read(folder / "larger.glb"));
+    CHECK(read(folder / "r.json").find("\"given_up\": []") != std::string::npos);
+    CHECK(read(folder / "r.json").find("\"content\": \"POSITION\"") != std::string::npos);
     CHECK(read(folder / "r.json").find("bytes, more than the input with ") != std::string::npos);
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "asset/file_format.hpp"
+#include "asset/gltf/buffer_views.hpp"
 #include "asset/model_files.hpp"
 #include "cli/byte_budget.hpp"
 #include "cli/commands/commands.hpp"
@@ -153,6 +154,9 @@ void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& sim
     const std::vector<std::string> save_warnings =
         save(simplified.asset, arguments.out, arguments.overwrite());
     simplified.report.bytes_out = set.bytes();
+    const detail::FileFormat* const format = detail::format_by_name(arguments.out);
+    if (!arguments.report.empty() && format && format->is_gltf)
+        simplified.report.buffer_views = detail::buffer_views(set.stored_at(arguments.out));
     if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
     if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
     simplified.report.warnings.insert(simplified.report.warnings.end(), save_warnings.begin(),

@@ -72,6 +72,13 @@ inline nlohmann::ordered_json images_json(const Report& report) {
     return json;
 }
 
+inline nlohmann::ordered_json buffer_views_json(const Report& report) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const ResultView& view : report.buffer_views)
+        json.push_back({{"content", view.content}, {"bytes", view.bytes}});
+    return json;
+}
+
 }  // namespace detail
 
 FAQEM_INLINE std::string to_json(const Report& report) {
@@ -106,8 +113,10 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["virtual_edges"] = report.virtual_edges;
     json["pages"] = detail::pages_json(report);
     json["images"] = detail::images_json(report);
+    json["buffer_views"] = detail::buffer_views_json(report);
     json["bytes_in"] = report.bytes_in;
     json["bytes_out"] = report.bytes_out;
+    json["given_up"] = report.given_up;
     json["untouched_parts"] = report.untouched_parts;
     json["kept_uvs"] = report.kept_uvs;
     json["warnings"] = report.warnings;
