@@ -49,8 +49,10 @@ struct BakeOptions {
     ImageFormat image_format = ImageFormat::automatic;
     /// Least PSNR of colours in a baked image of ImageFormat::automatic or webp, in dB, in [20, 80]; of other data 4 dB
     /// less, down to 30, of normals between, by roughness. 40 allows errors of 1% of the range of values, or 2 degrees
-    /// of a normal. Measured against the image before it is encoded.
-    double image_quality = 40;
+    /// of a normal. Measured against the image before it is encoded. Unset: 40, or up to 4 dB more or 2 dB less, so
+    /// that images are about as good as the pictures of the model can be with its faces, where Bake::automatic has
+    /// compared these.
+    std::optional<double> image_quality = {};
     std::uint32_t jpeg_quality = 90;  ///< in [1, 100]
     UntouchedParts untouched = UntouchedParts::automatic;
     /// Whether to record SimplifiedAsset::correspondence; needs a new atlas.

@@ -28,10 +28,16 @@ bool is_image(const fs::path& file) {
     return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp";
 }
 
+// "within N dB" if a quality was chosen.
+std::string quality_name(const BakeOptions& bake) {
+    if (!bake.image_quality) return "of the usual quality";
+    return "within " + std::to_string(static_cast<int>(*bake.image_quality)) + " dB";
+}
+
 std::string encoding_name(const BakeOptions& bake) {
     switch (bake.image_format) {
         case ImageFormat::automatic:
-            return "within " + std::to_string(static_cast<int>(bake.image_quality)) + " dB";
+            return quality_name(bake);
         case ImageFormat::png:
             return "PNG";
         case ImageFormat::jpeg:
@@ -39,7 +45,7 @@ std::string encoding_name(const BakeOptions& bake) {
         case ImageFormat::source:
             return "format of the source";
         case ImageFormat::webp:
-            return "WebP within " + std::to_string(static_cast<int>(bake.image_quality)) + " dB";
+            return "WebP " + quality_name(bake);
     }
     return {};
 }
@@ -105,7 +111,8 @@ private:
     // Selects the next smaller image quality or size. Returns false if there is none.
     bool reduce_image_size() {
         BakeOptions& bake = options_.bake;
-        if (has_image_quality(bake.image_format) && bake.image_quality > low_image_quality) {
+        const bool is_lower = bake.image_quality && *bake.image_quality <= low_image_quality;
+        if (has_image_quality(bake.image_format) && !is_lower) {
             bake.image_quality = low_image_quality;
             return true;
         }

@@ -24,7 +24,7 @@ std::string give_up_next(detail::UnencodedResult& result, BakeOptions& bake) {
         return "the normal map, which the source does not have";
     if (!has_image_quality(bake.image_format)) return {};
     for (const double quality : lower_qualities) {
-        if (!(bake.image_quality > quality)) continue;
+        if (bake.image_quality && !(*bake.image_quality > quality)) continue;
         bake.image_quality = quality;
         return "image quality (" + std::to_string(static_cast<int>(quality)) + " dB)";
     }

@@ -20,6 +20,11 @@ enum class TextureContent {
     normal,           ///< tangent-space normal
 };
 
+/// Whether the texture has sRGB colours.
+constexpr bool is_color(TextureContent content) {
+    return content == TextureContent::color || content == TextureContent::color_and_alpha;
+}
+
 /// A texture of a material extension.
 struct KnownTexture {
     std::string_view extension, name;

@@ -55,8 +55,7 @@ void add_use(ImageUse& use, const TextureRef& texture, const TextureContent* con
         use.is_fixed = true;
         return;
     }
-    const bool has_color = *content == TextureContent::color || *content == TextureContent::color_and_alpha;
-    use.is_color = use.is_color || has_color;
+    use.is_color = use.is_color || is_color(*content);
     use.is_normal = use.is_normal || *content == TextureContent::normal;
     use.needs_alpha =
         use.needs_alpha || *content == TextureContent::alpha || *content == TextureContent::color_and_alpha;

@@ -123,6 +123,10 @@ double lost_psnr(double kept, double baked, std::uint64_t points) {
     return 10 * std::log10((kept + invisible) / (baked + invisible));
 }
 
+double psnr(double sum, std::uint64_t points) {
+    return -10 * std::log10(sum / (3 * static_cast<double>(points)) + invisible_difference);
+}
+
 bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses, bool is_coarse) {
     std::array<double, 2> sum{};  // unlit, lit
     double worst = 0;
@@ -193,13 +197,16 @@ std::vector<Index> good_parts(BakeJob& job, const BakeJob& kept,
     const double side = view_points / std::sqrt(static_cast<double>(sets.size()));
     const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
     std::vector<Index> result;
+    PictureLoss total;
     for (const std::vector<Index>& set : sets) {
         const bool is_coarse =
             std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });
-        if (shows_single_texels(job.source, set) ||
-            is_as_good(compare_pictures(scenes, set, size), is_coarse))
-            result.insert(result.end(), set.begin(), set.end());
+        const std::array<KeptAndBakedLoss, 2> losses = compare_pictures(scenes, set, size);
+        const bool is_good = shows_single_texels(job.source, set) || is_as_good(losses, is_coarse);
+        if (is_good) result.insert(result.end(), set.begin(), set.end());
+        total += is_good ? losses.back().kept : losses.back().baked;
     }
+    job.pictures = {psnr(total.unlit, total.points), psnr(total.lit, total.points)};
     return result;
 }
 

@@ -135,6 +135,8 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
         add_kept_parts(job, untouched, std::move(kept));
         set_file_orders(job, untouched);
         keep_objects(job, untouched);
+        for (PendingImage& image : job.pending)
+            image.quality_change = quality_change(job.pictures, image.content);
         job.report_progress(Phase::bake, 1);
     } catch (const engine::Cancelled&) {
         set_cancelled(job.result);

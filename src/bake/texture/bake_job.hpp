@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "bake/texture/image_choice.hpp"
 #include "bake/texture/pending_images.hpp"
 #include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/corners.hpp"
@@ -40,6 +41,7 @@ public:
     DecodedImages images;  ///< those of the source that were needed
     SimplifiedAsset result;
     std::vector<PendingImage> pending;  ///< images of the result that are not encoded yet
+    PicturePsnr pictures;               ///< of the parts that choose_kept_uvs() has compared
     /// Whether the UVs and images of the source are kept because the time was over before new textures were complete.
     bool is_late = false;
 

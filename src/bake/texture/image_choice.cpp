@@ -36,8 +36,18 @@ constexpr double bytes_for_fewer_texels = 1.1;
 // Side of the blocks of ImageLoss, texels.
 constexpr std::uint32_t block_side = 8;
 
+// PSNR of colours if BakeOptions::image_quality is unset.
+constexpr double usual_quality = 40;
+
 // By how many dB a block may be worse than the whole image.
-constexpr double local_allowance = 15;
+constexpr double block_allowance = 15;
+
+// PSNR of an image above that of the pictures, so that it adds little to their error. The pictures are measured at few
+// points, most of the error is at silhouettes.
+constexpr double quality_above_pictures = 8;
+
+// Bounds of quality_change(). Images that are worse by more would be seen to be in closer views.
+constexpr double most_better = 4, most_worse = 2;
 
 // By how many dB an image of roughness and the like may be worse than one of colours, and one of the normals of a
 // rough surface. On glossy ones an error of normals is as visible as one of colours.
@@ -89,7 +99,7 @@ struct LossyEncoding {
     const Pixels& original;
     const Pixels& pixels;  // may have fewer texels
     std::span<const std::uint8_t> known;
-    double quality;
+    ImageQuality quality;
     CancellationCheck check_cancelled;
 
     bool allows(const Image& image) const {
@@ -141,7 +151,7 @@ std::optional<Image> smallest_jpeg(const LossyEncoding& lossy, const std::string
     const auto encode = [&](Chroma chroma) {
         return [&, chroma](std::uint32_t step) { return write_jpeg(lossy.pixels, name, {step, chroma}); };
     };
-    const std::vector<std::uint32_t> all = jpeg_steps(lossy.quality);
+    const std::vector<std::uint32_t> all = jpeg_steps(lossy.quality.whole);
     std::span<const std::uint32_t> steps = all;
     std::optional<Image> best;
     if (content == Content::color) {
@@ -163,7 +173,7 @@ int png_difference(double quality, std::size_t channels) {
 
 // A PNG with the largest sufficient differences; nothing if only a lossless one is sufficient.
 std::optional<Image> near_lossless_png(const LossyEncoding& lossy, const std::string& name) {
-    for (int difference = png_difference(lossy.quality, lossy.pixels.has_alpha ? 4 : 3); difference > 0;
+    for (int difference = png_difference(lossy.quality.whole, lossy.pixels.has_alpha ? 4 : 3); difference > 0;
          --difference) {
         lossy.check_cancelled.now();
         Image image = write_png(lossy.pixels, name, difference);
@@ -198,11 +208,20 @@ Image smallest_at(const LossyEncoding& lossy, const std::string& name, Content c
 
 }  // namespace
 
-double least_psnr(const BakeOptions& bake, TextureContent content, double roughness) {
-    if (content == TextureContent::color || content == TextureContent::color_and_alpha)
-        return bake.image_quality;
-    const double allowance = data_allowance * (content == TextureContent::normal ? roughness : 1);
-    return std::min(bake.image_quality, std::max(bake.image_quality - allowance, least_data_psnr));
+ImageQuality least_quality(const BakeOptions& bake, TextureContent content, double roughness, double change) {
+    const double colors = bake.image_quality.value_or(usual_quality);
+    double usual = colors;
+    if (!is_color(content)) {
+        const double allowance = data_allowance * (content == TextureContent::normal ? roughness : 1);
+        usual = std::min(colors, std::max(colors - allowance, least_data_psnr));
+    }
+    return {bake.image_quality ? usual : usual + change, usual - block_allowance};
+}
+
+double quality_change(const PicturePsnr& pictures, TextureContent content) {
+    const double shown = is_color(content) ? std::max(pictures.unlit, pictures.lit) : pictures.lit;
+    if (!std::isfinite(shown)) return 0;
+    return std::clamp(shown + quality_above_pictures - usual_quality, -most_worse, most_better);
 }
 
 ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {
@@ -239,8 +258,8 @@ ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<cons
             psnr_of(worst / (n * block_side * block_side))};
 }
 
-bool is_within(const ImageLoss& loss, double quality) {
-    return loss.psnr >= quality && loss.worst_psnr >= quality - local_allowance;
+bool is_within(const ImageLoss& loss, const ImageQuality& quality) {
+    return loss.psnr >= quality.whole && loss.worst_psnr >= quality.block;
 }
 
 Pixels halved(const Pixels& pixels) {

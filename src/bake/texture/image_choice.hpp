@@ -3,6 +3,7 @@
 /// Encoding and resolution of baked images, chosen by the measured loss.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -14,19 +15,37 @@
 
 namespace faqem::detail {
 
+/// Least PSNR, in dB: of a whole image, and of each of its blocks, so that errors are not concentrated where they would
+/// be seen, such as at the seams of charts.
+struct ImageQuality {
+    double whole, block;
+};
+
 /// How far encode_smallest() may go.
 struct ImageLimits {
-    double quality;          ///< least PSNR in dB
+    ImageQuality quality;
     bool may_shrink = true;  ///< whether the result may have fewer texels
     bool tries_core = true;  ///< whether PNG and JPEG are tried, which glTF has without extensions
     bool tries_webp = false;
 };
 
-/// Least PSNR of an image of ImageFormat::automatic, in dB: BakeOptions::image_quality, and 4 less for roughness and
-/// other data, but not less than 30 if colours have more (docs/measurements/appearance.md, "Image formats"). Normals
-/// are between, since their errors show in reflections.
+/// Least PSNR of an image of ImageFormat::automatic: BakeOptions::image_quality, and 4 dB less for roughness and other
+/// data, but not less than 30 if colours have more (docs/measurements/appearance.md, "Image formats"). Normals are
+/// between, since their errors show in reflections. That of a block is 15 dB less.
 /// \param roughness  of the surface, in [0, 1]; for normals
-double least_psnr(const BakeOptions& bake, TextureContent content, double roughness);
+/// \param change     quality_change() for the whole image, dB; ignored if BakeOptions::image_quality is set
+ImageQuality least_quality(const BakeOptions& bake, TextureContent content, double roughness,
+                           double change = 0);
+
+/// PSNR of pictures of the result with perfect images, in dB; NaN where it was not measured.
+struct PicturePsnr {
+    double unlit = std::numeric_limits<double>::quiet_NaN();
+    double lit = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// By how many dB images should be better than usual, since pictures of the result show their errors, or may be worse,
+/// since these are small beside those of the faces: in [-2, 4]. 0 if pictures were not measured.
+double quality_change(const PicturePsnr& pictures, TextureContent content);
 
 /// Peak signal-to-noise ratios, in dB; infinity if nothing differs.
 struct ImageLoss {
@@ -42,9 +61,8 @@ struct ImageLoss {
 /// Complexity: O(texels of `original`).
 ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known);
 
-/// Whether a loss is acceptable: the PSNR is at least `quality`, and that of each block at least `quality` - 15,
-/// so that errors are not concentrated where they would be seen, such as at the seams of charts.
-bool is_within(const ImageLoss& loss, double quality);
+/// Whether a loss is acceptable. NaN is not.
+bool is_within(const ImageLoss& loss, const ImageQuality& quality);
 
 /// Averages blocks of 2 x 2 texels. \pre the sides are even
 Pixels halved(const Pixels& pixels);

@@ -7,18 +7,16 @@
 namespace faqem::detail {
 namespace {
 
-Content encoded_content(TextureContent content) {
-    return content == TextureContent::color || content == TextureContent::color_and_alpha ? Content::color
-                                                                                          : Content::data;
-}
+Content encoded_content(TextureContent content) { return is_color(content) ? Content::color : Content::data; }
 
 Image encoded_image(const PendingImage& pending, const BakeOptions& bake, CancellationCheck check_cancelled) {
     const Pixels& pixels = pending.pixels;
     const Content content = encoded_content(pending.content);
     if (has_image_quality(bake.image_format)) {
         const bool is_webp = bake.image_format == ImageFormat::webp;
-        const ImageLimits limits{least_psnr(bake, pending.content, pending.roughness), pending.may_shrink,
-                                 !is_webp, is_webp || pending.tries_webp};
+        const ImageLimits limits{
+            least_quality(bake, pending.content, pending.roughness, pending.quality_change),
+            pending.may_shrink, !is_webp, is_webp || pending.tries_webp};
         Image smallest =
             encode_smallest(pixels, *pending.known, pending.name, content, limits, check_cancelled);
         const bool keeps_original = pending.original &&

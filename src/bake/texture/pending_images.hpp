@@ -33,6 +33,9 @@ struct PendingImage {
     /// The image of the source, if the pixels are its own: ImageFormat::automatic takes it if it is not larger,
     /// ImageFormat::source in any case.
     std::optional<Image> original = {};
+    /// What the PSNR of the image may be more or less than usual if BakeOptions::image_quality is unset, in dB: see
+    /// quality_change().
+    double quality_change = 0;
 };
 
 /// Encodes images as BakeOptions::image_format says.

@@ -8,10 +8,7 @@ namespace {
 
 // Content of a layer for both contents; empty if no layer can hold both.
 std::optional<TextureContent> merged_content(TextureContent a, TextureContent b) {
-    const auto is_colored = [](TextureContent c) {
-        return c == TextureContent::color || c == TextureContent::alpha ||
-               c == TextureContent::color_and_alpha;
-    };
+    const auto is_colored = [](TextureContent c) { return is_color(c) || c == TextureContent::alpha; };
     if (a == b) return a;
     if (is_colored(a) && is_colored(b)) return TextureContent::color_and_alpha;
     return std::nullopt;
@@ -20,9 +17,7 @@ std::optional<TextureContent> merged_content(TextureContent a, TextureContent b)
 }  // namespace
 
 TexelEncoding ExtensionLayer::encoding() const {
-    return content == TextureContent::color || content == TextureContent::color_and_alpha
-               ? TexelEncoding::color_and_data_alpha
-               : TexelEncoding::data;
+    return is_color(content) ? TexelEncoding::color_and_data_alpha : TexelEncoding::data;
 }
 
 std::vector<ExtensionLayer> extension_layers(const Material& material) {

@@ -40,8 +40,11 @@ Pixels noise(std::uint32_t size) {
     });
 }
 
+ImageQuality quality_of(double whole) { return {whole, whole - 15}; }
+
 Image smallest(const Pixels& pixels, double quality, bool may_shrink = true) {
-    return encode_smallest(pixels, all_known(pixels), "page", Content::color, {quality, may_shrink});
+    return encode_smallest(pixels, all_known(pixels), "page", Content::color,
+                           {quality_of(quality), may_shrink});
 }
 
 }  // namespace
@@ -68,8 +71,8 @@ TEST_CASE("an error in one block is not within a limit that the whole image meet
     const ImageLoss loss = image_loss(gray, other, all_known(gray));
     CHECK(loss.psnr == Approx(10 * std::log10(255.0 * 255 * 3 * 128 * 128 / (8 * 100 * 100))));
     CHECK(loss.worst_psnr == Approx(10 * std::log10(255.0 * 255 * 3 * 64 / (8 * 100 * 100))));
-    CHECK_FALSE(is_within(loss, 40));
-    CHECK(is_within(loss, loss.worst_psnr + 9));
+    CHECK_FALSE(is_within(loss, quality_of(40)));
+    CHECK(is_within(loss, quality_of(loss.worst_psnr + 9)));
 }
 
 TEST_CASE("an image with fewer texels is interpolated bilinearly") {
@@ -99,7 +102,7 @@ TEST_CASE("chosen images are within the limit at any quality and content") {
     const double quality = GENERATE(25.0, 34.0, 40.0, 48.0, 80.0);
     for (const Pixels& pixels : {ramp(128), noise(64), waves(64)}) {
         const Image image = smallest(pixels, quality);
-        CHECK(is_within(image_loss(pixels, decode(image), all_known(pixels)), quality));
+        CHECK(is_within(image_loss(pixels, decode(image), all_known(pixels)), quality_of(quality)));
         CHECK(image.encoded.size() <= encode_png(pixels, "page").encoded.size());
         CHECK(image.name == "page");
     }
@@ -128,13 +131,30 @@ TEST_CASE("images with alpha, and images with few colours, stay PNG") {
 }
 
 TEST_CASE("normals of rough surfaces may be as inexact as data, those of glossy ones only as colours") {
-    const BakeOptions bake{.image_quality = 40};
-    CHECK(least_psnr(bake, TextureContent::color, 1) == 40);
-    CHECK(least_psnr(bake, TextureContent::data, 0) == 36);
-    CHECK(least_psnr(bake, TextureContent::normal, 0) == 40);
-    CHECK(least_psnr(bake, TextureContent::normal, 1) == 36);
-    CHECK(least_psnr({.image_quality = 32}, TextureContent::normal, 1) == 30);
-    CHECK(least_psnr({.image_quality = 25}, TextureContent::normal, 1) == 25);
+    const auto least = [](const BakeOptions& bake, TextureContent content, double roughness) {
+        return least_quality(bake, content, roughness).whole;
+    };
+    const BakeOptions usual;
+    CHECK(least(usual, TextureContent::color, 1) == 40);
+    CHECK(least(usual, TextureContent::data, 0) == 36);
+    CHECK(least(usual, TextureContent::normal, 0) == 40);
+    CHECK(least(usual, TextureContent::normal, 1) == 36);
+    CHECK(least({.image_quality = 32}, TextureContent::normal, 1) == 30);
+    CHECK(least({.image_quality = 25}, TextureContent::normal, 1) == 25);
+}
+
+TEST_CASE("images are better where pictures show it, unless a quality was asked for") {
+    using enum TextureContent;
+    CHECK(quality_change({}, color) == 0);
+    CHECK(quality_change({.unlit = 20, .lit = 20}, color) == -2);
+    CHECK(quality_change({.unlit = 33, .lit = 20}, color) == 1);
+    CHECK(quality_change({.unlit = 20, .lit = 33}, color) == 1);
+    CHECK(quality_change({.unlit = 50, .lit = 20}, data) == -2);
+    CHECK(quality_change({.unlit = 20, .lit = 50}, normal) == 4);
+    const ImageQuality worse = least_quality({}, color, 1, -2);
+    CHECK(worse.whole == 38);
+    CHECK(worse.block == 25);  // details stay
+    CHECK(least_quality({.image_quality = 40}, color, 1, -2).whole == 40);
 }
 
 TEST_CASE("images with alpha are PNGs within the limit, smaller than lossless ones, with alpha as it was") {
@@ -146,7 +166,7 @@ TEST_CASE("images with alpha are PNGs within the limit, smaller than lossless on
         const Image image = smallest(leaf, quality, false);
         CHECK(image.mime_type == "image/png");
         const Pixels decoded = decode(image);
-        CHECK(is_within(image_loss(leaf, decoded, all_known(leaf)), quality));
+        CHECK(is_within(image_loss(leaf, decoded, all_known(leaf)), quality_of(quality)));
         for (std::size_t i = 3; i < leaf.rgba.size(); i += 4) REQUIRE(decoded.rgba[i] == leaf.rgba[i]);
         CHECK(image.encoded.size() <= last);
         last = image.encoded.size();
@@ -162,14 +182,14 @@ TEST_CASE("WebP images are within the limit, with alpha as it was") {
     for (const Pixels& pixels : {noise(64), glass, ramp(64)}) {
         for (const Content content : {Content::color, Content::data}) {
             for (const double quality : {25.0, 40.0, 60.0}) {
-                const ImageLimits limits{quality, false, false, true};
+                const ImageLimits limits{quality_of(quality), false, false, true};
                 const Image webp = encode_smallest(pixels, all_known(pixels), "page", content, limits);
                 CHECK(webp.mime_type == "image/webp");
                 const Pixels decoded = decode(webp);
-                CHECK(is_within(image_loss(pixels, decoded, all_known(pixels)), quality));
+                CHECK(is_within(image_loss(pixels, decoded, all_known(pixels)), quality_of(quality)));
                 for (std::size_t i = 3; i < pixels.rgba.size(); i += 4)
                     REQUIRE(decoded.rgba[i] == pixels.rgba[i]);
-                const ImageLimits both{quality, false, true, true};
+                const ImageLimits both{quality_of(quality), false, true, true};
                 CHECK(encode_smallest(pixels, all_known(pixels), "page", content, both).encoded.size() <=
                       webp.encoded.size());
             }

@@ -71,6 +71,7 @@ inline constexpr OptionRow appearance_rows[] = {
          .range = {.min = 20, .max = 80},
          .unit = "dB",
          .value_name = "DB",
+         .default_text = "40, 38 to 44 if pictures were compared",
          .help =
              "Least PSNR of baked colours with --image-format auto or webp; of data 4 dB less, of normals "
              "up to 4 dB less, where the surface is rough",
