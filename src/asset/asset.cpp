@@ -2,7 +2,9 @@
 
 #include "asset/file_format.hpp"
 #include "asset/gltf/gltf.hpp"
+#include "asset/gltf/pose.hpp"
 #include "asset/io/recovery.hpp"
+#include "asset/scene/rest_pose.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -36,6 +38,13 @@ std::vector<Instance> instances(const Asset& asset) {
     std::vector<Instance> all;
     for (Index i = 0; i < asset.parts.size(); ++i)
         all.push_back({i, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}});
+    return all;
+}
+
+std::vector<detail::PosedInstance> detail::posed_instances(const Asset& asset) {
+    if (asset.source) return detail::gltf_posed_instances(asset);
+    std::vector<PosedInstance> all;
+    for (const Instance& instance : instances(asset)) all.push_back({instance.part, instance.transform});
     return all;
 }
 

@@ -24,14 +24,14 @@ struct Scene {
         std::vector<Vector3> normals;  ///< unit or zero; empty: face normals are used
         bool mirrored = false;         ///< the transform reverses the orientation
     };
-    Asset asset;
+    Asset asset;  ///< posed parts follow those of the file
     std::vector<PartInstance> parts;
     std::vector<Texture> color_textures, normal_maps;  ///< by image; empty if unused or not decodable
     std::uint64_t faces = 0;                           ///< number of faces of all instances
     std::vector<std::string> warnings;
 };
 
-/// Transforms an asset to world space and decodes its images. An image that cannot be decoded is drawn white,
+/// Transforms an asset to world space, in its pose at rest, and decodes its images. An image that cannot be decoded is drawn white,
 /// with a warning in Scene::warnings.
 Scene make_scene(Asset asset);
 

@@ -4,7 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "asset/scene/affine.hpp"
 #include "asset/scene/measured_instances.hpp"
+#include "asset/scene/rest_pose.hpp"
 #include "faqem/error.hpp"
 #include "render/rasterizer.hpp"
 
@@ -30,6 +32,13 @@ InstanceTransform instance_transform(const Instance& instance) {
     transform.mirrored = x.dot(y.cross(z)) < 0;
     if (transform.mirrored) transform.normal = -transform.normal;
     return transform;
+}
+
+/// The instance of a part that its transform alone places: a posed part is added to the asset.
+Instance placed_instance(Asset& asset, const detail::PosedInstance& instance) {
+    if (!instance.pose) return {instance.part, instance.transform};
+    asset.parts.push_back(detail::posed_part(asset.parts[instance.part], instance));
+    return {static_cast<Index>(asset.parts.size() - 1), detail::identity_transform};
 }
 
 std::optional<Texture> load_texture(const Image& image, ColorSpace color_space,
@@ -66,12 +75,14 @@ void load_textures(Scene& scene) {
 Scene make_scene(Asset asset) {
     Scene scene;
     scene.asset = std::move(asset);
-    const std::vector<Instance> shown = detail::measured_instances(scene.asset);
-    const std::size_t all = instances(scene.asset).size();
-    if (shown.size() < all)
-        scene.warnings.push_back("only " + std::to_string(shown.size()) + " of " + std::to_string(all) +
+    const std::vector<detail::PosedInstance> all = detail::posed_instances(scene.asset);
+    const std::vector<std::size_t> shown = detail::measured_indices(scene.asset, instances(scene.asset));
+    if (shown.size() < all.size())
+        scene.warnings.push_back("only " + std::to_string(shown.size()) + " of " +
+                                 std::to_string(all.size()) +
                                  " instances are shown: all have too many faces");
-    for (const Instance& instance : shown) {
+    for (const std::size_t i : shown) {
+        const Instance instance = placed_instance(scene.asset, all[i]);
         const Part& part = scene.asset.parts[instance.part];
         const InstanceTransform transform = instance_transform(instance);
         Scene::PartInstance part_instance;

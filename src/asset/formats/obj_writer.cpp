@@ -221,7 +221,7 @@ std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::pa
     const std::optional<DividedAsset> divided = divided_into_objects(asset);
     const Asset& parts = divided ? divided->asset : asset;
     const std::vector<Instance> all = instances(parts);
-    const Part flat = flatten(parts, all);
+    const Part flat = flatten(parts);
     const std::string stem = file.stem().string();
     const UsedMaterials used = used_materials(flat, asset.materials.size());
     const MtlLibrary library = make_mtl(asset, used.materials, stem, losses);

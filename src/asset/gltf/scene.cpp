@@ -4,7 +4,7 @@
 #include "asset/gltf/instancing.hpp"
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
-#include "asset/scene/flatten.hpp"
+#include "asset/scene/affine.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -27,15 +27,8 @@ Matrix local_transform(const Json& node, const std::optional<std::array<double, 
                             scale ? *scale : number_array<3>(node, "scale", {1, 1, 1}));
 }
 
-/// The nodes of the default scene, or of the first one; without scenes, all nodes without a parent.
-std::vector<Index> root_nodes(const Json& document) {
+std::vector<Index> nodes_without_parent(const Json& document) {
     std::vector<Index> roots;
-    const Json& scenes = member(document, "scenes");
-    if (!scenes.empty()) {
-        for (const Json& node : member(scenes[unsigned_member(document, "scene", 0)], "nodes"))
-            roots.push_back(node.get<Index>());
-        return roots;
-    }
     const Json& nodes = member(document, "nodes");
     std::vector<char> is_child(nodes.size(), 0);
     for (const Json& node : nodes)
@@ -45,22 +38,22 @@ std::vector<Index> root_nodes(const Json& document) {
     return roots;
 }
 
-}  // namespace
-
-Matrix product(const Matrix& a, const Matrix& b) {
-    Matrix c = {};
-    for (std::size_t column = 0; column < 4; ++column)
-        for (std::size_t row = 0; row < 4; ++row)
-            for (std::size_t k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
-    return c;
+/// The nodes of the default scene, or of the first one; without scenes, all nodes without a parent.
+std::vector<Index> root_nodes(const Json& document) {
+    const Json& scenes = member(document, "scenes");
+    if (scenes.empty()) return nodes_without_parent(document);
+    std::vector<Index> roots;
+    for (const Json& node : member(scenes[unsigned_member(document, "scene", 0)], "nodes"))
+        roots.push_back(node.get<Index>());
+    return roots;
 }
 
-std::vector<PlacedNode> placed_nodes(const Json& document,
+/// Lists some nodes and their descendants, depth first.
+std::vector<PlacedNode> placed_below(const Json& document, const std::vector<Index>& roots,
                                      std::span<const std::optional<std::array<double, 3>>> scales) {
     std::vector<PlacedNode> placed;
     // An explicit stack: nodes may be nested deeper than the call stack allows.
     std::vector<std::pair<Index, Matrix>> stack;
-    const std::vector<Index> roots = root_nodes(document);
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
         stack.push_back({*root, identity_transform});
     while (!stack.empty()) {
@@ -77,7 +70,30 @@ std::vector<PlacedNode> placed_nodes(const Json& document,
     return placed;
 }
 
-std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNode> nodes) {
+}  // namespace
+
+Matrix product(const Matrix& a, const Matrix& b) {
+    Matrix c = {};
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t row = 0; row < 4; ++row)
+            for (std::size_t k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
+    return c;
+}
+
+std::vector<PlacedNode> placed_nodes(const Json& document,
+                                     std::span<const std::optional<std::array<double, 3>>> scales) {
+    return placed_below(document, root_nodes(document), scales);
+}
+
+std::vector<Matrix> node_transforms(const Json& document) {
+    std::vector<Matrix> worlds(array_size(document, "nodes"), identity_transform);
+    for (const PlacedNode& placed : placed_below(document, nodes_without_parent(document), {}))
+        worlds[placed.node] = placed.world;
+    return worlds;
+}
+
+std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNode> nodes,
+                                   std::vector<Index>* node_of) {
     const Json& document = asset.source->document;
     std::vector<std::vector<Index>> parts_of(array_size(document, "meshes"));
     std::vector<Instance> instances;
@@ -95,8 +111,10 @@ std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNod
         if (transforms.empty()) transforms.push_back(identity_transform);
         for (const Matrix& transform : transforms)
             for (const Index part : parts_of[mesh]) instances.push_back({part, product(world, transform)});
+        if (node_of) node_of->resize(instances.size(), index);
     }
     for (const Index part : unassigned_parts) instances.push_back({part, identity_transform});
+    if (node_of) node_of->resize(instances.size(), no_index);
     return instances;
 }
 

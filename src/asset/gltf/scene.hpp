@@ -29,10 +29,17 @@ std::array<double, 16> product(const std::array<double, 16>& a, const std::array
 std::vector<PlacedNode> placed_nodes(const Json& document,
                                      std::span<const std::optional<std::array<double, 3>>> scales = {});
 
+/// The world matrix of each node of the document, also of those outside the default scene.
+/// \param document  validated
+/// Complexity: O(nodes)
+std::vector<std::array<double, 16>> node_transforms(const Json& document);
+
 /// Lists the instances of parts at the nodes that have meshes. Parts without a source mesh follow, with the identity
 /// transform.
-/// \param nodes  as placed_nodes() lists them
+/// \param nodes    as placed_nodes() lists them
+/// \param node_of  if not null: receives the node of each instance, no_index for parts without a source mesh
 /// \pre asset.source is set
-std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNode> nodes);
+std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNode> nodes,
+                                   std::vector<Index>* node_of = nullptr);
 
 }  // namespace faqem::detail

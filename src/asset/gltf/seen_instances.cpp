@@ -4,14 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <optional>
 #include <string>
 
 #include "asset/gltf/accessor.hpp"
+#include "asset/gltf/pose.hpp"
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
-#include "asset/scene/flatten.hpp"
+#include "asset/scene/affine.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -79,25 +79,11 @@ double squared_scale(const Matrix4& matrix) {
 std::vector<double> joint_scales(const SourceDocument& source, const Json& skin,
                                  const std::vector<const PlacedNode*>& node_at) {
     const Json& joints = member(skin, "joints");
-    const Index accessor = index_member(skin, "inverseBindMatrices");
-    std::vector<std::uint8_t> bytes;
-    if (accessor != no_index) {
-        bytes = dense_bytes(source, accessor);
-        const Json& layout = source.document["accessors"][accessor];
-        if (string_member(layout, "type") != "MAT4" ||
-            unsigned_member(layout, "componentType", 0) != static_cast<std::uint64_t>(ComponentType::f32))
-            bytes.clear();
-    }
+    const std::vector<Matrix4> of_joint = inverse_binds(source, skin).matrices;
     std::vector<double> result;
     for (std::size_t j = 0; j < joints.size(); ++j) {
-        Matrix4 inverse_bind = identity_transform;
-        std::array<float, 16> stored;
-        if (bytes.size() >= (j + 1) * sizeof stored) {
-            std::memcpy(stored.data(), bytes.data() + j * sizeof stored, sizeof stored);
-            std::copy(stored.begin(), stored.end(), inverse_bind.begin());
-        }
         const PlacedNode* node = node_at[joints[j].get<Index>()];
-        result.push_back(node ? squared_scale(product(node->world, inverse_bind)) : 0);
+        result.push_back(node ? squared_scale(product(node->world, of_joint[j])) : 0);
     }
     return result;
 }

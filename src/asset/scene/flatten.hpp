@@ -2,28 +2,24 @@
 /// \file
 /// Flattening of a scene to one part in world space, for formats without a scene graph.
 
-#include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "asset/scene/rest_pose.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
 
-/// The transform of an instance that is not moved (Instance::transform).
-inline constexpr std::array<double, 16> identity_transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
-/// Concatenates all instances of all parts, transformed to world space. Normals are transformed by the
-/// inverse transpose and normalised; the winding of mirrored instances is reversed. Attributes that only some
-/// parts have get neutral values in the others: zero normals and UVs, white colours. Tangents, skins and
-/// morph targets are left out. With the identity transform, positions and normals are copied bit for bit.
+/// Concatenates all instances of all parts, in world space and in their pose at rest (posed_part()). Normals are
+/// transformed by the inverse transpose and normalised; the winding of mirrored instances is reversed. Attributes that
+/// only some parts have get neutral values in the others: zero normals and UVs, white colours. Tangents, skins and
+/// morph targets are left out. With the identity transform and no pose, positions and normals are copied bit for bit.
 /// \throws InputError  if there are more vertices or faces than 32-bit indices can address
 FAQEM_EXPORT Part flatten(const Asset& asset);
 
 /// Same as above, for the given instances instead of those of the scene of the asset.
-Part flatten(const Asset& asset, const std::vector<Instance>& all);
+Part flatten(const Asset& asset, const std::vector<PosedInstance>& all);
 
 /// Lists what flatten() leaves out of the asset, one sentence each.
 /// \param format  name of the output format, used in the sentences

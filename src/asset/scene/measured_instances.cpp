@@ -33,19 +33,27 @@ bool has_excessive_instances(const Asset& asset, const std::vector<Instance>& al
     return shown > many_faces && shown / many_copies > faces;
 }
 
+std::vector<std::size_t> measured_indices(const Asset& asset, const std::vector<Instance>& all) {
+    std::vector<std::size_t> measured;
+    const bool has_limit = has_excessive_instances(asset, all);
+    std::vector<std::uint8_t> has_one(asset.parts.size(), 0);
+    std::uint64_t faces = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Index part = all[i].part;
+        const std::uint64_t own = face_count(asset, all[i]);
+        if (has_limit && has_one[part] && own > many_faces - std::min(faces, many_faces)) continue;
+        has_one[part] = 1;
+        faces += own;
+        measured.push_back(i);
+    }
+    return measured;
+}
+
 std::vector<Instance> measured_instances(const Asset& asset) {
     std::vector<Instance> all = instances(asset);
     if (!has_excessive_instances(asset, all)) return all;
-    std::vector<std::uint8_t> has_one(asset.parts.size(), 0);
     std::vector<Instance> measured;
-    std::uint64_t faces = 0;
-    for (const Instance& instance : all) {
-        const std::uint64_t own = face_count(asset, instance);
-        if (has_one[instance.part] && own > many_faces - std::min(faces, many_faces)) continue;
-        has_one[instance.part] = 1;
-        faces += own;
-        measured.push_back(instance);
-    }
+    for (const std::size_t i : measured_indices(asset, all)) measured.push_back(all[i]);
     return measured;
 }
 

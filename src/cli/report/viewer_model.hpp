@@ -19,7 +19,7 @@ struct ViewerFrame {
 
 /// Returns a GLB file with two meshes in the frame: `look` contains all instances of the model with its
 /// materials, `error` the error surface with the distance, in units of the frame, as texture coordinate u.
-/// Skins and morph targets are in rest pose.
+/// Skins and morph targets are in their pose at rest.
 std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSurface& error,
                                      const ViewerFrame& frame);
 

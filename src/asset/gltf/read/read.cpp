@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "asset/gltf/gltf.hpp"
+#include "asset/gltf/pose.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "asset/scene/rest_pose.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -45,8 +47,8 @@ void add_used_images(Asset& asset, const SourceDocument& source) {
         });
 }
 
-/// Checks that all world-space positions are within the range of double, so that the scene can be flattened
-/// and measured.
+/// Checks that all positions, in world space and in the pose at rest, are within the range of double, so that the scene
+/// can be flattened and measured.
 void check_world_positions(const Asset& asset, const std::string& file) {
     std::vector<double> max_coordinate(asset.parts.size(), 0);  // largest absolute coordinate of each part
     for (std::size_t p = 0; p < max_coordinate.size(); ++p)
@@ -63,6 +65,22 @@ void check_world_positions(const Asset& asset, const std::string& file) {
                                  "a node transform moves it out of the range of double");
         }
     }
+    for (const PosedInstance& instance : posed_instances(asset)) {
+        const Part& part = asset.parts[instance.part];
+        if (instance.pose && !std::isfinite(posed_coordinate_bound(
+                                 part, std::max(max_coordinate[instance.part], 1.0), instance)))
+            throw InputError(file, child_path("/meshes", part.source),
+                             "its joints or default morph weights move it out of the range of double");
+    }
+}
+
+void warn_of_inverse_binds(const SourceDocument& source, const std::string& file,
+                           std::vector<std::string>& warnings) {
+    const Json& skins = member(source.document, "skins");
+    for (std::size_t i = 0; i < skins.size(); ++i)
+        if (const std::uint64_t repaired = inverse_binds(source, skins[i]).repaired)
+            warnings.push_back(file + ": " + child_path("/skins", i) + ": " + std::to_string(repaired) +
+                               " inverse bind matrices that are not finite are taken as the identity");
 }
 
 }  // namespace
@@ -87,6 +105,7 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
     asset.source = std::move(loaded.source);
     asset.warnings = std::move(loaded.warnings);
     check_world_positions(asset, loaded.file);
+    warn_of_inverse_binds(*asset.source, loaded.file, asset.warnings);
     return asset;
 }
 

@@ -1,0 +1,33 @@
+#include "asset/scene/affine.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace faqem::detail {
+
+Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p) {
+    Vec3 q;
+    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
+    return q;
+}
+
+NormalTransform::NormalTransform(const std::array<double, 16>& m) {
+    const auto at = [&](std::size_t r, std::size_t col) { return m[4 * (col % 3) + r % 3]; };
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t k = 0; k < 3; ++k)
+            cofactors_[r][k] = at(r + 1, k + 1) * at(r + 2, k + 2) - at(r + 1, k + 2) * at(r + 2, k + 1);
+    const double determinant = m[0] * cofactors_[0][0] + m[1] * cofactors_[1][0] + m[2] * cofactors_[2][0];
+    sign_ = determinant < 0 ? -1 : 1;
+}
+
+Vec3f NormalTransform::operator()(const Vec3f& n) const {
+    Vec3 q;
+    for (std::size_t r = 0; r < 3; ++r)
+        q[r] = sign_ * (cofactors_[r][0] * n[0] + cofactors_[r][1] * n[1] + cofactors_[r][2] * n[2]);
+    const double length = std::hypot(q[0], q[1], q[2]);
+    if (!(length > 0 && std::isfinite(length))) return {0, 0, 0};
+    return {static_cast<float>(q[0] / length), static_cast<float>(q[1] / length),
+            static_cast<float>(q[2] / length)};
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// Affine transforms of points and normals, as column-major 4 x 4 matrices (Instance::transform).
+
+#include <array>
+
+#include "faqem/mesh.hpp"
+
+namespace faqem::detail {
+
+/// The transform of an instance that is not moved.
+inline constexpr std::array<double, 16> identity_transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p);
+
+/// Transforms normals by the inverse transpose of the linear part, and normalises them. Those of mirroring transforms
+/// point to the same side as the face normals of faces whose winding is reversed. Defined for singular transforms too.
+class NormalTransform {
+public:
+    explicit NormalTransform(const std::array<double, 16>& m);
+
+    /// Whether the transform mirrors.
+    bool is_mirrored() const { return sign_ < 0; }
+
+    /// The unit normal; zero if it is zero or not finite.
+    Vec3f operator()(const Vec3f& n) const;
+
+private:
+    std::array<Vec3, 3>
+        cofactors_;  // of the linear part, row by row: the inverse transpose times the determinant
+    double sign_;
+};
+
+}  // namespace faqem::detail

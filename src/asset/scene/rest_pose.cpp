@@ -1,0 +1,119 @@
+#include "asset/scene/rest_pose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "asset/scene/affine.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using JointMatrix = std::array<double, 16>;
+
+/// Adds the displacements of the morph targets, times their weights.
+void apply_morph_weights(const Part& part, const std::vector<double>& weights, Part& posed) {
+    const auto displace = [](const auto& displacements, double weight, auto& values) {
+        using Number = typename std::decay_t<decltype(values)>::value_type::value_type;
+        for (std::size_t v = 0; v < values.size() && v < displacements.size(); ++v)
+            for (std::size_t k = 0; k < 3; ++k)
+                values[v][k] = static_cast<Number>(values[v][k] + weight * displacements[v][k]);
+    };
+    for (std::size_t m = 0; m < part.morph_targets.size() && m < weights.size(); ++m) {
+        if (weights[m] == 0) continue;
+        displace(part.morph_targets[m].positions, weights[m], posed.positions);
+        displace(part.morph_targets[m].normals, weights[m], posed.normals);
+    }
+}
+
+/// The sum of the matrices of a vertex, in the order of the joints, so that vertices which list the same joints in
+/// another order stay together. None for vertices without weights.
+std::optional<JointMatrix> blended_matrix(const std::vector<JointMatrix>& matrices,
+                                          const std::array<std::uint16_t, 4>& joints, const Vec4f& weights) {
+    std::array<std::pair<std::uint16_t, double>, 4> influences;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const bool is_used = weights[k] > 0 && joints[k] < matrices.size();
+        influences[k] = {joints[k], is_used ? static_cast<double>(weights[k]) : 0};
+    }
+    std::sort(influences.begin(), influences.end());
+    double sum = 0;
+    for (const auto& [joint, weight] : influences) sum += weight;
+    if (!(sum > 0 && std::isfinite(sum))) return std::nullopt;
+    JointMatrix blended = {};
+    for (const auto& [joint, weight] : influences) {
+        if (weight == 0) continue;
+        for (std::size_t i = 0; i < blended.size(); ++i) blended[i] += weight / sum * matrices[joint][i];
+    }
+    return blended;
+}
+
+void reverse_mirrored_faces(const std::vector<std::uint8_t>& is_mirrored, std::vector<Triangle>& triangles) {
+    for (Triangle& t : triangles)
+        if (is_mirrored[t[0]] + is_mirrored[t[1]] + is_mirrored[t[2]] >= 2) std::swap(t[1], t[2]);
+}
+
+/// The bound of the coordinates that a matrix gives, row by row.
+double transformed_bound(const JointMatrix& m, double largest) {
+    double bound = 0;
+    for (std::size_t r = 0; r < 3; ++r) {
+        const double row =
+            (std::abs(m[r]) + std::abs(m[4 + r]) + std::abs(m[8 + r])) * largest + std::abs(m[12 + r]);
+        if (!(row <= bound)) bound = row;
+    }
+    return bound;
+}
+
+}  // namespace
+
+Part posed_part(const Part& part, const PosedInstance& instance) {
+    Part posed;
+    posed.name = part.name;
+    posed.positions = part.positions;
+    posed.triangles = part.triangles;
+    posed.face_material = part.face_material;
+    posed.normals = part.normals;
+    posed.uvs = part.uvs;
+    posed.colors = part.colors;
+    posed.face_object = part.face_object;
+    posed.object_names = part.object_names;
+    static const RestPose unposed;
+    const RestPose& pose = instance.pose ? *instance.pose : unposed;
+    apply_morph_weights(part, pose.morph_weights, posed);
+    const bool is_skinned = !pose.joints.empty() && part.joints.size() == part.positions.size() &&
+                            part.weights.size() == part.positions.size();
+    const NormalTransform of_instance(instance.transform);
+    std::vector<std::uint8_t> is_mirrored(posed.positions.size(), of_instance.is_mirrored());
+    for (std::size_t v = 0; v < posed.positions.size(); ++v) {
+        const std::optional<JointMatrix> joints =
+            is_skinned ? blended_matrix(pose.joints, part.joints[v], part.weights[v]) : std::nullopt;
+        posed.positions[v] = transformed_point(joints ? *joints : instance.transform, posed.positions[v]);
+        const NormalTransform normals = joints ? NormalTransform(*joints) : of_instance;
+        is_mirrored[v] = normals.is_mirrored();
+        if (!posed.normals.empty()) posed.normals[v] = normals(posed.normals[v]);
+    }
+    reverse_mirrored_faces(is_mirrored, posed.triangles);
+    return posed;
+}
+
+double posed_coordinate_bound(const Part& part, double largest, const PosedInstance& instance) {
+    static const RestPose unposed;
+    const RestPose& pose = instance.pose ? *instance.pose : unposed;
+    for (std::size_t m = 0; m < part.morph_targets.size() && m < pose.morph_weights.size(); ++m) {
+        double displacement = 0;
+        for (const Vec3f& d : part.morph_targets[m].positions)
+            for (const float x : d) displacement = std::max(displacement, static_cast<double>(std::abs(x)));
+        largest += std::abs(pose.morph_weights[m]) * displacement;
+    }
+    // Points between those of two joints are in the box of both.
+    double bound = transformed_bound(instance.transform, largest);
+    for (const JointMatrix& joint : pose.joints) {
+        const double of_joint = transformed_bound(joint, largest);
+        if (!(of_joint <= bound)) bound = of_joint;
+    }
+    return bound;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,46 @@
+#pragma once
+/// \file
+/// Instances as a viewer shows them at rest: posed by their joints, with their default morph weights.
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "faqem/asset.hpp"
+
+namespace faqem::detail {
+
+/// What deforms an instance.
+struct RestPose {
+    /// By joint of the skin: the column-major matrix from part to world space. Empty for parts without a skin.
+    std::vector<std::array<double, 16>> joints;
+    /// By morph target, in any range; those beyond the end are 0.
+    std::vector<double> morph_weights;
+};
+
+/// An instance with its pose.
+struct PosedInstance {
+    Index part = no_index;                  ///< index into Asset::parts
+    std::array<double, 16> transform = {};  ///< Instance::transform; vertices with joint weights ignore it
+    std::shared_ptr<const RestPose> pose = nullptr;  ///< null for instances that the transform alone places
+};
+
+/// Lists the instances in the order of instances(), with their poses. Instances of EXT_mesh_gpu_instancing have no
+/// skin. Complexity: O(nodes + instances).
+FAQEM_EXPORT std::vector<PosedInstance> posed_instances(const Asset& asset);
+
+/// The part in world space, in its pose: each position is displaced by the morph targets and then multiplied by the sum
+/// of the joint matrices times the joint weights, which are scaled to the sum 1 (glTF 2.0, sections 3.7.2.2 and
+/// 3.7.3.3). Normals are transformed in the same way, by the inverse transpose, and normalised. The transform of the
+/// instance places vertices without joint weights. The winding of faces whose corners are mirrored is reversed.
+/// Tangents, joints and morph targets are left out. Joints that the skin does not have are ignored.
+/// Complexity: O(size of the part).
+FAQEM_EXPORT Part posed_part(const Part& part, const PosedInstance& instance);
+
+/// The largest coordinate that posed_part() could give, also between its steps; infinite or NaN if that may be out of
+/// the range of double. An upper bound.
+/// \param largest  absolute coordinate of the part
+double posed_coordinate_bound(const Part& part, double largest, const PosedInstance& instance);
+
+}  // namespace faqem::detail
