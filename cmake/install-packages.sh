@@ -5,9 +5,15 @@
 #   clang   the compiler clang, for the presets clang and fuzz
 #   tidy    clang-tidy and clang-format
 #   docs    what the target docs needs
+#   wheel   what src/python/build_wheel.sh needs, without the packages of the group build
 #   fresh   what tests/run.sh --suite fresh needs, without the packages of the group build
 # Uses sudo only when not root.
 set -eu
+
+# The viewer of the command, and the glTF validator of the tests, need npm. A Node from elsewhere brings its own, which
+# Debian's package conflicts with.
+npm=""
+command -v npm >/dev/null 2>&1 || npm=npm
 
 packages="build-essential cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libopenmesh-dev \
 libtinygltf-dev libpng-dev libjpeg62-turbo-dev libwebp-dev libdeflate-dev libopenimageio-dev \
@@ -16,18 +22,18 @@ for group in "$@"; do
     case $group in
         build) ;;
         test)
-            packages="$packages catch2 ccache doxygen file python3-numpy python3-pip \
-python3-setuptools python3-wheel zsh"
-            # The glTF validator and the viewer need npm. A Node from elsewhere brings its own, which Debian's
-            # package conflicts with.
-            command -v npm >/dev/null 2>&1 || packages="$packages npm"
+            packages="$packages catch2 ccache doxygen file python3-numpy python3-pip zsh $npm"
             ;;
         clang) packages="$packages clang" ;;
         tidy) packages="$packages clang clang-tidy clang-format" ;;
         docs) packages="$packages doxygen python3" ;;
+        wheel)
+            packages="build-essential cmake ninja-build libeigen3-dev nlohmann-json3-dev libtinygltf-dev libpng-dev \
+libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-dev python3 $npm"
+            ;;
         fresh) packages="debootstrap ccache" ;;
         *)
-            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, fresh)" >&2
+            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, fresh)" >&2
             exit 2
             ;;
     esac

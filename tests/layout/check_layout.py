@@ -45,6 +45,7 @@ ORDER = [
     ["src/bake/keep"],
     ["src/bake/scene"],
     ["src/capi"],
+    ["src/python/native"],
     ["src/cli"],
     ["src/cli/memory"],
     ["src/cli/shell"],
@@ -78,6 +79,9 @@ SMALL = {
     "src/asset/gltf/gltf",
     "src/cli/commands/commands",
     "src/cli/commands/completion_and_man",
+    # What the wheel replaces in other libraries.
+    "src/python/native/glibc",
+    "src/python/native/tinygltf",
     "src/cli/report/embedded_files",       # the texts are generated at build time
     # Compiled in one build only.
     "src/asset/gltf/read/meshopt",

@@ -91,7 +91,13 @@ Pixels decode(const Image& image) {
             (type.empty() ? std::string("has an unknown format") : type + " is not supported") +
                 "; only PNG, JPEG, WebP, TGA, BMP, TIFF and GIF are supported");
     detail::check_header(image);
+#ifdef FAQEM_WITHOUT_IMAGE_PLUGIN
+    if (!format.empty())
+        throw UnsupportedError(image.uri, detail::image_title(image),
+                               type + " needs a build of faqem with OpenImageIO; this one reads PNG, JPEG and WebP");
+#else
     if (!format.empty()) return detail::image_plugin().decode(image, format);
+#endif
     if (type == "image/png") return detail::read_png(image);
     if (type == "image/jpeg") return detail::read_jpeg(image);
     return detail::read_webp(image);

@@ -7,13 +7,17 @@
 docs/python.md describes all options.
 """
 
-from ._library import version as _version
-from ._levels import History, simplify_levels
-from ._model import Model, Part, bake, bake_truncated, bake_levels, load, save, save_levels
-from ._simplify import Simplified, simplify
+import importlib
+from typing import TYPE_CHECKING
+
 from .errors import Error, InputError, InternalError, OptionError, TimeLimitError, UnsupportedError, WriteError
 
-__version__ = _version()
+if TYPE_CHECKING:
+    from ._levels import History, simplify_levels
+    from ._model import Model, Part, bake, bake_levels, bake_truncated, load, save, save_levels
+    from ._simplify import Simplified, simplify
+
+    __version__: str
 
 __all__ = [
     "Error",
@@ -36,3 +40,26 @@ __all__ = [
     "simplify",
     "simplify_levels",
 ]
+
+# The rest is imported when it is first used, so that the command and programs that only may need faqem start without
+# numpy and the library.
+_modules = {
+    **dict.fromkeys(["History", "simplify_levels"], "_levels"),
+    **dict.fromkeys(["Model", "Part", "bake", "bake_levels", "bake_truncated", "load", "save", "save_levels"], "_model"),
+    **dict.fromkeys(["Simplified", "simplify"], "_simplify"),
+}
+
+
+def __getattr__(name):
+    if name == "__version__":
+        value = importlib.import_module("._library", __name__).version()
+    elif name in _modules:
+        value = getattr(importlib.import_module("." + _modules[name], __name__), name)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted([*globals(), *_modules, "__version__"])

@@ -1,0 +1,31 @@
+"""Licences of the libraries that are part of the wheel."""
+
+import pathlib
+import subprocess
+
+# What is linked, and the Debian package with its licence.
+_PACKAGES = {
+    "CLI11": "libcli11-dev",
+    "draco": "libdraco-dev",
+    "eigen": "libeigen3-dev",
+    "libdeflate": "libdeflate-dev",
+    "libjpeg-turbo": "libjpeg62-turbo-dev",
+    "libpng": "libpng-dev",
+    "libwebp": "libwebp-dev",
+    "nlohmann-json": "nlohmann-json3-dev",
+    "tinygltf": "libtinygltf-dev",
+    "zlib": "zlib1g-dev",
+}
+
+
+def bundled(build):
+    """Returns the texts of the licences by file name. Raises FileNotFoundError if one is missing.
+
+    build  folder of the build by the preset wheel
+    """
+    compiler = subprocess.run(["c++", "-dumpversion"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+    packages = {**_PACKAGES, "libstdc++": f"libstdc++-{compiler}-dev"}
+    files = {name: pathlib.Path("/usr/share/doc", package, "copyright") for name, package in packages.items()}
+    files["meshoptimizer"] = build / "meshoptimizer/debian/copyright"
+    files["three.js"] = build / "src/cli/report/viewer/node_modules/three/LICENSE"
+    return {f"{name}.txt": file.read_bytes() for name, file in files.items()}
