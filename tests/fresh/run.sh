@@ -2,8 +2,7 @@
 # Tries faqem on an empty Debian system: the quickstart, the programs of tests/consumer against an installed faqem, each
 # with the packages of its component only, and faqem as a subproject.
 # Usage: tests/run.sh --suite fresh [--release bookworm|trixie] [--source FOLDER]
-# The systems are folders made by debootstrap. Mirror, proxy, keys and name resolution are those of this machine, and
-# the compiler cache is shared with it. Needs root, network and the right to mount; the suite is skipped otherwise.
+# The systems are those of tests/support/debian_root.sh.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
@@ -17,97 +16,9 @@ while [ $# -gt 0 ]; do
     shift 2
 done
 
-skip() {
-    echo "skipped: the suite fresh needs $1"
-    exit 0
-}
-[ "$(id -u)" -eq 0 ] || skip "root"
-command -v apt-get >/dev/null || skip "a Debian system (apt-get)"
-"$here/../../cmake/install-packages.sh" fresh || skip "the package debootstrap"
-unshare --mount --pid --fork true 2>/dev/null || skip "the right to mount file systems"
-mirror=$(. /etc/os-release && apt-get indextargets --format '$(ORIGIN) $(CODENAME) $(REPO_URI)' 'Created-By: Packages' |
-    sed -n "s/^Debian $VERSION_CODENAME //p" | head -n 1)
-mirror=${mirror%/}
-[ -n "$mirror" ] || skip "a Debian mirror in apt's sources"
-for scheme in http https; do
-    proxy=""
-    eval "$(apt-config shell proxy "Acquire::$scheme::Proxy")"
-    [ -z "$proxy" ] || export "${scheme}_proxy=$proxy"
-done
-wget -q -O /dev/null "$mirror/dists/$release/InRelease" || skip "the mirror $mirror with $release"
-
-# Mounts are made in a mount namespace of each command, so that none is left when the command ends or is killed.
-work=$(mktemp -d "${TMPDIR:-/tmp}/faqem-fresh.XXXXXX")
-remove_work() {
-    if grep -qF " $work/" /proc/self/mountinfo; then
-        echo "$work is kept, because file systems are mounted below it" >&2
-    else
-        rm -rf --one-file-system "$work"
-    fi
-}
-trap remove_work EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
-
-cache=${CCACHE_DIR:-$(ccache --get-config cache_dir 2>/dev/null || echo "$work/ccache")}
-mkdir -p "$cache"
-
-# in_root ROOT COMMAND...: runs a command in a root, in its folder /root.
-in_root() {
-    root=$1
-    shift
-    unshare --mount --pid --fork --kill-child sh -c '
-        root=$1 cache=$2
-        shift 2
-        mkdir -p "$root/ccache"
-        mount -t proc proc "$root/proc"
-        mount --rbind /dev "$root/dev"
-        mount --bind "$cache" "$root/ccache"
-        exec chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 CCACHE_DIR=/ccache \
-            CCACHE_BASEDIR=/root/faqem CCACHE_NOHASHDIR=1 DEBIAN_FRONTEND=noninteractive \
-            ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
-            sh -eu -c "cd /root; $*"' sh "$root" "$cache" "$@"
-}
-
-# step NAME FUNCTION ARGUMENT...: runs a function, and prints the end of its output if it fails.
-failed=""
-step() {
-    name=$1 start=$(date +%s)
-    shift
-    set +e  # errors inside a condition would not end the function
-    (set -eu; "$@") >"$work/log" 2>&1 </dev/null
-    status=$?
-    set -e
-    if [ $status -eq 0 ]; then
-        echo "ok      $name ($(($(date +%s) - start)) s)"
-    else
-        echo "FAILED  $name ($(($(date +%s) - start)) s); the end of its output:"
-        tail -n 30 "$work/log" | sed 's/^/    /'
-        failed="$failed
-    $name"
-    fi
-}
-
-install_in() { in_root "$work/$1" "apt-get install -y -qq --no-install-recommends $2"; }
-
-make_root() {
-    debootstrap --variant=minbase "$release" "$work/minimal" "$mirror"
-    cp /etc/resolv.conf /etc/hosts "$work/minimal/etc/"
-    apt-config dump | grep -E '^Acquire::(https?|ftp|Check-[A-Za-z-]+)(::[^ ]+)? "[^"]+";$' \
-        >"$work/minimal/etc/apt/apt.conf.d/00host" || true
-    cp -n /etc/apt/trusted.gpg.d/* "$work/minimal/etc/apt/trusted.gpg.d/" 2>/dev/null || true
-    printf '#!/bin/sh\nexit 101\n' >"$work/minimal/usr/sbin/policy-rc.d"
-    chmod +x "$work/minimal/usr/sbin/policy-rc.d"
-    in_root "$work/minimal" "apt-get update -qq"
-    install_in minimal ccache
-    mkdir "$work/minimal/root/faqem"
-    cd "$source"
-    if git rev-parse --git-dir >/dev/null 2>&1; then
-        git ls-files -z -co --exclude-standard
-    else
-        find . -path ./build -prune -o -type f -print0
-    fi | tar --null --files-from=- --ignore-failed-read -c | tar -x -C "$work/minimal/root/faqem" --no-same-owner
-}
+suite=fresh
+. "$here/../support/debian_root.sh"
+check_release $release
 
 quickstart() {
     cp -a "$work/minimal" "$work/tool"
@@ -165,12 +76,8 @@ case $release in
     trixie) runtime="libtinygltf6d libdraco8 libmeshoptimizer2d libpng16-16t64" ;;
 esac
 runtime="$runtime libjpeg62-turbo libwebp7 libwebpdemux2 libdeflate0"
-# Stops if a step failed.
-end() {
-    [ -z "$failed" ] || { echo "failed:$failed"; exit 1; }
-}
 echo "fresh: Debian $release from $mirror"
-step "an empty root" make_root
+step "an empty root" make_root $release minimal
 end
 step "the quickstart" quickstart
 end

@@ -8,10 +8,10 @@ docs/python.md describes all options.
 """
 
 import importlib
-from typing import TYPE_CHECKING
 
 from .errors import Error, InputError, InternalError, OptionError, TimeLimitError, UnsupportedError, WriteError
 
+TYPE_CHECKING = False  # type checkers take it for true; the module typing would take a third of the import's time
 if TYPE_CHECKING:
     from ._levels import History, simplify_levels
     from ._model import Model, Part, bake, bake_levels, bake_truncated, load, save, save_levels
