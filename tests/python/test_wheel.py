@@ -45,6 +45,12 @@ class Names(unittest.TestCase):
         with self.assertRaisesRegex(AttributeError, "'simplfy'"):
             faqem.simplfy
 
+    def test_the_types_name_every_option(self):
+        from faqem import _options, _types
+
+        self.assertEqual(set(_types.BakeOptions.__annotations__), {*_options.option_names(), "progress"})
+        self.assertLess(set(_types.SimplifyOptions.__annotations__), set(_types.BakeOptions.__annotations__))
+
     def test_the_import_loads_neither_numpy_nor_the_library(self):
         code = "import sys, faqem; sys.exit(bool({'numpy', 'ctypes', 'faqem._library'} & set(sys.modules)))"
         self.assertEqual(run(sys.executable, "-c", code), (0, b"", b""))

@@ -34,6 +34,11 @@ tag_and_size() {
     tr -s '\n ' ' ' <"$work/shown" | grep -F "$(basename "$1") is consistent with the following platform tag: \"manylinux_2_34_x86_64\""
 }
 
+types() {
+    in_root "$work/build" "env/bin/pip install -q mypy wheels/*.whl"
+    in_root "$work/build" "mkdir typed; cp faqem/tests/wheel/typed.py typed; cd typed; ../env/bin/mypy --strict typed.py"
+}
+
 # In a folder with the installed wheel, README.md, tests and try.py.
 try='
     export FAQEM_ENVIRONMENT=$PWD/env PATH=$PWD/env/bin:$PATH FAQEM_EXPECTED_VERSION=$(cat version)
@@ -80,6 +85,7 @@ step "the wheel, from the sources alone" build
 end
 step "the same bytes from the source distribution" from_source
 step "platform tag and size" tag_and_size
+step "types of a program that uses it" types
 step "Debian 12, newest numpy" installed bookworm numpy
 step "Debian 12, numpy 1" installed bookworm "numpy<2"
 step "Debian 12, its own numpy" installed bookworm debian

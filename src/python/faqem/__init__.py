@@ -7,6 +7,8 @@
 docs/python.md describes all options.
 """
 
+from __future__ import annotations
+
 import importlib
 
 from .errors import Error, InputError, InternalError, OptionError, TimeLimitError, UnsupportedError, WriteError
@@ -50,7 +52,7 @@ _modules = {
 }
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> object:
     if name == "__version__":
         value = importlib.import_module("._library", __name__).version()
     elif name in _modules:
@@ -61,5 +63,5 @@ def __getattr__(name):
     return value
 
 
-def __dir__():
+def __dir__() -> list[str]:
     return sorted([*globals(), *_modules, "__version__"])

@@ -6,7 +6,7 @@ import signal
 import sys
 
 
-def main():
+def main() -> None:
     """Replaces this process by the command, with the same arguments."""
     command = str(pathlib.Path(__file__).with_name("faqem"))
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # Python ignores it, and the command would inherit that

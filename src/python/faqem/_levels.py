@@ -1,8 +1,14 @@
 """Levels of detail, and collapse histories from which further levels can be restored."""
 
+from __future__ import annotations
+
 import ctypes
 import os
 import weakref
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Union
+
+from numpy.typing import ArrayLike
 
 from ._arrays import MeshArrays, mesh_pointer
 from ._library import Level, call, create, library
@@ -10,10 +16,19 @@ from ._options import Options, parse_length, checked_integer
 from ._simplify import Simplified
 from .errors import OptionError
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._model import Model
+    from ._types import CommonOptions
+
+Target = Union[float, str]  # of a level
+Path = Union[str, "os.PathLike[str]"]
+
 _ratio, _faces, _distance = 0, 1, 2  # faqem_level_kind; 3 is a distance as a share of the diagonal
 
 
-def _level(level):
+def _level(level: Target) -> Level:
     if isinstance(level, str):
         if not level.startswith("error:"):
             raise OptionError(f"levels: {level!r} is not a level (expected: 0.5, 5000, 'error:0.01', 'error:0.1%')")
@@ -24,12 +39,23 @@ def _level(level):
     return Level(_faces, checked_integer(level, "levels", 53))
 
 
-def level_array(levels):
+def level_array(levels: Sequence[Target]) -> Any:
     """Converts levels to an array of faqem_level."""
     return (Level * len(levels))(*map(_level, levels))
 
 
-def simplify_levels(vertices, triangles, levels, /, *, groups=None, locks=None, weights=None, uvs=None, **options):
+def simplify_levels(
+    vertices: ArrayLike,
+    triangles: ArrayLike,
+    levels: Sequence[Target],
+    /,
+    *,
+    groups: ArrayLike | None = None,
+    locks: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
+    uvs: ArrayLike | None = None,
+    **options: Unpack[CommonOptions],
+) -> list[Simplified]:
     """Simplifies a triangle soup to several levels of detail, and measures each against the original.
 
     vertices, triangles, groups, locks, weights, uvs
@@ -48,7 +74,7 @@ def simplify_levels(vertices, triangles, levels, /, *, groups=None, locks=None, 
     return [Simplified(ctypes.c_void_p(one)) for one in made]
 
 
-def handle_array(levels):
+def handle_array(levels: Sequence[Simplified] | Sequence[Model]) -> Any:
     """Returns the C objects of a list of Simplified or Model as an array."""
     return (ctypes.c_void_p * len(levels))(*(level._handle.value for level in levels))
 
@@ -56,12 +82,12 @@ def handle_array(levels):
 class History:
     """Collapse history of a chain of levels. Created by History.of() or History.load()."""
 
-    def __init__(self, handle):
+    def __init__(self, handle: ctypes.c_void_p) -> None:
         self._handle = handle
         weakref.finalize(self, library.faqem_history_destroy, handle)
 
     @classmethod
-    def of(cls, levels):
+    def of(cls, levels: Sequence[Simplified] | Sequence[Model]) -> History:
         """Creates the history of a run with history=True.
 
         levels  the result of simplify_levels() or bake_levels(), or a list with one result of simplify() or
@@ -75,29 +101,29 @@ class History:
         return cls(create(make, objects, len(levels)))
 
     @classmethod
-    def load(cls, path):
+    def load(cls, path: Path) -> History:
         """Reads a history file of save() or of the command. Raises InputError, OSError."""
         with open(path, "rb") as file:
             content = file.read()
         return cls(create(library.faqem_history_read, content, len(content)))
 
-    def save(self, path, *, overwrite=False):
+    def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Writes the history in the format of docs/history-format.md. Raises OSError."""
         size = ctypes.c_size_t()
         content = ctypes.string_at(library.faqem_history_bytes(self._handle, ctypes.byref(size)), size.value)
         with open(os.fspath(path), "wb" if overwrite else "xb") as file:
             file.write(content)
 
-    def __len__(self):
+    def __len__(self) -> int:
         """Number of levels."""
-        return library.faqem_history_level_count(self._handle)
+        return int(library.faqem_history_level_count(self._handle))
 
     @property
-    def part_count(self):
+    def part_count(self) -> int:
         """Number of meshes: 1, or the number of parts of a model."""
-        return library.faqem_history_part_count(self._handle)
+        return int(library.faqem_history_part_count(self._handle))
 
-    def truncate(self, faces):
+    def truncate(self, faces: int) -> Simplified:
         """Restores the mesh at the first time when at most `faces` triangles were left; see docs/levels.md.
 
         Returns a Simplified. Raises OptionError, also if the history has several meshes: use truncate_parts(),
@@ -107,7 +133,7 @@ class History:
             raise OptionError(f"the history has {self.part_count} meshes: use truncate_parts()")
         return Simplified(create(library.faqem_history_truncate, self._handle, checked_integer(faces, "faces", 53)))
 
-    def truncate_parts(self, faces):
+    def truncate_parts(self, faces: int) -> list[Simplified]:
         """Restores all meshes at a total number of triangles. Returns a list of Simplified, one per part."""
         made = (ctypes.c_void_p * self.part_count)()
         call(library.faqem_history_truncate_parts, self._handle, checked_integer(faces, "faces", 53), made)

@@ -1,10 +1,16 @@
 """The functions of the C API (faqem/faqem.h, faqem_levels.h, faqem_asset.h), with errors as exceptions."""
 
+from __future__ import annotations
+
 import ctypes
 import pathlib
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint8, c_uint16, c_uint32, c_uint64, c_void_p
 
 from . import errors
+
+TYPE_CHECKING = False  # as in __init__.py
+if TYPE_CHECKING:
+    from typing import Any
 
 Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_int, c_double)
 
@@ -42,7 +48,7 @@ class _Error(ctypes.Structure):
 
 
 _handle, _status = c_void_p, c_int
-_signatures = {
+_signatures: dict[str, tuple[Any, list[Any]]] = {
     "faqem_version": (c_char_p, []),
     "faqem_options_create": (_handle, []),
     "faqem_options_destroy": (None, [_handle]),
@@ -108,7 +114,7 @@ _signatures = {
 }
 
 
-def _open():
+def _open() -> ctypes.CDLL:
     # CDLL releases the interpreter lock while a function runs.
     opened = ctypes.CDLL(str(pathlib.Path(__file__).with_name("libfaqem_c.so")))
     for name, (result, arguments) in _signatures.items():
@@ -119,7 +125,7 @@ def _open():
 
 library = _open()
 
-_exceptions = {
+_exceptions: dict[int, type[Exception]] = {
     1: errors.InternalError,
     2: errors.OptionError,
     3: errors.InputError,
@@ -131,12 +137,13 @@ _exceptions = {
 }
 
 
-def version():
+def version() -> str:
     """Returns the version of the library, "MAJOR.MINOR.PATCH"."""
-    return library.faqem_version().decode()
+    text: bytes = library.faqem_version()
+    return text.decode()
 
 
-def call(function, *arguments):
+def call(function: Any, *arguments: Any) -> None:
     """Calls a function whose last argument is a faqem_error. Raises the corresponding exception."""
     error = _Error()
     status = function(*arguments, ctypes.byref(error))
@@ -144,7 +151,7 @@ def call(function, *arguments):
         raise _exceptions.get(status, errors.InternalError)(error.message.decode(errors="replace"))
 
 
-def create(function, *arguments):
+def create(function: Any, *arguments: Any) -> c_void_p:
     """Calls a function whose last arguments are the created object and a faqem_error. Returns the object."""
     handle = c_void_p()
     call(function, *arguments, ctypes.byref(handle))

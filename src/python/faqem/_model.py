@@ -1,19 +1,29 @@
 """Textured models: loading, simplification with baking, saving."""
 
+from __future__ import annotations
+
 import ctypes
 import dataclasses
 import json
 import math
 import os
 import weakref
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy
+from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import MeshArrays, copy_array, mesh_pointer
-from ._levels import handle_array, level_array
+from ._levels import History, Path, Target, handle_array, level_array
 from ._library import call, create, library
 from ._options import Options, checked_integer
 from .errors import InputError, OptionError
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._types import BakeOptions, CommonBakeOptions
 
 _level_textures = {"each": 0, "shared": 1}
 
@@ -23,48 +33,48 @@ class Part:
     """A copy of one mesh of a model, in local coordinates."""
 
     name: str
-    vertices: numpy.ndarray  #: (v, 3) float64; vertices are split at seams, as in the file
-    triangles: numpy.ndarray  #: (f, 3) uint32
+    vertices: NDArray[numpy.float64]  #: (v, 3) float64; vertices are split at seams, as in the file
+    triangles: NDArray[numpy.uint32]  #: (f, 3) uint32
 
 
 class Model:
     """A scene of parts, materials and images. Created by load(), bake() or Model.from_arrays()."""
 
-    def __init__(self, handle):
+    def __init__(self, handle: ctypes.c_void_p) -> None:
         self._handle = handle
         weakref.finalize(self, library.faqem_asset_destroy, handle)
 
     @classmethod
-    def from_arrays(cls, vertices, triangles):
+    def from_arrays(cls, vertices: ArrayLike, triangles: ArrayLike) -> Model:
         """Creates a model of one part without materials; the arrays are copied. Raises InputError."""
         arrays = MeshArrays(vertices, triangles)
         return cls(create(library.faqem_asset_create, mesh_pointer(arrays)))
 
     @property
-    def parts(self):
+    def parts(self) -> list[Part]:
         """List of Part, copied at each access."""
         count = library.faqem_asset_part_count(self._handle)
         return [self._part(part) for part in range(count)]
 
     @property
-    def warnings(self):
+    def warnings(self) -> list[str]:
         """List of str: what was repaired, left out, or could not be saved."""
         count = library.faqem_asset_warning_count(self._handle)
         return [library.faqem_asset_warning(self._handle, i).decode(errors="replace") for i in range(count)]
 
     @property
-    def report(self):
+    def report(self) -> dict[str, Any] | None:
         """Report of bake(), with the keys documented in docs/cli.md; None for other models."""
         text = library.faqem_asset_report_json(self._handle)
         return None if text is None else json.loads(text)
 
     @property
-    def error(self):
+    def error(self) -> float | None:
         """Upper bound of the distance of a level from the original, in scene units; None for other models."""
-        error = library.faqem_asset_level_error(self._handle)
+        error: float = library.faqem_asset_level_error(self._handle)
         return None if math.isnan(error) else error
 
-    def _part(self, part):
+    def _part(self, part: int) -> Part:
         v = library.faqem_asset_vertex_count(self._handle, part)
         f = library.faqem_asset_face_count(self._handle, part)
         return Part(
@@ -74,14 +84,14 @@ class Model:
         )
 
 
-def _path(path):
+def _path(path: Path) -> bytes:
     encoded = os.fsencode(path)
     if b"\0" in encoded:
         raise InputError(f"{path!r}: the file name contains a zero byte")
     return encoded
 
 
-def load(path):
+def load(path: Path) -> Model:
     """Loads a .glb, .gltf, .obj, .ply, .stl or .off file.
 
     Returns a Model. Raises InputError, UnsupportedError, MemoryError.
@@ -89,7 +99,7 @@ def load(path):
     return Model(create(library.faqem_asset_load, _path(path)))
 
 
-def bake(model, /, **options):
+def bake(model: Model, /, **options: Unpack[BakeOptions]) -> Model:
     """Simplifies a model and bakes its appearance into new textures; the given model is unchanged.
 
     options  those of simplify(), and those for models; see docs/python.md
@@ -101,7 +111,9 @@ def bake(model, /, **options):
     return Model(chosen.run(lambda: create(library.faqem_asset_simplify, model._handle, chosen.object)))
 
 
-def bake_levels(model, levels, /, *, textures="each", **options):
+def bake_levels(
+    model: Model, levels: Sequence[Target], /, *, textures: str = "each", **options: Unpack[CommonBakeOptions]
+) -> list[Model]:
     """Simplifies a model to several levels of detail and bakes each; the given model is unchanged.
 
     levels    as for simplify_levels(); distances are in scene units
@@ -120,7 +132,7 @@ def bake_levels(model, levels, /, *, textures="each", **options):
     return [Model(ctypes.c_void_p(one)) for one in made]
 
 
-def bake_truncated(model, history, faces, /, **options):
+def bake_truncated(model: Model, history: History, faces: int, /, **options: Unpack[CommonBakeOptions]) -> Model:
     """Restores a model from a history at a number of triangles and bakes its appearance, without another run.
 
     model    the model that was simplified
@@ -136,7 +148,15 @@ def bake_truncated(model, history, faces, /, **options):
                                            chosen.object)))
 
 
-def save_levels(levels, path, /, *, pixel_error=1, screen_height=1080, overwrite=False):
+def save_levels(
+    levels: Sequence[Model],
+    path: Path,
+    /,
+    *,
+    pixel_error: float = 1,
+    screen_height: float = 1080,
+    overwrite: bool = False,
+) -> None:
     """Saves levels of detail as one .glb or .gltf file with the extension MSFT_lod; see docs/levels.md.
 
     levels         list of Model from fine to coarse, of one source; the first one may be the source itself
@@ -154,7 +174,7 @@ def save_levels(levels, path, /, *, pixel_error=1, screen_height=1080, overwrite
     call(library.faqem_asset_save_levels, handle_array(levels), len(levels), share, _path(path), 1 if overwrite else 0)
 
 
-def save(model, path, *, overwrite=False):
+def save(model: Model | tuple[ArrayLike, ArrayLike], path: Path, *, overwrite: bool = False) -> None:
     """Saves a model as .glb, .gltf, .obj, .ply or .stl, by file extension. Each file is complete or absent.
 
     model      a Model, or a pair of arrays (vertices, triangles)

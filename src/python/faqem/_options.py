@@ -1,23 +1,29 @@
 """Conversion of keyword arguments to the options of the C API."""
 
+from __future__ import annotations
+
 import difflib
 import operator
 import weakref
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
 
 from ._library import Progress, call, library
 from .errors import OptionError
 
+Result = TypeVar("Result")
+
 _phases = ["load", "weld", "simplify", "map", "bake", "save"]
 
 
-def enum_value(names, name, option):
+def enum_value(names: Sequence[str], name: str, option: str) -> int:
     """Returns the value of an enumerator of the C API. Raises OptionError if the name is unknown."""
     if name not in names:
         raise OptionError(f"{option}: unknown value {name!r} (expected: {', '.join(names)})")
     return names.index(name)
 
 
-def parse_length(value, option):
+def parse_length(value: float | str, option: str) -> tuple[float, int]:
     """Parses 0.01 (model units) or "0.1%" (of the diagonal). Returns value and unit."""
     try:
         if isinstance(value, str) and value.endswith("%"):
@@ -27,7 +33,7 @@ def parse_length(value, option):
         raise OptionError(f"{option}: {value!r} is not a length, such as 0.01 or '0.1%'") from None
 
 
-def checked_integer(value, option, bits):
+def checked_integer(value: Any, option: str, bits: int) -> int:
     """Returns `value` as int. Raises OptionError if it is not an integer from 0 to 2^bits - 1."""
     try:
         number = operator.index(value)  # int() would round the value of an array of floats
@@ -38,18 +44,19 @@ def checked_integer(value, option, bits):
     return number
 
 
-def option_names():
+def option_names() -> list[str]:
     """Returns the options of the C API as keywords, for example "texel_density"."""
     return [library.faqem_option_name(i).decode().replace("-", "_") for i in range(library.faqem_option_count())]
 
 
-def _text(value):
+def _text(value: Any) -> str | None:
     """Converts the value of an option to text. None if it is neither a number nor a text."""
     if isinstance(value, str):
         return {"automatic": "auto"}.get(value, value).replace("_", "-")
     if isinstance(value, bool):
         return "on" if value else "off"
-    for convert in (lambda: str(operator.index(value)), lambda: repr(float(value))):
+    conversions: list[Callable[[], str]] = [lambda: str(operator.index(value)), lambda: repr(float(value))]
+    for convert in conversions:
         try:
             return convert()
         except (TypeError, ValueError):
@@ -60,7 +67,7 @@ def _text(value):
 class Options:
     """Options object of the C API. The keywords are option_names(); None leaves an option at its default."""
 
-    def __init__(self, *, progress=None, **options):
+    def __init__(self, *, progress: Callable[[str, float], object] | None = None, **options: Any) -> None:
         given = {keyword: value for keyword, value in options.items() if value is not None}
         if "ratio" in given and "faces" in given:
             raise OptionError("ratio and faces: only one of them can be set")
@@ -68,7 +75,7 @@ class Options:
         if not self.object:
             raise MemoryError
         weakref.finalize(self, library.faqem_options_destroy, self.object)
-        self._callback_exception = None
+        self._callback_exception: BaseException | None = None
         for keyword in options.keys() - set(option_names()):
             close = difflib.get_close_matches(keyword, option_names(), 1)
             raise TypeError(f"unknown option {keyword!r}" + (f"; did you mean {close[0]!r}?" if close else ""))
@@ -76,7 +83,7 @@ class Options:
             self._set(keyword, bool(value) if keyword == "history" else value)
         self._set_progress(progress)
 
-    def _set(self, keyword, value):
+    def _set(self, keyword: str, value: Any) -> None:
         name, text = keyword.replace("_", "-"), _text(value)
         if text is None:
             raise OptionError(f"{keyword}: {value!r} is neither a number nor a text")
@@ -85,10 +92,10 @@ class Options:
         except OptionError as error:
             raise OptionError(str(error).replace(name, keyword, 1)) from None
 
-    def _set_progress(self, progress):
+    def _set_progress(self, progress: Callable[[str, float], object] | None) -> None:
         """Sets the callback. Exceptions cannot pass through C: they cancel the run, and run() raises them."""
 
-        def called(_user, phase, fraction):
+        def called(_user: object, phase: int, fraction: float) -> int:
             try:
                 if progress is not None:
                     progress(_phases[phase], fraction)
@@ -100,7 +107,7 @@ class Options:
         self._callback = Progress(called)  # keeps the callback alive: C has only a pointer to it
         library.faqem_options_set_progress(self.object, self._callback, None)
 
-    def run(self, work):
+    def run(self, work: Callable[[], Result]) -> Result:
         """Calls `work` and returns its result. Raises the exception of the progress callback, if any."""
         try:
             return work()

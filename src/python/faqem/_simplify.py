@@ -1,15 +1,24 @@
 """Simplification of meshes given as arrays."""
 
+from __future__ import annotations
+
 import ctypes
 import json
 import weakref
+from typing import TYPE_CHECKING, Any
 
 import numpy
+from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import MeshArrays, checked_indices, copy_array, mesh_pointer
 from ._library import call, create, library
 from ._options import Options, enum_value
 from .errors import InputError
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._types import SimplifyOptions
 
 _mappings = ["projection", "lineage", "closest"]
 
@@ -17,16 +26,16 @@ _mappings = ["projection", "lineage", "closest"]
 class Simplified:
     """A simplified mesh, the origin of its elements, and the report. Owns its arrays."""
 
-    vertices: numpy.ndarray  #: (v, 3) float64; vertices that were not moved are unchanged bit by bit
-    triangles: numpy.ndarray  #: (f, 3) uint32
-    groups: "numpy.ndarray | None"  #: (f,) uint32, or None if the input has no groups
-    uvs: "numpy.ndarray | None"  #: (f, 3, n) float32, or None if the input has no uvs
-    vertex_origin: numpy.ndarray  #: (v,) uint32: source vertex of each vertex; empty after History.truncate()
-    face_origin: numpy.ndarray  #: (f,) uint32: input triangle of each triangle
-    report: dict  #: with the keys documented in docs/cli.md
-    error: "float | None"  #: upper bound of the distance of a level from the original; None for other results
+    vertices: NDArray[numpy.float64]  #: (v, 3) float64; vertices that were not moved are unchanged bit by bit
+    triangles: NDArray[numpy.uint32]  #: (f, 3) uint32
+    groups: NDArray[numpy.uint32] | None  #: (f,) uint32, or None if the input has no groups
+    uvs: NDArray[numpy.float32] | None  #: (f, 3, n) float32, or None if the input has no uvs
+    vertex_origin: NDArray[numpy.uint32]  #: (v,) uint32: source vertex of each vertex; empty after History.truncate()
+    face_origin: NDArray[numpy.uint32]  #: (f,) uint32: input triangle of each triangle
+    report: dict[str, Any]  #: with the keys documented in docs/cli.md
+    error: float | None  #: upper bound of the distance of a level from the original; None for other results
 
-    def __init__(self, handle):
+    def __init__(self, handle: ctypes.c_void_p) -> None:
         self._handle = handle  # kept for map() and History.of(), which need the history
         weakref.finalize(self, library.faqem_result_destroy, handle)
         v = library.faqem_result_vertex_count(handle)
@@ -43,7 +52,9 @@ class Simplified:
         error = library.faqem_result_level_error(handle)
         self.error = None if numpy.isnan(error) else error
 
-    def map(self, faces, barycentric, mapping="projection"):
+    def map(
+        self, faces: ArrayLike, barycentric: ArrayLike, mapping: str = "projection"
+    ) -> tuple[NDArray[numpy.uint32], NDArray[numpy.float64]]:
         """Maps points of the simplified mesh to the original. Needs history=True.
 
         faces        (n,) indices of triangles of the simplified mesh, of an integer type
@@ -53,22 +64,32 @@ class Simplified:
         Returns the input triangles (n,) and the weights of their corners (n, 3). Raises InputError, also for
         indices that are no integers or out of range, and OptionError if there is no history.
         """
-        faces = numpy.ascontiguousarray(checked_indices(faces, "faces"), dtype=numpy.uint32)
-        weights = numpy.ascontiguousarray(barycentric, dtype=numpy.float64)
-        if faces.ndim != 1 or weights.shape != (len(faces), 3):
-            raise InputError(f"map: the shapes must be (n,) and (n, 3), but are {faces.shape} and {weights.shape}")
-        source_faces, source_weights = numpy.empty_like(faces), numpy.empty_like(weights)
+        indices: NDArray[numpy.uint32] = numpy.ascontiguousarray(checked_indices(faces, "faces"), dtype=numpy.uint32)
+        weights: NDArray[numpy.float64] = numpy.ascontiguousarray(barycentric, dtype=numpy.float64)
+        if indices.ndim != 1 or weights.shape != (len(indices), 3):
+            raise InputError(f"map: the shapes must be (n,) and (n, 3), but are {indices.shape} and {weights.shape}")
+        source_faces, source_weights = numpy.empty_like(indices), numpy.empty_like(weights)
 
-        def pointer(array, kind):
+        def pointer(array: NDArray[Any], kind: Any) -> Any:
             return array.ctypes.data_as(ctypes.POINTER(kind))
 
         call(library.faqem_result_map, self._handle, enum_value(_mappings, mapping, "mapping"),
-             pointer(faces, ctypes.c_uint32), pointer(weights, ctypes.c_double), len(faces),
+             pointer(indices, ctypes.c_uint32), pointer(weights, ctypes.c_double), len(indices),
              pointer(source_faces, ctypes.c_uint32), pointer(source_weights, ctypes.c_double))
         return source_faces, source_weights
 
 
-def simplify(vertices, triangles, /, *, groups=None, locks=None, weights=None, uvs=None, **options):
+def simplify(
+    vertices: ArrayLike,
+    triangles: ArrayLike,
+    /,
+    *,
+    groups: ArrayLike | None = None,
+    locks: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
+    uvs: ArrayLike | None = None,
+    **options: Unpack[SimplifyOptions],
+) -> Simplified:
     """Simplifies a triangle soup.
 
     vertices   (v, 3) positions; float32 and float64 are used without a copy

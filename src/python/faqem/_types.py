@@ -1,0 +1,64 @@
+"""Types of the keyword arguments, for type checkers. docs/python.md describes the options."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Literal, TypedDict, Union
+
+Length = Union[float, str]  # 0.01 in model units, or "0.1%" of the diagonal
+
+
+class CommonOptions(TypedDict, total=False):
+    """Options of all calls that simplify."""
+
+    preset: Literal["qem", "paper", "stmw", "fast", "balanced", "best"] | None
+    w_area: float | None
+    w_boundary: float | None
+    w_normal: float | None
+    w_uv: float | None
+    w_plane_area: float | None
+    link: Literal["as_preset", "off", "by_size", "on", "strict"] | None
+    boundary: Literal["free", "locked"] | None
+    group_boundaries: Literal["free", "kept"] | None
+    welding: Literal["by_position", "none"] | None
+    weld_distance: float | None
+    prune: Length | None
+    virtual_edges: float | bool | None
+    history: bool | None
+    threads: int | None
+    progress: Callable[[str, float], object] | None
+
+
+class _Target(TypedDict, total=False):
+    ratio: float | None
+    faces: int | None
+    max_error: Length | None
+    max_seconds: float | None
+
+
+class CommonBakeOptions(CommonOptions, total=False):
+    """Options of all calls that bake."""
+
+    budget: Literal["scene", "mesh"] | None
+    visibility: Literal["ignored", "weighted"] | None
+    bake: Literal["automatic", "atlas", "per_triangle", "vertex", "keep", "none"] | None
+    texture_size: int | None
+    texel_density: float | None
+    normal_map: Literal["automatic", "on", "off"] | None
+    normals: Literal["transfer", "smooth", "flat", "none"] | None
+    crease_angle: float | None
+    image_format: Literal["auto", "png", "jpeg", "source", "webp"] | None
+    image_quality: float | None
+    jpeg_quality: int | None
+    untouched: Literal["auto", "kept", "baked"] | None
+    mapping: Literal["projection", "lineage", "closest"] | None
+    samples: int | None
+    compress: Literal["source", "none", "meshopt"] | None
+
+
+class SimplifyOptions(CommonOptions, _Target, total=False):
+    """Options of simplify()."""
+
+
+class BakeOptions(CommonBakeOptions, _Target, total=False):
+    """Options of bake()."""

@@ -1,0 +1,29 @@
+"""A program for mypy --strict. Wrong calls are marked, so that it is an error if they are not found."""
+
+import faqem
+import numpy
+
+vertices = numpy.zeros((4, 3), dtype=numpy.float32)
+triangles = [[0, 1, 2], [0, 2, 3]]
+
+
+def show(phase: str, fraction: float) -> None:
+    print(phase, fraction)
+
+
+out = faqem.simplify(vertices, triangles, ratio=0.5, preset="best", max_error="0.1%", progress=show)
+kept: "numpy.ndarray[tuple[int, ...], numpy.dtype[numpy.uint32]]" = out.triangles
+level: faqem.Simplified
+for level in faqem.simplify_levels(vertices, triangles, [0.5, 1000, "error:1%"], history=True):
+    print(level.error, level.report["faces_out"], level.map([0], [[1, 0, 0]])[1].dtype)
+
+model = faqem.load("statue.glb")
+baked = faqem.bake(model, faces=20_000, texture_size=2048, image_format="webp")
+faqem.save(baked, "simplified.glb", overwrite=True)
+faqem.save((out.vertices, out.triangles), "simplified.ply")
+faqem.save_levels([model, *faqem.bake_levels(model, [0.5, 0.1], textures="shared")], "levels.glb")
+print(faqem.History.load("history").truncate(100).vertices.shape, faqem.__version__)
+
+faqem.simplify(vertices, triangles, rato=0.5)  # type: ignore[call-arg]
+faqem.simplify(vertices, triangles, preset="bes")  # type: ignore[arg-type]
+faqem.bake(model, texture_size="large")  # type: ignore[arg-type]
