@@ -18,7 +18,7 @@ using test::longest_silence;
 using test::most_steps;
 
 TEST_CASE("cancellation is checked often during the creation of charts") {
-    const std::vector<ChartFace> faces = test::chart_faces(test::shaken(test::icosphere(5), 0.01, 1), 200);
+    const std::vector<PageTriangle> faces = test::chart_faces(test::shaken(test::icosphere(5), 0.01, 1), 200);
     const std::uint64_t clustering = longest_silence(
         [&](engine::CancellationCheck check_cancelled) { cluster_faces(faces, check_cancelled); });
     CHECK(for_a_million_faces(clustering, faces.size()) < most_steps);

@@ -14,8 +14,8 @@ namespace faqem::test {
 
 /// The faces of a mesh with their neighbours across edges of exactly two consistently oriented faces.
 /// \param density  texels per unit of length
-inline std::vector<detail::ChartFace> chart_faces(const TriangleMesh& mesh, double density) {
-    std::vector<detail::ChartFace> result(mesh.triangles.size());
+inline std::vector<detail::PageTriangle> chart_faces(const TriangleMesh& mesh, double density) {
+    std::vector<detail::PageTriangle> result(mesh.triangles.size());
     std::map<std::pair<Index, Index>, std::vector<std::pair<Index, std::uint8_t>>> edges;
     for (Index f = 0; f < result.size(); ++f) {
         const Triangle& t = mesh.triangles[f];

@@ -30,10 +30,10 @@ struct ChartBoundaryEdge {
 };
 
 // The boundary edges of a chart, face by face.
-std::vector<ChartBoundaryEdge> boundary_edges(std::span<const ChartFace> all, const Chart& chart) {
+std::vector<ChartBoundaryEdge> boundary_edges(std::span<const PageTriangle> all, const Chart& chart) {
     std::vector<ChartBoundaryEdge> edges;
     for (std::size_t i = 0; i < chart.faces.size(); ++i) {
-        const ChartFace& face = all[chart.faces[i]];
+        const PageTriangle& face = all[chart.faces[i]];
         for (std::size_t c = 0; c < 3; ++c) {
             const Index other = face.adjacent[c].triangle;
             if (other != no_index && std::binary_search(chart.faces.begin(), chart.faces.end(), other))
@@ -67,7 +67,7 @@ bool has_clearance(const ChartBoundaryEdge& s, const ChartBoundaryEdge& t) {
 
 }  // namespace
 
-bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work) {
+bool has_boundary_clearance(std::span<const PageTriangle> all, const Chart& chart, std::uint64_t& work) {
     const std::vector<ChartBoundaryEdge> edges = boundary_edges(all, chart);
     std::vector<Box2> boxes;
     boxes.reserve(edges.size());

@@ -17,6 +17,6 @@ namespace faqem::detail {
 /// \param work   as in have_disjoint_interiors()
 /// \return false also if `work` is used up before the result is known
 /// Complexity: O(n) expected.
-bool has_boundary_clearance(std::span<const ChartFace> all, const Chart& chart, std::uint64_t& work);
+bool has_boundary_clearance(std::span<const PageTriangle> all, const Chart& chart, std::uint64_t& work);
 
 }  // namespace faqem::detail

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Input triangles of the chart atlas, and the charts that are made from them.
+/// The triangles of a page, and the charts that are made from them.
 
 #include <array>
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace faqem::detail {
 
-/// A triangle to be placed in a chart.
-struct ChartFace {
+/// A triangle to be placed on a page.
+struct PageTriangle {
     std::array<Vec3, 3> corners = {};
     double density = 1;  ///< wanted texels per unit of length, > 0
     /// By corner opposite the edge. Symmetric: neighbours name each other. Their winding is consistent.
@@ -36,6 +36,6 @@ struct Chart {
 };
 
 /// Wanted number of texels of a face: its area times its density squared.
-double wanted_texels(const ChartFace& face);
+double wanted_texels(const PageTriangle& face);
 
 }  // namespace faqem::detail

@@ -35,7 +35,7 @@ bool is_acceptable(const Parametrization& parametrization, double max_diagonal) 
 }
 
 // Divides one region into charts.
-Charts parametrize_region(std::span<const ChartFace> all, const std::vector<Index>& region,
+Charts parametrize_region(std::span<const PageTriangle> all, const std::vector<Index>& region,
                           double max_diagonal, CancellationCheck check_cancelled) {
     Charts result;
     std::uint64_t work = work_per_region * parametrization_work_per_face * region.size();
@@ -74,7 +74,7 @@ Charts parametrize_region(std::span<const ChartFace> all, const std::vector<Inde
 // smaller perimeter.
 class ChartMerging {
 public:
-    ChartMerging(std::span<const ChartFace> all, std::vector<Chart> charts, double max_diagonal,
+    ChartMerging(std::span<const PageTriangle> all, std::vector<Chart> charts, double max_diagonal,
                  Workers workers)
         : all_(all),
           charts_(std::move(charts)),
@@ -213,7 +213,7 @@ private:
         }
     }
 
-    std::span<const ChartFace> all_;
+    std::span<const PageTriangle> all_;
     std::vector<Chart> charts_;
     std::vector<Index> chart_of_face_;
     std::vector<double> perimeters_;  // by chart
@@ -225,17 +225,17 @@ private:
 
 }  // namespace
 
-double wanted_texels(const ChartFace& face) {
+double wanted_texels(const PageTriangle& face) {
     return engine::area_vector(engine::to_eigen(face.corners[0]), engine::to_eigen(face.corners[1]),
                                engine::to_eigen(face.corners[2]))
                .norm() /
            2 * face.density * face.density;
 }
 
-Charts make_charts(std::span<const ChartFace> faces, Workers workers) {
+Charts make_charts(std::span<const PageTriangle> faces, Workers workers) {
     const std::vector<std::vector<Index>> regions = cluster_faces(faces, workers.check_cancelled);
     double texels = 0;
-    for (const ChartFace& face : faces) texels += wanted_texels(face);
+    for (const PageTriangle& face : faces) texels += wanted_texels(face);
     const double max_diagonal = 0.9 * std::sqrt(texels);
     std::vector<Charts> by_region(regions.size());
     parallel_blocks(regions.size(), 1, workers,

@@ -51,7 +51,7 @@ struct LocalTriangle {
     }
 };
 
-LocalTriangle local_triangle(const ChartFace& face) {
+LocalTriangle local_triangle(const PageTriangle& face) {
     std::array<Vector3, 3> p;
     for (std::size_t i = 0; i < 3; ++i) p[i] = to_eigen(face.corners[i]) * face.density;
     std::size_t longest = 0;
@@ -78,7 +78,7 @@ LocalTriangle local_triangle(const ChartFace& face) {
 // The faces of one chart as an indexed mesh. Corners are the same vertex if shared edges connect them.
 class ChartMesh {
 public:
-    ChartMesh(std::span<const ChartFace> all, std::vector<Index> faces)
+    ChartMesh(std::span<const PageTriangle> all, std::vector<Index> faces)
         : all_(all), faces_(std::move(faces)) {
         std::vector<std::size_t> parent(3 * faces_.size());
         std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -130,7 +130,7 @@ public:
         Vector3 normal = Vector3::Zero();
         double weight = 0, density = 0;
         for (std::size_t i = 0; i < size(); ++i) {
-            const ChartFace& face = all_[faces_[i]];
+            const PageTriangle& face = all_[faces_[i]];
             normal += engine::area_vector(to_eigen(face.corners[0]), to_eigen(face.corners[1]),
                                           to_eigen(face.corners[2]));
             weight += locals_[i].area;
@@ -152,7 +152,7 @@ public:
     }
 
 private:
-    std::span<const ChartFace> all_;
+    std::span<const PageTriangle> all_;
     std::vector<Index> faces_;
     std::vector<Index> corner_;
     std::vector<LocalTriangle> locals_;
@@ -205,7 +205,7 @@ double stretch_of(const ChartMesh& chart_mesh, const std::vector<ComplexPoint>& 
 // The two vertices with the smallest and the largest coordinate along the longest axis of the bounding box,
 // each with this coordinate in texels.
 std::array<std::pair<Index, double>, 2> pinned_vertices(const ChartMesh& chart_mesh,
-                                                        std::span<const ChartFace> all,
+                                                        std::span<const PageTriangle> all,
                                                         const std::vector<Index>& faces) {
     Vector3 low = to_eigen(all[faces[0]].corners[0]), high = low;
     for (Index f : faces) {
@@ -229,7 +229,7 @@ std::array<std::pair<Index, double>, 2> pinned_vertices(const ChartMesh& chart_m
 
 // Least squares conformal map with two pinned vertices; empty if the linear system cannot be solved.
 std::vector<ComplexPoint> least_squares_conformal_map(const ChartMesh& chart_mesh,
-                                                      std::span<const ChartFace> all,
+                                                      std::span<const PageTriangle> all,
                                                       const std::vector<Index>& faces) {
     const auto pinned = pinned_vertices(chart_mesh, all, faces);
     if (pinned[0].first == pinned[1].first) return {};
@@ -338,7 +338,8 @@ Chart make_chart(ChartMesh& chart_mesh, const std::vector<ComplexPoint>& z, doub
 
 }  // namespace
 
-Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work) {
+Parametrization parametrize(std::span<const PageTriangle> all, std::vector<Index> faces,
+                            std::uint64_t& work) {
     Parametrization result;
     if (faces.size() > max_faces_per_chart) return result;
     ChartMesh chart_mesh(all, std::move(faces));

@@ -39,10 +39,10 @@ inline constexpr std::size_t max_faces_per_chart = 8192;
 /// taken. A single face is always valid and mapped isometrically. A triangle whose height is less than a
 /// thousandth of its longest edge is given that height. More than `max_faces_per_chart` faces are not tried.
 /// \param all    all faces of the page
-/// \param faces  indices into `all`, ascending, connected over ChartFace::adjacent
+/// \param faces  indices into `all`, ascending, connected over PageTriangle::adjacent
 /// \param work   as in have_disjoint_interiors(); the flattening itself counts as
 ///               `parametrization_work_per_face` comparisons per face
 /// Complexity: O(n^1.5) expected.
-Parametrization parametrize(std::span<const ChartFace> all, std::vector<Index> faces, std::uint64_t& work);
+Parametrization parametrize(std::span<const PageTriangle> all, std::vector<Index> faces, std::uint64_t& work);
 
 }  // namespace faqem::detail

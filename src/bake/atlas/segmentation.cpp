@@ -48,7 +48,7 @@ struct Merge {
 
 class RegionClustering {
 public:
-    explicit RegionClustering(std::span<const ChartFace> faces)
+    explicit RegionClustering(std::span<const PageTriangle> faces)
         : regions_(faces.size()), parent_(faces.size()) {
         std::iota(parent_.begin(), parent_.end(), Index{0});
         for (std::size_t f = 0; f < faces.size(); ++f) init_region(faces, static_cast<Index>(f));
@@ -84,8 +84,8 @@ public:
     }
 
 private:
-    void init_region(std::span<const ChartFace> faces, Index f) {
-        const ChartFace& face = faces[f];
+    void init_region(std::span<const PageTriangle> faces, Index f) {
+        const PageTriangle& face = faces[f];
         std::array<Vector3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) p[i] = to_eigen(face.corners[i]) * face.density;
         FaceRegion& region = regions_[f];
@@ -184,7 +184,7 @@ private:
 
 // Calls visit(j) for every neighbour faces[j] of faces[i].
 template <class Visit>
-void for_each_neighbour(std::span<const ChartFace> all, std::span<const Index> faces, std::size_t i,
+void for_each_neighbour(std::span<const PageTriangle> all, std::span<const Index> faces, std::size_t i,
                         Visit&& visit) {
     for (const AdjacentTriangle& adjacent : all[faces[i]].adjacent) {
         if (adjacent.triangle == no_index) continue;
@@ -195,7 +195,7 @@ void for_each_neighbour(std::span<const ChartFace> all, std::span<const Index> f
 }
 
 // Indices into `faces` in breadth-first order from `start`.
-std::vector<std::size_t> breadth_first(std::span<const ChartFace> all, std::span<const Index> faces,
+std::vector<std::size_t> breadth_first(std::span<const PageTriangle> all, std::span<const Index> faces,
                                        std::size_t start) {
     std::vector<std::size_t> order = {start};
     std::vector<bool> seen(faces.size(), false);
@@ -212,14 +212,14 @@ std::vector<std::size_t> breadth_first(std::span<const ChartFace> all, std::span
 
 }  // namespace
 
-std::vector<std::vector<Index>> cluster_faces(std::span<const ChartFace> faces,
+std::vector<std::vector<Index>> cluster_faces(std::span<const PageTriangle> faces,
                                               engine::CancellationCheck check_cancelled) {
     RegionClustering clustering(faces);
     clustering.run(check_cancelled);
     return clustering.regions();
 }
 
-std::vector<std::vector<Index>> connected_subsets(std::span<const ChartFace> all,
+std::vector<std::vector<Index>> connected_subsets(std::span<const PageTriangle> all,
                                                   std::span<const Index> faces) {
     std::vector<std::vector<Index>> result;
     std::vector<bool> seen(faces.size(), false);
@@ -242,7 +242,7 @@ std::vector<std::vector<Index>> connected_subsets(std::span<const ChartFace> all
     return result;
 }
 
-std::array<std::vector<Index>, 2> bisect(std::span<const ChartFace> all, std::span<const Index> faces) {
+std::array<std::vector<Index>, 2> bisect(std::span<const PageTriangle> all, std::span<const Index> faces) {
     const std::size_t one = breadth_first(all, faces, 0).back();
     const std::size_t other = breadth_first(all, faces, one).back();
     std::vector<std::uint8_t> side(faces.size(), 2);

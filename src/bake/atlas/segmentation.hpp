@@ -10,7 +10,7 @@
 
 namespace faqem::detail {
 
-/// Hierarchical clustering of faces into regions that are connected over ChartFace::adjacent.
+/// Hierarchical clustering of faces into regions that are connected over PageTriangle::adjacent.
 /// Neighbouring regions are merged in ascending order of a cost: the increase of the spread of the normals
 /// (face areas times squared distances from the mean normal; Ward's method, as in the face clusters of
 /// Garland et al. 2001) plus a multiple of the union's squared perimeter. Two regions are not merged if the
@@ -19,20 +19,20 @@ namespace faqem::detail {
 /// \return the faces of every region, ascending; regions sorted by smallest face
 /// Complexity: O(n log n) expected.
 /// \param check_cancelled  called for each merge of two regions; exceptions pass through
-std::vector<std::vector<Index>> cluster_faces(std::span<const ChartFace> faces,
+std::vector<std::vector<Index>> cluster_faces(std::span<const PageTriangle> faces,
                                               engine::CancellationCheck check_cancelled = {});
 
 /// Connected components of `faces`.
 /// \param all    all faces of the page
 /// \param faces  indices into `all`, ascending
 /// \return the faces of every component, ascending; components sorted by smallest face
-std::vector<std::vector<Index>> connected_subsets(std::span<const ChartFace> all,
+std::vector<std::vector<Index>> connected_subsets(std::span<const PageTriangle> all,
                                                   std::span<const Index> faces);
 
 /// Splits connected faces into two connected sets of about the same size, which are grown breadth-first from
 /// two faces far apart.
 /// \param all    all faces of the page
 /// \param faces  indices into `all`, connected, at least two, ascending
-std::array<std::vector<Index>, 2> bisect(std::span<const ChartFace> all, std::span<const Index> faces);
+std::array<std::vector<Index>, 2> bisect(std::span<const PageTriangle> all, std::span<const Index> faces);
 
 }  // namespace faqem::detail

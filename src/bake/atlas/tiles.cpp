@@ -166,9 +166,8 @@ std::vector<ChartTile> split_into_tiles(std::span<const AtlasChart> charts) {
     return result;
 }
 
-TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
-                       std::span<const std::array<AdjacentTriangle, 3>> adjacent, const ChartTile& tile,
-                       std::uint32_t samples) {
+TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart, std::span<const PageTriangle> triangles,
+                       const ChartTile& tile, std::uint32_t samples) {
     if (chart.is_single_texel) {
         // All triangles share the texel: its samples are assigned to them in turn.
         TileOwners result{chart.triangles, {}};
@@ -184,7 +183,7 @@ TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
     const double reach = 2 * chart.block_size;
     for (Index t : chart.triangles) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const Index other = adjacent[t][c].triangle;
+            const Index other = triangles[t].adjacent[c].triangle;
             const bool within = other != no_index &&
                                 std::binary_search(chart.triangles.begin(), chart.triangles.end(), other);
             if (!within) owners.assign_nearest(t, c, reach);

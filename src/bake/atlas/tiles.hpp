@@ -32,11 +32,10 @@ struct TileOwners {
 /// triangle with the closest edge on the chart's boundary. Ties are resolved by the smallest index.
 /// \param atlas     placements of the triangles
 /// \param chart     the chart that the tile is part of
-/// \param adjacent  neighbours of every triangle of the atlas, by corner opposite the edge
+/// \param triangles  the triangles of the atlas
 /// \param tile      one of split_into_tiles()
 /// \param samples   samples per texel along each axis
-TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart,
-                       std::span<const std::array<AdjacentTriangle, 3>> adjacent, const ChartTile& tile,
-                       std::uint32_t samples);
+TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart, std::span<const PageTriangle> triangles,
+                       const ChartTile& tile, std::uint32_t samples);
 
 }  // namespace faqem::detail

@@ -150,37 +150,40 @@ TextureContent content_of(const ImageUse& use) {
     return use.is_normal ? TextureContent::normal : TextureContent::data;
 }
 
-PendingImage kept_image(const BakeJob& job, std::span<const KeptPart> parts, Index index,
-                        const ImageUse& use) {
-    const std::uint32_t texture_size = job.options.bake.texture_size;
-    const Image& image = job.result.asset.images[index];
-    PendingImage result{index,         used_pixels(image, use), {}, image.name, content_of(use),
-                        use.roughness, !use.is_pixel_art};
-    result.tries_webp = job.tries_webp();
-    if (!exceeds(result.pixels, use, texture_size)) result.original = image;
-    while (exceeds(result.pixels, use, texture_size)) result.pixels = halved(result.pixels);
-    result.known = std::make_shared<const std::vector<std::uint8_t>>(
-        may_move_textures(job.source)
-            ? std::vector<std::uint8_t>(std::size_t{result.pixels.width} * result.pixels.height, 1)
-            : texels_of_parts(job.result.asset, parts, index, result.pixels));
-    return result;
+// \param result  has the images of the source
+PendingImage kept_image(const Asset& source, const Asset& result, std::span<const KeptPart> parts,
+                        Index index, const ImageUse& use, std::uint32_t texture_size) {
+    const Image& image = result.images[index];
+    PendingImage pending{index,         used_pixels(image, use), {}, image.name, content_of(use),
+                         use.roughness, !use.is_pixel_art};
+    pending.tries_webp = tries_webp(source);
+    if (!exceeds(pending.pixels, use, texture_size)) pending.original = image;
+    while (exceeds(pending.pixels, use, texture_size)) pending.pixels = halved(pending.pixels);
+    pending.known = std::make_shared<const std::vector<std::uint8_t>>(
+        may_move_textures(source)
+            ? std::vector<std::uint8_t>(std::size_t{pending.pixels.width} * pending.pixels.height, 1)
+            : texels_of_parts(result, parts, index, pending.pixels));
+    return pending;
 }
 
 }  // namespace
 
-void add_kept_images(BakeJob& job, std::span<const KeptPart> parts) {
-    if (job.options.bake.image_format == ImageFormat::source) return;
-    const std::vector<ImageUse> uses = image_uses(job.result.asset, parts);
+void add_kept_images(const Asset& source, const BakeOptions& bake, std::span<const KeptPart> parts,
+                     const Workers& workers, UnencodedResult& out) {
+    if (bake.image_format == ImageFormat::source) return;
+    const Asset& result = out.asset.asset;
+    const std::vector<ImageUse> uses = image_uses(result, parts);
     std::vector<Index> changing;
     for (Index i = 0; i < uses.size(); ++i)
         if (uses[i].is_used && !uses[i].is_fixed) changing.push_back(i);
-    const std::size_t first = job.pending.size();
-    job.pending.resize(first + changing.size());
-    parallel_blocks(changing.size(), 1, job.workers(),
-                    [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
-                        check_cancelled.now();
-                        job.pending[first + i] = kept_image(job, parts, changing[i], uses[changing[i]]);
-                    });
+    const std::size_t first = out.pending.size();
+    out.pending.resize(first + changing.size());
+    parallel_blocks(
+        changing.size(), 1, workers, [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
+            check_cancelled.now();
+            out.pending[first + i] =
+                kept_image(source, result, parts, changing[i], uses[changing[i]], bake.texture_size);
+        });
 }
 
 }  // namespace faqem::detail

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "bake/texture/bake_job.hpp"
+#include "bake/texture/pending_images.hpp"
 
 namespace faqem::detail {
 
@@ -18,8 +18,12 @@ struct KeptPart {
 /// that the parts show count for their loss. An image with a side of more than BakeOptions::texture_size texels is
 /// halved first. Images stay as they are if another part keeps its images, or if it is not known what they hold.
 /// Images that are shown with Filter::nearest keep their resolution.
+/// \param bake   size and encoding of images
 /// \param parts  all parts of the result that were not baked
+/// \param out    the result, with the images of the source
+/// \throws InputError if an image is damaged, engine::Cancelled
 /// Complexity: that of decoding each image, and O(faces).
-void add_kept_images(BakeJob& job, std::span<const KeptPart> parts);
+void add_kept_images(const Asset& source, const BakeOptions& bake, std::span<const KeptPart> parts,
+                     const Workers& workers, UnencodedResult& out);
 
 }  // namespace faqem::detail

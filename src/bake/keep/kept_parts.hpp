@@ -4,16 +4,22 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "bake/keep/kept_uvs.hpp"
-#include "bake/texture/bake_job.hpp"
+#include "bake/keep/kept_images.hpp"
+#include "bake/transfer/corners.hpp"
+#include "faqem/bake.hpp"
 
 namespace faqem::detail {
 
-/// Replaces the empty parts that baking leaves for BakeJob::skipped: by those of the source or by those that keep
-/// their UVs. Adds their materials and images, and reports untouched parts. The images of materials that are only on
-/// parts that keep their UVs are listed to be encoded again, see add_kept_images(); not if the job is late.
-/// \param untouched  by part: whether it is that of the source
-void add_kept_parts(BakeJob& job, std::span<const std::uint8_t> untouched, KeptUvs kept);
+/// Replaces the empty parts that baking leaves for BakePart::is_kept, by those of the source or by those that keep their
+/// UVs. Adds their materials and images, and reports untouched parts.
+/// \param untouched      by part: whether it is that of the source
+/// \param with_uvs       has the other kept parts
+/// \param has_materials  whether the result has all materials and images of the source
+/// \return all kept parts
+std::vector<KeptPart> add_kept_parts(const Asset& source, std::span<const BakePart> parts,
+                                     std::span<const std::uint8_t> untouched, Asset with_uvs,
+                                     bool has_materials, SimplifiedAsset& result);
 
 }  // namespace faqem::detail

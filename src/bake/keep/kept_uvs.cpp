@@ -10,7 +10,10 @@
 #include "bake/keep/part_reports.hpp"
 #include "bake/keep/picture_loss.hpp"
 #include "bake/texture/normal_map.hpp"
+#include "bake/texture/page_mesh.hpp"
 #include "bake/transfer/material_groups.hpp"
+#include "bake/transfer/output_part.hpp"
+#include "bake/transfer/source_sampler.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 
 namespace faqem::detail {
@@ -72,13 +75,14 @@ struct ExpectedPages {
     std::vector<double> share;  // of the texels of the source, at most 1
 };
 
-ExpectedPages expected_pages(const BakeJob& job, const SourceSampler& sampler) {
-    const MaterialGroups groups = group_materials(job.source, job.options.bake, job.skipped);
+ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
+                             const SourceSampler& sampler, const Workers& workers) {
+    const MaterialGroups groups = group_materials(source, bake, kept_flags(parts));
     std::vector<std::vector<PageFace>> faces(groups.groups.size());
     std::vector<double> needed(groups.groups.size(), 0);  // texels
-    std::vector<double> area(job.parts.size(), 0), texels(job.parts.size(), 0);
-    for (const BakePart& part : job.parts) {
-        if (job.skipped[part.index]) continue;
+    std::vector<double> area(parts.size(), 0), texels(parts.size(), 0);
+    for (const BakePart& part : parts) {
+        if (part.is_kept) continue;
         const TriangleMesh& mesh = part.simplified->mesh;
         for (Index f = 0; f < part.faces(); ++f) {
             const Index group =
@@ -99,12 +103,12 @@ ExpectedPages expected_pages(const BakeJob& job, const SourceSampler& sampler) {
             needed[group] += own * density * density;
         }
     }
-    ExpectedPages result{std::vector<double>(job.parts.size(), 0),
-                         std::vector<std::uint8_t>(job.parts.size(), 0),
-                         std::vector<double>(job.parts.size(), 1)};
-    const double side = job.options.bake.texture_size;
+    ExpectedPages result{std::vector<double>(parts.size(), 0), std::vector<std::uint8_t>(parts.size(), 0),
+                         std::vector<double>(parts.size(), 1)};
+    const double side = bake.texture_size;
     for (std::size_t g = 0; g < faces.size(); ++g) {
-        const bool normal_map = wants_normal_map(job, groups.groups[g], faces[g]);
+        const bool normal_map =
+            wants_normal_map(bake.normal_map, source, groups.groups[g], parts, faces[g], workers);
         const double share = std::min(1.0, usual_fill * side * side / needed[g]);
         for (const PageFace& face : faces[g]) {
             if (normal_map) result.has_normal_map[face.part] = 1;
@@ -142,38 +146,8 @@ bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses, bool is_coarse) {
     return is_coarse ? worst <= allowed_loss_if_coarse : mean <= allowed_mean_loss && worst <= allowed_loss;
 }
 
-// The parts with faces by set, without those whose set has a part that cannot keep its UVs.
-std::vector<std::vector<Index>> candidate_sets(const BakeJob& job, const SimplifiedParts& simplified) {
-    engine::UnionFind sets = image_sharing_parts(job.source);
-    std::vector<std::vector<Index>> result(job.parts.size());
-    std::vector<std::uint8_t> is_possible(job.parts.size(), 1);
-    for (const BakePart& part : job.parts) {
-        if (job.skipped[part.index] || part.source->triangles.empty()) continue;
-        const Index set = sets.find(part.index);
-        result[set].push_back(part.index);
-        if (!is_as_complete(simplified.kept[part.index], simplified.parts[part.index])) is_possible[set] = 0;
-    }
-    for (std::size_t s = 0; s < result.size(); ++s)
-        if (!is_possible[s]) result[s].clear();
-    std::erase_if(result, [](const std::vector<Index>& set) { return set.empty(); });
-    return result;
-}
-
-void accept(BakeJob& job, const SimplifiedParts& simplified, Index part) {
-    Report& report = job.result.report;
-    const std::string title = part_title(job.source, part);
-    remove_part_report(report, simplified.parts[part].report, title);
-    const PhaseSeconds seconds = report.seconds;  // has those of both runs already
-    add_part_report(report, simplified.kept[part].report, title);
-    report.seconds = seconds;
-    report.kept_uvs.push_back(title);
-    job.parts[part].simplified = &simplified.kept[part];
-    job.parts[part].map.reset();
-    job.skipped[part] = 1;
-}
-
 // Whether a part of a set shows single texels, without filter: a new page would blur them.
-bool shows_single_texels(const Asset& asset, const std::vector<Index>& set) {
+bool shows_single_texels(const Asset& asset, const PartSet& set) {
     return std::any_of(set.begin(), set.end(), [&](Index p) {
         const std::vector<Index> materials = materials_of(asset.parts[p]);
         return std::any_of(materials.begin(), materials.end(), [&](Index m) {
@@ -181,33 +155,6 @@ bool shows_single_texels(const Asset& asset, const std::vector<Index>& set) {
             return texture && texture.filter == Filter::nearest;
         });
     });
-}
-
-// Compares pictures of the sets, and accepts those that are as good with UVs.
-// \param kept      the job that kept the UVs of all sets
-// \return the accepted parts
-std::vector<Index> good_parts(BakeJob& job, const BakeJob& kept,
-                              const std::vector<std::vector<Index>>& sets) {
-    const Channels seen{.base = true, .normal = true};
-    const SourceSampler sampler(job.source, seen, job.workers(), job.skipped, &job.images);
-    const SourceSampler kept_sampler(kept.result.asset, seen, job.workers(), kept.skipped, &job.images);
-    const ExpectedPages pages = expected_pages(job, sampler);
-    const ComparedScenes scenes{job,          sampler,      kept.result.asset,
-                                kept_sampler, pages.texels, pages.has_normal_map};
-    const double side = view_points / std::sqrt(static_cast<double>(sets.size()));
-    const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
-    std::vector<Index> result;
-    PictureLoss total;
-    for (const std::vector<Index>& set : sets) {
-        const bool is_coarse =
-            std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });
-        const std::array<KeptAndBakedLoss, 2> losses = compare_pictures(scenes, set, size);
-        const bool is_good = shows_single_texels(job.source, set) || is_as_good(losses, is_coarse);
-        if (is_good) result.insert(result.end(), set.begin(), set.end());
-        total += is_good ? losses.back().kept : losses.back().baked;
-    }
-    job.pictures = {psnr(total.unlit, total.points), psnr(total.lit, total.points)};
-    return result;
 }
 
 }  // namespace
@@ -219,33 +166,70 @@ bool may_keep_uvs(const Options& options) {
            bake.untouched != UntouchedParts::baked && options.history == Recording::off && !options.max_error;
 }
 
-KeptUvs choose_kept_uvs(BakeJob& job, const SimplifiedParts& simplified) {
-    KeptUvs result;
-    if (job.options.bake.kind != Bake::automatic || simplified.kept.size() != job.parts.size()) return result;
-    const std::vector<std::vector<Index>> sets = candidate_sets(job, simplified);
-    if (sets.empty()) return result;
-
-    Options how = job.options;
-    how.bake.kind = Bake::keep;
-    BakeJob kept(job.source, how);
-    kept.skipped.assign(job.parts.size(), 1);
-    for (const std::vector<Index>& set : sets) {
-        result.candidates.insert(result.candidates.end(), set.begin(), set.end());
-        for (const Index p : set) kept.skipped[p] = 0;
+std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart> parts,
+                                   const SimplifiedParts& simplified) {
+    engine::UnionFind sets = image_sharing_parts(source);
+    std::vector<PartSet> result(parts.size());
+    std::vector<std::uint8_t> is_possible(parts.size(), 1);
+    for (const BakePart& part : parts) {
+        if (part.is_kept || part.source->triangles.empty()) continue;
+        const Index set = sets.find(part.index);
+        result[set].push_back(part.index);
+        if (!is_as_complete(simplified.kept[part.index], simplified.parts[part.index])) is_possible[set] = 0;
     }
-    map_parts(kept, simplified.kept);
-    bake_keep(kept);
-    std::vector<Index> good;
-    job.run_in_time([&] { good = good_parts(job, kept, sets); });
-    std::sort(good.begin(), good.end());
-    for (const Index p : good) accept(job, simplified, p);
-    result.asset = std::move(kept.result.asset);
+    for (std::size_t s = 0; s < result.size(); ++s)
+        if (!is_possible[s]) result[s].clear();
+    std::erase_if(result, [](const PartSet& set) { return set.empty(); });
     return result;
 }
 
-void keep_all_candidates(BakeJob& job, const SimplifiedParts& simplified, const KeptUvs& kept) {
-    for (const Index p : kept.candidates)
-        if (!job.skipped[p]) accept(job, simplified, p);
+std::vector<std::uint8_t> parts_outside(std::span<const PartSet> sets, std::size_t parts) {
+    std::vector<std::uint8_t> result(parts, 1);
+    for (const PartSet& set : sets)
+        for (const Index p : set) result[p] = 0;
+    return result;
+}
+
+ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
+                        const PartsWithUvs& candidates, DecodedImages& decoded, const Workers& workers) {
+    const std::vector<PartSet>& sets = candidates.sets;
+    const Channels seen{.base = true, .normal = true};
+    const SourceSampler sampler(source, seen, workers, kept_flags(parts), &decoded);
+    const SourceSampler kept_sampler(candidates.asset, seen, workers, parts_outside(sets, parts.size()),
+                                     &decoded);
+    const ExpectedPages pages = expected_pages(source, bake, parts, sampler, workers);
+    const ComparedScenes scenes{
+        source, parts, sampler, candidates.asset, kept_sampler, pages.texels, pages.has_normal_map};
+    const double side = view_points / std::sqrt(static_cast<double>(sets.size()));
+    const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
+    std::vector<Index> good;
+    PictureLoss total;
+    for (const PartSet& set : sets) {
+        const bool is_coarse =
+            std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });
+        const std::array<KeptAndBakedLoss, 2> losses = compare_pictures(scenes, set, size, workers);
+        const bool is_good = shows_single_texels(source, set) || is_as_good(losses, is_coarse);
+        if (is_good) good.insert(good.end(), set.begin(), set.end());
+        total += is_good ? losses.back().kept : losses.back().baked;
+    }
+    std::sort(good.begin(), good.end());
+    return {std::move(good), {psnr(total.unlit, total.points), psnr(total.lit, total.points)}};
+}
+
+void keep_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<const Index> which,
+              std::span<BakePart> parts, Report& report) {
+    for (const Index p : which) {
+        if (parts[p].is_kept) continue;
+        const std::string title = part_title(source, p);
+        remove_part_report(report, simplified.parts[p].report, title);
+        const PhaseSeconds seconds = report.seconds;  // has those of both runs already
+        add_part_report(report, simplified.kept[p].report, title);
+        report.seconds = seconds;
+        report.kept_uvs.push_back(title);
+        parts[p].simplified = &simplified.kept[p];
+        parts[p].map.reset();
+        parts[p].is_kept = true;
+    }
 }
 
 }  // namespace faqem::detail

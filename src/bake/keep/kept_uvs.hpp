@@ -2,10 +2,16 @@
 /// \file
 /// Parts that keep the UVs of the source because their pictures are as good as with new images.
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
-#include "bake/texture/bake_job.hpp"
+#include "bake/texture/image_choice.hpp"
+#include "bake/transfer/corners.hpp"
+#include "bake/transfer/texture_sampling.hpp"
 #include "faqem/bake.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 
@@ -13,27 +19,49 @@ namespace faqem::detail {
 /// or about the collapses.
 bool may_keep_uvs(const Options& options);
 
+/// Indices of parts that share images, so that either all or none of them keep their UVs.
+using PartSet = std::vector<Index>;
+
 /// The parts that could keep their UVs.
-struct KeptUvs {
-    Asset asset;                    ///< the candidates, with the materials and images of the source
-    std::vector<Index> candidates;  ///< the parts that could keep their UVs
+struct PartsWithUvs {
+    std::vector<PartSet> sets;
+    Asset
+        asset;  ///< with these parts, from SimplifiedParts::kept, and the materials and images of the source
 };
 
-/// Compares pictures of SimplifiedParts::kept with those of perfect new images. Parts that share images are accepted
-/// together: if each of them has reached the face count of its simplification without UVs and lost no more faces and
-/// hardly more components, and if pictures of them have a PSNR at most 0.8 dB lower, and 0.25 dB in the mean of small
-/// and large ones (unlit and lit pictures each), 2 dB where new images would have less than an eighth of the
-/// resolution, or if their textures are shown without filter. Accepted parts are skipped in the job, and their
-/// simplified meshes and reports are those with UVs. If the time is over before the comparison is complete, no part
-/// is accepted.
-/// \param job         after map_parts()
-/// \param simplified  must outlive the job
-/// \throws engine::Cancelled
-/// Complexity: that of bake_keep() and of compare_pictures() for each set of parts that share images.
-KeptUvs choose_kept_uvs(BakeJob& job, const SimplifiedParts& simplified);
+/// Outcome of compare_uvs().
+struct ComparedUvs {
+    std::vector<Index> good;  ///< the parts of all sets whose pictures are as good with UVs, ascending
+    PicturePsnr pictures;     ///< of the sets, as they are afterwards
+};
 
-/// Accepts all candidates without comparing pictures, for lack of time.
-/// \param simplified, kept  argument and result of choose_kept_uvs()
-void keep_all_candidates(BakeJob& job, const SimplifiedParts& simplified, const KeptUvs& kept);
+/// The sets of parts that could keep their UVs: each part has reached the face count of its simplification without UVs,
+/// and lost no more faces and hardly more components.
+/// \param parts       from SimplifiedParts::parts; kept ones are ignored
+/// \param simplified  has as many parts in `kept` as in `parts`
+/// Complexity: O(faces).
+std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart> parts,
+                                   const SimplifiedParts& simplified);
+
+/// By part: 1 if it is in no set.
+/// \param parts  number of parts
+std::vector<std::uint8_t> parts_outside(std::span<const PartSet> sets, std::size_t parts);
+
+/// Compares pictures of parts that keep their UVs with those of perfect new images. A set is good if pictures of it have
+/// a PSNR at most 0.8 dB lower, and 0.25 dB in the mean of small and large ones (unlit and lit pictures each), 2 dB
+/// where new images would have less than an eighth of the resolution, or if its textures are shown without filter.
+/// \param parts       as they would be baked; those of the sets have maps
+/// \param candidates  at least one set
+/// \param decoded     images of the source that are decoded already; those that are missing are added
+/// \throws engine::Cancelled
+/// Complexity: that of compare_pictures() for each set.
+ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
+                        const PartsWithUvs& candidates, DecodedImages& decoded, const Workers& workers);
+
+/// Makes parts kept ones: their simplified meshes and reports are those with UVs.
+/// \param simplified  must outlive the parts
+/// \param which       indices of parts with UVs; kept ones are ignored
+void keep_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<const Index> which,
+              std::span<BakePart> parts, Report& report);
 
 }  // namespace faqem::detail

@@ -8,6 +8,7 @@
 
 #include "asset/image/srgb.hpp"
 #include "bake/keep/seen_points.hpp"
+#include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/source_normals.hpp"
 #include "bake/transfer/vector_conversion.hpp"
 
@@ -97,25 +98,25 @@ void add_difference(PictureLoss& loss, const Shade& a, const Shade& b) {
 class Pictures {
 public:
     Pictures(const ComparedScenes& scenes, std::span<const Index> parts) : scenes_(scenes) {
-        std::vector<const Instance*> first(scenes.job.source.parts.size(), nullptr);
-        const std::vector<Instance> all = instances(scenes.job.source);
+        std::vector<const Instance*> first(scenes.source.parts.size(), nullptr);
+        const std::vector<Instance> all = instances(scenes.source);
         for (const Instance& instance : all)
             if (!first[instance.part]) first[instance.part] = &instance;
         for (const Index p : parts) {
             placements_.push_back(first[p] ? placement_of(first[p]->transform) : Placement{});
             const Placement& at = placements_.back();
-            const Part &part = scenes.job.source.parts[p], &kept = scenes.kept.parts[p];
-            const TriangleMesh& baked = scenes.job.parts[p].simplified->mesh;
+            const Part &part = scenes.source.parts[p], &kept = scenes.kept.parts[p];
+            const TriangleMesh& baked = scenes.parts[p].simplified->mesh;
             source_.push_back(placed_mesh(p, part.positions, part.triangles, at));
             kept_.push_back(placed_mesh(p, kept.positions, kept.triangles, at));
             baked_.push_back(placed_mesh(p, baked.positions, baked.triangles, at));
         }
     }
 
-    SizedLosses compare(std::uint32_t size) const {
+    SizedLosses compare(std::uint32_t size, const Workers& workers) const {
         const std::vector<View> views = views_around(source_, view_count, size);
         std::vector<SizedLosses> losses(view_count);
-        parallel_blocks(view_count, 1, scenes_.job.workers(),
+        parallel_blocks(view_count, 1, workers,
                         [&](std::size_t v, std::size_t, CancellationCheck check_cancelled) {
                             losses[v] = compare_view(views[v], check_cancelled);
                         });
@@ -140,7 +141,7 @@ private:
             const bool is_empty = source.mesh == no_index && kept.mesh == no_index && baked.mesh == no_index;
             if (is_empty) continue;
             check_cancelled(8 * map_query_cost);
-            const auto wanted = shade_original(scenes_.source, scenes_.job.source, source, view);
+            const auto wanted = shade_original(scenes_.source_sampler, scenes_.source, source, view);
             const auto with_kept = shade_original(scenes_.kept_sampler, scenes_.kept, kept, view);
             const auto with_baked = shade_baked(baked, view);
             for (std::size_t s = 0; s < losses.size(); ++s) {
@@ -173,19 +174,21 @@ private:
         if (seen.mesh == no_index) return {background, background};
         const Index p = source_[seen.mesh].part;
         const Placement& at = placements_[seen.mesh];
-        const BakePart& part = scenes_.job.parts[p];
-        const CornerNormals& normals = scenes_.job.normals[p];
+        const BakePart& part = scenes_.parts[p];
         const SurfacePoint point = part.map->map(seen.face, seen.barycentric);
-        const Vector3 winding = oriented_face_normal(part, normals, seen.face);
+        const Vector3 winding = oriented_face_normal(part, seen.face);
         Vector3 own_normal = Vector3::Zero();
         for (std::size_t k = 0; k < 3; ++k)
-            own_normal += seen.barycentric[k] * to_vector(normals.normals[std::size_t{3} * seen.face + k]);
+            own_normal +=
+                seen.barycentric[k] * to_vector(part.normals.normals[std::size_t{3} * seen.face + k]);
         SizedShades result;
         for (std::size_t s = 0; s < result.size(); ++s) {
             const double spacing = pixel_on_surface(s, winding, at, view) + scenes_.page_texels[p];
-            const Vector3 normal =
-                scenes_.gets_normal_map[p] ? scenes_.source.normal(p, point, spacing, winding) : own_normal;
-            result[s] = shade(scenes_.source.sample(p, point, spacing).base, normal, winding, at, view);
+            const Vector3 normal = scenes_.gets_normal_map[p]
+                                       ? scenes_.source_sampler.normal(p, point, spacing, winding)
+                                       : own_normal;
+            result[s] =
+                shade(scenes_.source_sampler.sample(p, point, spacing).base, normal, winding, at, view);
         }
         return result;
     }
@@ -197,8 +200,9 @@ private:
 
 }  // namespace
 
-SizedLosses compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts, std::uint32_t size) {
-    return Pictures(scenes, parts).compare(size);
+SizedLosses compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts, std::uint32_t size,
+                             const Workers& workers) {
+    return Pictures(scenes, parts).compare(size, workers);
 }
 
 }  // namespace faqem::detail

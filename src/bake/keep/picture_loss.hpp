@@ -7,8 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include "bake/texture/bake_job.hpp"
+#include "bake/transfer/corners.hpp"
 #include "bake/transfer/source_sampler.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 
@@ -33,10 +34,11 @@ struct KeptAndBakedLoss {
 
 /// What is compared.
 struct ComparedScenes {
-    const BakeJob& job;                 ///< with the maps and the normals of the parts that would be baked
-    const SourceSampler& source;        ///< of job.source: base colours and normals
-    const Asset& kept;                  ///< the parts with kept UVs, by index of the source
-    const SourceSampler& kept_sampler;  ///< of `kept`
+    const Asset& source;
+    std::span<const BakePart> parts;      ///< of `source`; those that would be baked have maps and normals
+    const SourceSampler& source_sampler;  ///< of `source`: base colours and normals
+    const Asset& kept;                    ///< the parts with kept UVs, by index of the source
+    const SourceSampler& kept_sampler;    ///< of `kept`
     /// By part: side of a texel that a new page would have, in the part's units.
     std::span<const double> page_texels;
     std::span<const std::uint8_t> gets_normal_map;  ///< by part: whether a new page has a normal map
@@ -54,6 +56,6 @@ inline constexpr std::array<std::uint32_t, 2> compared_sizes = {384, 1152};
 /// \throws engine::Cancelled
 /// Complexity: O(faces + size^2 log faces). The result does not depend on the number of threads.
 std::array<KeptAndBakedLoss, 2> compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts,
-                                                 std::uint32_t size);
+                                                 std::uint32_t size, const Workers& workers);
 
 }  // namespace faqem::detail

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "bake/texture/bake_job.hpp"
 #include "faqem/bake.hpp"
 
 namespace faqem::detail {

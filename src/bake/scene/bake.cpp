@@ -8,12 +8,16 @@
 #include <vector>
 
 #include "asset/scene/messages.hpp"
+#include "bake/keep/kept_images.hpp"
 #include "bake/keep/kept_parts.hpp"
 #include "bake/keep/kept_uvs.hpp"
 #include "bake/keep/untouched_parts.hpp"
 #include "bake/scene/check_asset.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/bake_job.hpp"
+#include "bake/texture/bake_progress.hpp"
+#include "bake/texture/map_parts.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
 
@@ -48,62 +52,124 @@ std::string layout_unit(Bake kind) {
     return kind == Bake::atlas ? "charts" : "charts or triangles";
 }
 
-// Bakes new textures. If the time is over before they are complete, keeps the UVs and images of the source.
-// \return false as bake_pages()
-bool bake_pages_in_time(BakeJob& job, const SimplifiedParts& simplified, const KeptUvs& kept) {
-    if (std::count(job.skipped.begin(), job.skipped.end(), 0) == 0) return bake_pages(job);
-    const SimplifiedAsset before = job.result;
-    bool is_baked = false;
-    if (job.run_in_time([&] { is_baked = bake_pages(job); })) return is_baked;
-    if (job.options.bake.correspondence == Recording::on)
-        throw TimeLimitError("max_seconds was over before the texture of the correspondence was complete");
-    job.result = before;
-    job.pending.clear();
-    job.is_late = true;
-    job.warn("max_seconds was over before new textures were complete: the images are those of the source");
-    keep_all_candidates(job, simplified, kept);
-    bake_keep(job);
+// Makes the parts that could keep their UVs with them.
+PartsWithUvs make_parts_with_uvs(const Asset& source, const SimplifiedParts& simplified, BakeOptions bake,
+                                 std::span<const BakePart> parts, BakeProgress& progress) {
+    PartsWithUvs result;
+    if (bake.kind != Bake::automatic || simplified.kept.size() != parts.size()) return result;
+    result.sets = sets_with_uvs(source, parts, simplified);
+    if (result.sets.empty()) return result;
+    bake.kind = Bake::keep;
+    const std::vector<BakePart> with_uvs =
+        map_parts(source, simplified.kept, parts_outside(result.sets, parts.size()), bake, progress);
+    UnencodedResult baked;
+    bake_keep({source, bake, with_uvs, progress}, baked);
+    result.asset = std::move(baked.asset.asset);
+    return result;
+}
+
+// Bakes new textures or, if these would have too few texels, vertex colours.
+// \return false, without changing anything, if the time was over before new textures were complete
+bool bake_textures(const BakeJob& job, DecodedImages decoded, UnencodedResult& out) {
+    const auto is_kept = [](const BakePart& part) { return part.is_kept; };
+    const UnencodedResult before = out;
+    bool fits = false;
+    const auto work = [&] { fits = bake_pages(job, std::move(decoded), out); };
+    if (std::all_of(job.parts.begin(), job.parts.end(), is_kept)) {
+        work();
+    } else if (!job.progress.run_in_time(work)) {
+        out = before;
+        return false;
+    }
+    if (fits) return true;
+    out.asset.report.warnings.push_back(
+        "more " + layout_unit(job.options.kind) +
+        " than texels: the base colour was baked into vertex colours instead");
+    bake_vertex(job, out);
     return true;
 }
 
-void bake_by_kind(BakeJob& job, const SimplifiedParts& simplified, const KeptUvs& kept) {
-    switch (job.options.bake.kind) {
+// Bakes all parts that are not kept.
+// \return false as bake_textures()
+bool bake_by_kind(const BakeJob& job, DecodedImages decoded, UnencodedResult& out) {
+    switch (job.options.kind) {
         case Bake::automatic:
         case Bake::atlas:
         case Bake::per_triangle:
-            if (bake_pages_in_time(job, simplified, kept)) return;
-            job.warn("more " + layout_unit(job.options.bake.kind) +
-                     " than texels: the base colour was baked into vertex colours instead");
-            return bake_vertex(job);
+            return bake_textures(job, std::move(decoded), out);
         case Bake::vertex:
-            return bake_vertex(job);
+            bake_vertex(job, out);
+            break;
         case Bake::keep:
-            return bake_keep(job);
+            bake_keep(job, out);
+            break;
         case Bake::none:
-            return bake_none(job);
+            bake_none(job, out);
+            break;
     }
+    return true;
 }
 
 // A part that lost faces has no order of its own that a file should preserve.
-void set_file_orders(BakeJob& job, std::span<const std::uint8_t> untouched) {
-    for (const BakePart& part : job.parts) {
+void set_file_orders(std::span<const BakePart> parts, std::span<const std::uint8_t> untouched,
+                     Asset& result) {
+    for (const BakePart& part : parts) {
         if (untouched[part.index]) continue;
         const bool lost_faces = part.faces() < part.source->triangles.size();
-        job.result.asset.parts[part.index].file_order =
-            lost_faces ? FileOrder::for_gpu : part.source->file_order;
+        result.parts[part.index].file_order = lost_faces ? FileOrder::for_gpu : part.source->file_order;
     }
 }
 
 // The faces of the result belong to the objects of the faces that they were.
-void keep_objects(BakeJob& job, std::span<const std::uint8_t> untouched) {
-    for (const BakePart& part : job.parts) {
+void keep_objects(std::span<const BakePart> parts, std::span<const std::uint8_t> untouched, Asset& result) {
+    for (const BakePart& part : parts) {
         if (untouched[part.index] || part.source->face_object.empty()) continue;
-        Part& to = job.result.asset.parts[part.index];
+        Part& to = result.parts[part.index];
         to.object_names = part.source->object_names;
         to.face_object.clear();
         for (const Index f : part.simplified->history.kept_faces)
             to.face_object.push_back(part.source->face_object[f]);
     }
+}
+
+// Bakes all parts, except for the encoding of images.
+void bake_parts(const Asset& source, const SimplifiedParts& simplified, const BakeOptions& bake,
+                BakeProgress& progress, UnencodedResult& out) {
+    const Stopwatch watch;
+    Report& report = out.asset.report;
+    const std::vector<std::uint8_t> untouched = find_untouched_parts(source, simplified, bake);
+    std::vector<BakePart> parts = map_parts(source, simplified.parts, untouched, bake, progress);
+    report.seconds.map = watch.seconds();
+
+    PartsWithUvs with_uvs = make_parts_with_uvs(source, simplified, bake, parts, progress);
+    DecodedImages decoded;
+    ComparedUvs compared;
+    if (!with_uvs.sets.empty()) {
+        progress.run_in_time(
+            [&] { compared = compare_uvs(source, bake, parts, with_uvs, decoded, progress.workers()); });
+    }
+    keep_uvs(source, simplified, compared.good, parts, report);
+
+    const BakeJob job{source, bake, parts, progress};
+    const bool is_late = !bake_by_kind(job, std::move(decoded), out);
+    if (is_late) {
+        if (bake.correspondence == Recording::on)
+            throw TimeLimitError(
+                "max_seconds was over before the texture of the correspondence was complete");
+        report.warnings.push_back(
+            "max_seconds was over before new textures were complete: the images are those of the source");
+        for (const PartSet& set : with_uvs.sets) keep_uvs(source, simplified, set, parts, report);
+        bake_keep(job, out);
+    }
+    const bool has_materials = is_late || bake.kind == Bake::keep;
+    const std::vector<KeptPart> kept =
+        add_kept_parts(source, parts, untouched, std::move(with_uvs.asset), has_materials, out.asset);
+    if (!is_late) add_kept_images(source, bake, kept, progress.workers(), out);
+    for (PendingImage& image : out.pending)
+        image.quality_change = quality_change(compared.pictures, image.content);
+    set_file_orders(parts, untouched, out.asset.asset);
+    keep_objects(parts, untouched, out.asset.asset);
+    progress.report(Phase::bake, 1);
 }
 
 }  // namespace
@@ -116,35 +182,24 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
         throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
     }
-    BakeJob job(source, options);
-    job.result.report = simplified.report;
-    job.result.asset.source = source.source;
-    job.result.asset.warnings = source.warnings;
-    job.result.asset.compression =
+    BakeProgress progress(options);
+    UnencodedResult out;
+    Report& report = out.asset.report = simplified.report;
+    out.asset.asset.source = source.source;
+    out.asset.asset.warnings = source.warnings;
+    out.asset.asset.compression =
         options.compress == Compression::source ? source.compression : options.compress;
-    if (simplified.report.stop == StopReason::cancelled) return {std::move(job.result), {}};
-    PhaseSeconds& seconds = job.result.report.seconds;
+    if (report.stop == StopReason::cancelled) return out;
     const Stopwatch watch;
-    const std::vector<std::uint8_t> untouched = find_untouched_parts(source, simplified, options.bake);
-    job.skipped = untouched;
     try {
-        map_parts(job, simplified.parts);
-        seconds.map = watch.seconds();
-        KeptUvs kept = choose_kept_uvs(job, simplified);
-        bake_by_kind(job, simplified, kept);
-        add_kept_parts(job, untouched, std::move(kept));
-        set_file_orders(job, untouched);
-        keep_objects(job, untouched);
-        for (PendingImage& image : job.pending)
-            image.quality_change = quality_change(job.pictures, image.content);
-        job.report_progress(Phase::bake, 1);
+        bake_parts(source, simplified, options.bake, progress, out);
     } catch (const engine::Cancelled&) {
-        set_cancelled(job.result);
-        job.pending.clear();
+        set_cancelled(out.asset);
+        out.pending.clear();
     }
-    seconds.bake = watch.seconds() - seconds.map;
-    seconds.total += watch.seconds();
-    return {std::move(job.result), std::move(job.pending)};
+    report.seconds.bake = watch.seconds() - report.seconds.map;
+    report.seconds.total += watch.seconds();
+    return out;
 }
 
 }  // namespace detail

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "asset/scene/material_textures.hpp"
-#include "bake/texture/bake_job.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -20,7 +20,6 @@
 #include "bake/scene/step_progress.hpp"
 #include "bake/scene/visibility.hpp"
 #include "bake/scene/welded_source.hpp"
-#include "bake/texture/bake_job.hpp"
 #include "bake/transfer/material_groups.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/time_limit.hpp"

@@ -2,19 +2,11 @@
 /// \file
 /// A baked asset whose images are encoded afterwards, so that a larger result can be encoded with less.
 
-#include <vector>
-
 #include "bake/texture/pending_images.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
-
-/// A result of bake() before its images are encoded.
-struct UnencodedResult {
-    SimplifiedAsset asset;  ///< its pending images are empty until encode_images()
-    std::vector<PendingImage> pending;
-};
 
 /// bake() without the encoding of images. \throws as bake()
 FAQEM_EXPORT UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,

@@ -1,13 +1,18 @@
-#include <algorithm>
-
+#include <cstddef>
+#include <cstdint>
 #include <map>
-#include "asset/scene/messages.hpp"
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "asset/scene/messages.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/normal_map.hpp"
 #include "bake/transfer/corner_transfer.hpp"
-#include "bake/transfer/custom_attributes.hpp"
 #include "bake/transfer/extension_layers.hpp"
+#include "bake/transfer/material_groups.hpp"
+#include "bake/transfer/output_part.hpp"
+#include "bake/transfer/source_sampler.hpp"
 #include "bake/transfer/texture_sampling.hpp"
 #include "bake/transfer/vertex_attributes.hpp"
 #include "faqem/error.hpp"
@@ -31,10 +36,11 @@ std::string texture_names(const Material& m, bool with_base) {
 
 // Removes all textures of a material, with a warning. The emissive factor is reset if there was an emissive
 // texture: without it the whole surface would emit light.
-Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere) {
-    Material result = material_or_default(job.source, index);
+Material without_textures(const Asset& source, Index index, bool base_is_kept_elsewhere,
+                          std::vector<std::string>& warnings) {
+    Material result = material_or_default(source, index);
     const std::string names = texture_names(result, !base_is_kept_elsewhere);
-    if (!names.empty()) job.warn(material_title(job.source, index) + ": textures left out: " + names);
+    if (!names.empty()) warnings.push_back(material_title(source, index) + ": textures left out: " + names);
     if (result.emissive_texture) result.emissive = {0, 0, 0};
     result.base_color_texture = result.metallic_roughness_texture = result.normal_texture =
         result.occlusion_texture = result.emissive_texture = {};
@@ -44,41 +50,16 @@ Material without_textures(BakeJob& job, Index index, bool base_is_kept_elsewhere
     return result;
 }
 
-void finish_part(BakeJob& job, const BakePart& part, CornerValues values, std::vector<Index> materials) {
-    values.custom = corner_custom_attributes(part, job.cancellation_check());
-    WeldedPart welded = weld_corners(part, values);
-    transfer_skin_and_morphs(part, welded, job.cancellation_check());
-    welded.part.face_material = std::move(materials);
-    job.result.asset.parts.push_back(std::move(welded.part));
-}
-
-// Adds an empty part for an untouched one. Returns false for other parts.
-bool leave_empty(BakeJob& job, const BakePart& part) {
-    if (job.skipped[part.index]) job.result.asset.parts.emplace_back();
-    return job.skipped[part.index] != 0;
-}
-
-// By face of the result: the material of a face of the source.
-std::vector<Index> materials_of(const BakePart& part, const std::vector<Index>& faces) {
-    std::vector<Index> result;
-    for (Index f : faces) result.push_back(face_material(*part.source, f));
-    return result;
-}
-
-std::vector<Index> kept_materials(const BakePart& part) {
-    return materials_of(part, part.simplified->history.kept_faces);
-}
-
 // Tangents of the faces whose material has a normal map. Tangents stored in a file are assumed to be computed
 // from the UVs without the texture transform; viewers compute missing ones from the transformed UVs.
-std::vector<Vec4f> kept_tangents(const BakeJob& job, const BakePart& part,
+std::vector<Vec4f> kept_tangents(const Asset& source, const BakePart& part,
                                  const std::vector<Index>& materials,
                                  const std::vector<std::vector<Vec2f>>& uvs) {
     std::vector<Vec4f> result;
     std::map<Index, std::vector<Index>> faces_of;
     for (Index f = 0; f < part.faces(); ++f) faces_of[materials[f]].push_back(f);
     for (const auto& [material, faces] : faces_of) {
-        const TextureRef* texture_ref = tangent_texture(material_or_default(job.source, material));
+        const TextureRef* texture_ref = tangent_texture(material_or_default(source, material));
         if (!texture_ref || texture_ref->uv_set >= uvs.size()) continue;
         std::vector<Vec2f> moved = uvs[texture_ref->uv_set];
         if (part.source->tangents.empty()) {
@@ -88,90 +69,108 @@ std::vector<Vec4f> kept_tangents(const BakeJob& job, const BakePart& part,
                 uv = {static_cast<float>(to[0]), static_cast<float>(to[1])};
             }
         }
-        set_tangents(part, job.normals[part.index], faces, moved, result);
+        set_tangents(part, faces, moved, result);
     }
     return result;
 }
 
+// The UVs and colours of a part, which the simplified mesh has as attributes or which are transferred from the source.
+// \param attributes  by corner: UVs of all sets, then the colour if the source has vertex colours
+CornerValues values_of_attributes(const BakePart& part, const std::vector<float>& attributes) {
+    const std::size_t sets = part.source->uvs.size();
+    CornerValues values{{}, std::vector<std::vector<Vec2f>>(sets), {}};
+    for (auto at = attributes.begin(); at != attributes.end();) {
+        for (std::size_t s = 0; s < sets; ++s, at += 2) values.uvs[s].push_back({at[0], at[1]});
+        if (part.source->colors.empty()) continue;
+        values.colors.push_back({at[0], at[1], at[2], at[3]});
+        at += 4;
+    }
+    return values;
+}
+
+// Number of values of a corner.
+std::size_t attribute_width(const Part& source) {
+    return 2 * source.uvs.size() + (source.colors.empty() ? 0 : 4);
+}
+
+// Keeps the UVs and vertex colours of a part.
+// \return the number of faces that cross borders of UV charts
+std::uint64_t keep_part(const BakeJob& job, const BakePart& part, Part& to) {
+    const std::vector<float>& own = part.simplified->mesh.attributes.values;
+    const bool has_own = own.size() == 3 * part.faces() * attribute_width(*part.source);
+    if (!has_own && job.options.kind == Bake::keep) {
+        throw InputError(
+            "", part_title(job.source, part.index),
+            "the simplified mesh must have the source's UVs and vertex colours as attributes, which "
+            "simplify_parts() transfers if bake.kind is Bake::keep");
+    }
+    const TransferredCorners transferred =
+        has_own ? TransferredCorners{} : transfer_corners(part, job.progress.workers());
+    std::vector<Index> materials =
+        has_own ? kept_materials(part) : materials_of_faces(*part.source, transferred.faces);
+    CornerValues values = values_of_attributes(part, has_own ? own : transferred.values);
+    values.tangents = kept_tangents(job.source, part, materials, values.uvs);
+    to = make_output_part(part, std::move(values), std::move(materials), job.progress.check());
+    return transferred.crossing_faces;
+}
+
 }  // namespace
 
-void bake_vertex(BakeJob& job) {
-    BakeOptions bake = job.options.bake;
+void bake_vertex(const BakeJob& job, UnencodedResult& out) {
+    BakeOptions bake = job.options;
     bake.kind = Bake::vertex;  // also if an atlas was requested, but has too few texels
-    const MaterialGroups groups = group_materials(job.source, bake, job.skipped);
-    Channels wanted;
-    wanted.base = true;
-    const SourceSampler sampler(job.source, wanted, job.workers(), job.skipped);
+    const std::vector<std::uint8_t> kept = kept_flags(job.parts);
+    const MaterialGroups groups = group_materials(job.source, bake, kept);
+    const SourceSampler sampler(job.source, {.base = true}, job.progress.workers(), kept);
+    Asset& asset = out.asset.asset;
     for (const MaterialGroup& group : groups.groups) {
-        Material material = without_textures(job, group.materials.front(), true);
-        for (std::size_t m = 1; m < group.materials.size(); ++m)
-            without_textures(job, group.materials[m], true);
-        material.base_color = {1, 1, 1, 1};
-        job.result.asset.materials.push_back(std::move(material));
+        for (const Index m : group.materials) {
+            Material material = without_textures(job.source, m, true, out.asset.report.warnings);
+            material.base_color = {1, 1, 1, 1};
+            if (m == group.materials.front()) asset.materials.push_back(std::move(material));
+        }
     }
     double done = 0;
     for (const BakePart& part : job.parts) {
-        job.report_progress(Phase::bake, done++ / static_cast<double>(job.parts.size()));
-        if (leave_empty(job, part)) continue;
-        const CornerNormals& normals = job.normals[part.index];
-        CornerValues values{normals.normals, {}, {}};
-        if (part.map) values.colors = corner_colors(part, sampler, normals, job.workers());
+        job.progress.report(Phase::bake, done++ / static_cast<double>(job.parts.size()));
+        Part& to = asset.parts.emplace_back();
+        if (part.is_kept) continue;
+        CornerValues values;
+        if (part.map) values.colors = corner_colors(part, sampler, job.progress.workers());
         std::vector<Index> materials = kept_materials(part);
         for (Index& m : materials) m = groups.group_of(m);
-        finish_part(job, part, std::move(values), std::move(materials));
+        to = make_output_part(part, std::move(values), std::move(materials), job.progress.check());
     }
 }
 
-void bake_keep(BakeJob& job) {
-    job.result.asset.materials = job.source.materials;
-    job.result.asset.images = job.source.images;
+void bake_keep(const BakeJob& job, UnencodedResult& out) {
+    Asset& asset = out.asset.asset;
+    asset.materials = job.source.materials;
+    asset.images = job.source.images;
     std::uint64_t crossing_faces = 0;
     for (const BakePart& part : job.parts) {
-        job.cancellation_check().now();
-        if (leave_empty(job, part)) continue;
-        const std::size_t sets = part.source->uvs.size();
-        const bool colors = !part.source->colors.empty();
-        const std::size_t width = 2 * sets + (colors ? 4 : 0), corners = 3 * part.faces();
-        const std::vector<float>& own = part.simplified->mesh.attributes.values;
-        const bool has_own = own.size() == corners * width;
-        if (!has_own && !job.is_late) {
-            throw InputError(
-                "", part_title(job.source, part.index),
-                "the simplified mesh must have the source's UVs and vertex colours as attributes, which "
-                "simplify_parts() transfers if bake.kind is Bake::keep");
-        }
-        const TransferredCorners transferred =
-            has_own ? TransferredCorners{} : transfer_corners(part, job.workers());
-        crossing_faces += transferred.crossing_faces;
-        const std::vector<float>& from = has_own ? own : transferred.values;
-        std::vector<Index> materials = has_own ? kept_materials(part) : materials_of(part, transferred.faces);
-        CornerValues values{job.normals[part.index].normals, std::vector<std::vector<Vec2f>>(sets), {}};
-        for (std::size_t c = 0; c < corners; ++c) {
-            const float* corner = from.data() + c * width;
-            for (std::size_t s = 0; s < sets; ++s)
-                values.uvs[s].push_back({corner[2 * s], corner[2 * s + 1]});
-            if (!colors) continue;
-            corner += 2 * sets;
-            values.colors.push_back({corner[0], corner[1], corner[2], corner[3]});
-        }
-        values.tangents = kept_tangents(job, part, materials, values.uvs);
-        finish_part(job, part, std::move(values), std::move(materials));
+        job.progress.check().now();
+        Part& to = asset.parts.emplace_back();
+        if (!part.is_kept) crossing_faces += keep_part(job, part, to);
     }
     if (crossing_faces > 0) {
-        job.warn(std::to_string(crossing_faces) +
-                 " faces cross borders of the source's UV charts: the image is stretched there");
+        out.asset.report.warnings.push_back(
+            std::to_string(crossing_faces) +
+            " faces cross borders of the source's UV charts: the image is stretched there");
     }
 }
 
-void bake_none(BakeJob& job) {
-    for (std::size_t m = 0; m < job.source.materials.size(); ++m) {
-        job.result.asset.materials.push_back(without_textures(job, static_cast<Index>(m), false));
-    }
+void bake_none(const BakeJob& job, UnencodedResult& out) {
+    Asset& asset = out.asset.asset;
+    std::vector<std::string>& warnings = out.asset.report.warnings;
+    for (std::size_t m = 0; m < job.source.materials.size(); ++m)
+        asset.materials.push_back(without_textures(job.source, static_cast<Index>(m), false, warnings));
     for (const BakePart& part : job.parts) {
-        if (leave_empty(job, part)) continue;
+        Part& to = asset.parts.emplace_back();
+        if (part.is_kept) continue;
         if (!part.source->colors.empty())
-            job.warn(part_title(job.source, part.index) + ": vertex colours left out");
-        finish_part(job, part, {job.normals[part.index].normals, {}, {}}, kept_materials(part));
+            warnings.push_back(part_title(job.source, part.index) + ": vertex colours left out");
+        to = make_output_part(part, {}, kept_materials(part), job.progress.check());
     }
 }
 

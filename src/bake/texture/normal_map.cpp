@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "asset/scene/material_textures.hpp"
+#include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/source_normals.hpp"
 #include "bake/transfer/tangents.hpp"
 #include "bake/transfer/vector_conversion.hpp"
@@ -23,21 +24,20 @@ struct Deviation {
     double sum = 0, area = 0;
 };
 
-Deviation face_deviation(const BakeJob& job, const PageFace& at) {
+Deviation face_deviation(const BakePart& part, Index face) {
     constexpr double third = 1.0 / 3, far = 2.0 / 3, near = 1.0 / 6;
-    const BakePart& part = job.parts[at.part];
     const TriangleMesh& mesh = part.simplified->mesh;
-    const Triangle& t = mesh.triangles[at.face];
-    const Vector3 face_normal = oriented_face_normal(part, job.normals[at.part], at.face);
+    const Triangle& t = mesh.triangles[face];
+    const Vector3 face_normal = oriented_face_normal(part, face);
     const Vector3 twice = engine::area_vector(to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]),
                                               to_eigen(mesh.positions[t[2]]));
-    const std::vector<Vec3f>& normals = job.normals[at.part].normals;
+    const std::vector<Vec3f>& normals = part.normals.normals;
     double sum = 0;
     for (const Vec3& w :
          {Vec3{third, third, third}, Vec3{far, near, near}, Vec3{near, far, near}, Vec3{near, near, far}}) {
         Vector3 own = Vector3::Zero();
-        for (std::size_t i = 0; i < 3; ++i) own += w[i] * to_vector(normals[std::size_t{3} * at.face + i]);
-        Vector3 other = interpolated_normal(*part.source, part.map->map(at.face, w));
+        for (std::size_t i = 0; i < 3; ++i) own += w[i] * to_vector(normals[std::size_t{3} * face + i]);
+        Vector3 other = interpolated_normal(*part.source, part.map->map(face, w));
         if (other.dot(face_normal) < 0) other = -other;
         sum += std::atan2(own.cross(other).norm(), own.dot(other));
     }
@@ -47,12 +47,12 @@ Deviation face_deviation(const BakeJob& job, const PageFace& at) {
 
 }  // namespace
 
-double normal_deviation(const BakeJob& job, std::span<const PageFace> faces) {
+double normal_deviation(std::span<const BakePart> parts, std::span<const PageFace> faces,
+                        const Workers& workers) {
     std::vector<Deviation> each(faces.size());
-    parallel_blocks(faces.size(), 256, job.workers(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            each[i] = face_deviation(job, faces[i]);
-        }
+    parallel_blocks(faces.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            each[i] = face_deviation(parts[faces[i].part], faces[i].face);
     });
     Deviation all;
     for (const Deviation& d : each) {
@@ -62,20 +62,21 @@ double normal_deviation(const BakeJob& job, std::span<const PageFace> faces) {
     return all.area > 0 ? all.sum / all.area * 180 / std::numbers::pi : 0;
 }
 
-bool wants_normal_map(const BakeJob& job, const MaterialGroup& group, std::span<const PageFace> faces) {
-    const NormalMap choice = job.options.bake.normal_map;
+bool wants_normal_map(NormalMap choice, const Asset& source, const MaterialGroup& group,
+                      std::span<const BakePart> parts, std::span<const PageFace> faces,
+                      const Workers& workers) {
     if (choice == NormalMap::off || group.material.unlit || faces.empty()) return false;
     if (choice == NormalMap::on) return true;
     const auto has_any = [&](bool (*has)(const Material&)) {
         return std::any_of(group.materials.begin(), group.materials.end(),
-                           [&](Index m) { return has(material_or_default(job.source, m)); });
+                           [&](Index m) { return has(material_or_default(source, m)); });
     };
     if (has_any([](const Material& m) { return bool(m.normal_texture); })) return true;
-    return has_any(has_textures) && normal_deviation(job, faces) > min_deviation;
+    return has_any(has_textures) && normal_deviation(parts, faces, workers) > min_deviation;
 }
 
-void set_tangents(const BakePart& part, const CornerNormals& normals, std::span<const Index> faces,
-                  std::span<const Vec2f> uvs, std::vector<Vec4f>& tangents) {
+void set_tangents(const BakePart& part, std::span<const Index> faces, std::span<const Vec2f> uvs,
+                  std::vector<Vec4f>& tangents) {
     const TriangleMesh& mesh = part.simplified->mesh;
     std::vector<TangentCorner> corners;
     corners.reserve(3 * faces.size());
@@ -83,7 +84,7 @@ void set_tangents(const BakePart& part, const CornerNormals& normals, std::span<
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t c = std::size_t{3} * f + i;
             corners.push_back(
-                {to_vec3f(to_eigen(mesh.positions[mesh.triangles[f][i]])), normals.normals[c], uvs[c]});
+                {to_vec3f(to_eigen(mesh.positions[mesh.triangles[f][i]])), part.normals.normals[c], uvs[c]});
         }
     }
     tangents.resize(3 * part.faces(), Vec4f{});

@@ -28,22 +28,22 @@ constexpr std::uint32_t min_new_map_side = 64;
 // Adds the images of one page to the result, to be encoded later.
 class PageImageList {
 public:
-    PageImageList(BakeJob& job, std::string name) : job_(job), name_(std::move(name)) {}
+    PageImageList(const Asset& source, const BakeOptions& bake, std::string name, UnencodedResult& out)
+        : source_(source), bake_(bake), name_(std::move(name)), out_(out) {}
 
     /// \param known  by texel: nonzero if it shows a triangle
     /// \param from   textures of the source that the image is baked from
     TextureRef add(Pixels pixels, std::shared_ptr<const std::vector<std::uint8_t>> known,
                    const std::string& suffix, TextureContent content, const std::vector<TextureRef>& from) {
-        std::vector<Image>& images = job_.result.asset.images;
+        std::vector<Image>& images = out_.asset.asset.images;
         TextureRef ref;
         ref.image = static_cast<Index>(images.size());
         ref.wrap_u = ref.wrap_v = Wrap::clamp;
         images.emplace_back();
         // A density that was asked for is kept, as is the resolution that a correspondence has.
-        const BakeOptions& bake = job_.options.bake;
-        const bool may_shrink = !bake.texel_density && bake.correspondence == Recording::off;
-        job_.pending.push_back({ref.image, std::move(pixels), std::move(known), name_ + suffix, content,
-                                roughness, may_shrink, is_from_jpeg(from), false, job_.tries_webp()});
+        const bool may_shrink = !bake_.texel_density && bake_.correspondence == Recording::off;
+        out_.pending.push_back({ref.image, std::move(pixels), std::move(known), name_ + suffix, content,
+                                roughness, may_shrink, is_from_jpeg(from), false, tries_webp(source_)});
         return ref;
     }
 
@@ -52,12 +52,14 @@ public:
 private:
     bool is_from_jpeg(const std::vector<TextureRef>& from) const {
         return !from.empty() && std::all_of(from.begin(), from.end(), [&](const TextureRef& texture_ref) {
-            return job_.source.images[texture_ref.image].mime_type == "image/jpeg";
+            return source_.images[texture_ref.image].mime_type == "image/jpeg";
         });
     }
 
-    BakeJob& job_;
+    const Asset& source_;
+    const BakeOptions& bake_;
     std::string name_;
+    UnencodedResult& out_;
 };
 
 // "sheenColorTexture" -> "_sheenColor"
@@ -175,8 +177,9 @@ void add_occlusion_roughness_metallic(PageImageList& list, const Channels& chann
 
 }  // namespace
 
-Material page_material(BakeJob& job, const MaterialGroup& group, const Channels& channels,
-                       std::span<const ExtensionLayer> layers, PageImages images) {
+Material page_material(const Asset& source, const BakeOptions& bake, const MaterialGroup& group,
+                       const Channels& channels, std::span<const ExtensionLayer> layers, PageImages images,
+                       UnencodedResult& out) {
     Material result = group.material;
     result.rebaked = true;
     result.normal_texture = result.base_color_texture = result.metallic_roughness_texture =
@@ -184,11 +187,12 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
     result.normal_scale = result.occlusion_strength = 1;
     result.extension_textures.clear();
     const auto uses = [&](std::initializer_list<TextureMember> slots) {
-        return textures_of_group(job.source, group, slots);
+        return textures_of_group(source, group, slots);
     };
-    PageImageList list(job, result.name.empty()
-                                ? "material" + std::to_string(job.result.asset.materials.size())
-                                : result.name);
+    PageImageList list(
+        source, bake,
+        result.name.empty() ? "material" + std::to_string(out.asset.asset.materials.size()) : result.name,
+        out);
     const auto known = std::make_shared<const std::vector<std::uint8_t>>(images.known);
     list.roughness = mean_roughness(channels, images, group.material);
     if (channels.base) {
@@ -215,9 +219,9 @@ Material page_material(BakeJob& job, const MaterialGroup& group, const Channels&
         const std::vector<TextureRef> from = uses({&Material::normal_texture});
         result.normal_texture =
             list.add(std::move(images.normal), known, "_normal", TextureContent::normal, from);
-        job.pending.back().is_new_map = from.empty();
-        if (from.empty() && may_halve_new_map(job.options.bake, job.pending.back()))
-            halve(job.pending.back());
+        PendingImage& image = out.pending.back();
+        image.is_new_map = from.empty();
+        if (from.empty() && may_halve_new_map(bake, image)) halve(image);
     }
     const bool is_unchanged = group.materials.size() == 1 && group.material.extensions.empty() &&
                               !has_textures(group.material) && !has_textures(result);

@@ -4,8 +4,10 @@
 
 #include <span>
 
-#include "bake/texture/bake_job.hpp"
-#include "bake/texture/page_baker.hpp"
+#include "bake/texture/page_canvas.hpp"
+#include "bake/texture/pending_images.hpp"
+#include "bake/transfer/extension_layers.hpp"
+#include "bake/transfer/material_groups.hpp"
 
 namespace faqem::detail {
 
@@ -14,7 +16,9 @@ namespace faqem::detail {
 /// channels keep the factors of the group's first material.
 /// \param channels  the channels of `images`
 /// \param layers    extension layers of the group's material; their factors are kept
-Material page_material(BakeJob& job, const MaterialGroup& group, const Channels& channels,
-                       std::span<const ExtensionLayer> layers, PageImages images);
+/// \param out       receives the images
+Material page_material(const Asset& source, const BakeOptions& bake, const MaterialGroup& group,
+                       const Channels& channels, std::span<const ExtensionLayer> layers, PageImages images,
+                       UnencodedResult& out);
 
 }  // namespace faqem::detail

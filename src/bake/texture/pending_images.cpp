@@ -1,5 +1,6 @@
 #include "bake/texture/pending_images.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "bake/texture/image_choice.hpp"
@@ -32,6 +33,11 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, Cancel
 }
 
 }  // namespace
+
+bool tries_webp(const Asset& source) {
+    return source.source && std::any_of(source.images.begin(), source.images.end(),
+                                        [](const Image& image) { return image.mime_type == "image/webp"; });
+}
 
 void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
                            const Workers& workers, std::vector<Image>& images) {

@@ -12,6 +12,7 @@
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/options.hpp"
 
@@ -37,6 +38,15 @@ struct PendingImage {
     /// quality_change().
     double quality_change = 0;
 };
+
+/// A result of bake() before its images are encoded.
+struct UnencodedResult {
+    SimplifiedAsset asset;  ///< its pending images are empty until encode_images()
+    std::vector<PendingImage> pending;
+};
+
+/// PendingImage::tries_webp for the images of a result: glTF needs an extension for WebP, which the source has then.
+bool tries_webp(const Asset& source);
 
 /// Encodes images as BakeOptions::image_format says.
 /// \param images  Asset::images of the result; receives the encoded images

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/vector_conversion.hpp"
 
 namespace faqem::detail {
@@ -32,44 +31,34 @@ constexpr std::uint32_t single_samples = 4;
 
 }  // namespace
 
-TexelProjector::TexelProjector(const BakeJob& job, const ProjectorInput& page, Index triangle,
-                               std::uint32_t samples)
-    : face_(page.faces[triangle]),
-      placement_(page.atlas.placements[triangle]),
+TexelProjector::TexelProjector(const PageRequest& page, Index triangle)
+    : face_(page.mesh.faces[triangle]),
+      placement_(page.layout.atlas.placements[triangle]),
       frame_(placement_),
       right_angle_corner_(right_angle_corner(placement_)),
-      part_(job.parts[face_.part]),
-      normals_(job.normals[face_.part]),
-      mesh_(part_.simplified->mesh),
+      part_(page.part_of(face_)),
+      triangle_(page.mesh.triangles[triangle]),
       texel_length_(texel_length()),
-      spacing_(texel_length_ / samples),
-      block_size_(std::max(1u, block_samples / samples)),
+      spacing_(texel_length_ / page.samples),
+      block_size_(std::max(1u, block_samples / page.samples)),
       box_(bounding_box(placement_.uv)),
       first_column_(static_cast<std::uint32_t>(std::max(box_.low.x, 0.0)) / block_size_),
       last_column_(static_cast<std::uint32_t>(std::max(box_.high.x, 0.0)) / block_size_) {
     const std::vector<Vec4f>& tangents = page.tangents[face_.part];
     for (std::size_t i = 0; i < 3 && !tangents.empty(); ++i) {
         const std::size_t c = std::size_t{3} * face_.face + i;
-        frames_[i] = {to_vector(normals_.normals[c]), tangents[c]};
+        frames_[i] = {to_vector(part_.normals.normals[c]), tangents[c]};
     }
     for (std::size_t c = 0; c < 3; ++c) {
-        const AdjacentTriangle& adjacent = page.adjacent[triangle][c];
-        if (adjacent.triangle == no_index) continue;
-        const Index other = page.faces[adjacent.triangle].face;
         // Neighbours across a crease are not used: their colours would show in a strip one texel wide.
-        if (!is_crease(normals_, face_.face, c, other, adjacent.corner)) {
-            unfolded_[c] = unfold(c, other, adjacent.corner);
-        }
+        if (triangle_.adjacent[c].triangle != no_index && !triangle_.crease[c])
+            unfolded_[c] = unfold(c, page.mesh);
     }
-}
-
-Vector3 TexelProjector::corner(Index face, std::size_t i) const {
-    return to_eigen(mesh_.positions[mesh_.triangles[face][i % 3]]);
 }
 
 // Length of the longer side of a texel on the simplified surface.
 double TexelProjector::texel_length() const {
-    const auto at = [&](std::size_t i) { return corner(face_.face, i); };
+    const auto at = [&](std::size_t i) { return to_eigen(triangle_.corners[i]); };
     if (is_single_texel()) return std::sqrt(engine::area_vector(at(0), at(1), at(2)).norm() / 2);
     const auto side_length = [&](double x, double y) {
         const Point2& a = placement_.uv[0];
@@ -79,15 +68,17 @@ double TexelProjector::texel_length() const {
     return std::max(side_length(1, 0), side_length(0, 1));
 }
 
-TexelProjector::UnfoldedNeighbour TexelProjector::unfold(std::size_t c, Index neighbour,
-                                                         std::size_t other) const {
-    const Vector3 start = corner(face_.face, c + 1);
-    const Vector3 edge = corner(face_.face, c + 2) - start;
-    const Vector3 a = corner(face_.face, c) - start, b = corner(neighbour, other) - start;
+// Unfolds the neighbour across the edge opposite corner c.
+TexelProjector::UnfoldedNeighbour TexelProjector::unfold(std::size_t c, const PageMesh& mesh) const {
+    const auto [neighbour, other] = triangle_.adjacent[c];
+    const Vector3 start = to_eigen(triangle_.corners[(c + 1) % 3]);
+    const Vector3 edge = to_eigen(triangle_.corners[(c + 2) % 3]) - start;
+    const Vector3 a = to_eigen(triangle_.corners[c]) - start;
+    const Vector3 b = to_eigen(mesh.triangles[neighbour].corners[other]) - start;
     const double length = edge.squaredNorm(), foot = a.dot(edge) / length, other_foot = b.dot(edge) / length;
     const double height_ratio = (a - foot * edge).norm() / (b - other_foot * edge).norm();
     if (!std::isfinite(height_ratio) || !std::isfinite(foot) || !std::isfinite(other_foot)) return {};
-    return {neighbour, other, height_ratio, foot, other_foot};
+    return {mesh.faces[neighbour].face, other, height_ratio, foot, other_foot};
 }
 
 // Barycentric coordinates on the neighbour across the edge opposite corner c, for a point with coordinates w of this
@@ -191,7 +182,7 @@ Vector3 TexelProjector::to_tangent_space(const TexelSample& at, const Vector3& n
     if (at.cache_index == 0) return here.from_mesh(normal);
     Vector3 there = Vector3::Zero();
     for (std::size_t i = 0; i < 3; ++i)
-        there += at.weights[i] * to_vector(normals_.normals[std::size_t{3} * at.face + i]);
+        there += at.weights[i] * to_vector(part_.normals.normals[std::size_t{3} * at.face + i]);
     return here.from_mesh(Eigen::Quaterniond::FromTwoVectors(there, here.normal) * normal);
 }
 

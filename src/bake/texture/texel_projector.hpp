@@ -4,13 +4,14 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "bake/atlas/chart.hpp"
+#include "bake/atlas/per_triangle.hpp"
 #include "bake/atlas/point2.hpp"
-#include "bake/texture/bake_job.hpp"
-#include "bake/texture/page_atlas.hpp"
+#include "bake/texture/page_request.hpp"
 #include "bake/texture/warm_start_cache.hpp"
+#include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/source_normals.hpp"
 #include "faqem/detail/mapping/local_map.hpp"
 #include "faqem/engine/mesh/vector.hpp"
@@ -25,24 +26,13 @@ struct TexelSample {
     double x = 0, y = 0;          ///< position on the page, in texels
 };
 
-/// A page as the input of TexelProjector.
-struct ProjectorInput {
-    const Atlas& atlas;
-    std::span<const std::array<AdjacentTriangle, 3>> adjacent;  ///< by triangle of the atlas
-    std::span<const PageFace> faces;                            ///< by triangle of the atlas
-    /// By part and corner, as they will be written; empty for parts without a normal map.
-    std::span<const std::vector<Vec4f>> tangents;
-};
-
 /// Projects samples of one triangle of the atlas to the source. Not thread-safe, since it keeps warm starts and the
 /// source's faces near the last samples.
 class TexelProjector {
 public:
-    /// \param job       must outlive this
-    /// \param page      what it refers to must outlive this
-    /// \param triangle  index into the atlas
-    /// \param samples   samples per texel along each axis
-    TexelProjector(const BakeJob& job, const ProjectorInput& page, Index triangle, std::uint32_t samples);
+    /// \param page      must outlive this
+    /// \param triangle  index into the mesh of the page
+    TexelProjector(const PageRequest& page, Index triangle);
 
     /// The sample at position (s, t), from 0 to 1, in texel (x, y): on the triangle, or across an edge (the
     /// gutter) on its neighbour, unfolded into the triangle's plane.
@@ -53,9 +43,7 @@ public:
     SurfacePoint project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y);
 
     /// Normal of the simplified face at a sample, see oriented_face_normal().
-    engine::Vector3 face_normal(const TexelSample& at) const {
-        return oriented_face_normal(part_, normals_, at.face);
-    }
+    engine::Vector3 face_normal(const TexelSample& at) const { return oriented_face_normal(part_, at.face); }
 
     /// Transforms a normal of the source to the tangent space of the simplified mesh. For a sample on a
     /// neighbour the normal is rotated with the neighbour into this triangle's plane; otherwise it would be
@@ -75,7 +63,7 @@ private:
     // Conversion of barycentric coordinates of this face to those of the neighbour across an edge, which is
     // unfolded into this face's plane.
     struct UnfoldedNeighbour {
-        Index face = no_index;
+        Index face = no_index;            // of the simplified mesh
         std::size_t corner = 0;           // corner of the neighbour opposite the edge
         double height_ratio = 0;          // height above the edge: of this face divided by the neighbour's
         double foot = 0, other_foot = 0;  // projections of the opposite corners to the edge, 0 to 1 along it
@@ -100,14 +88,13 @@ private:
     };
 
     bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }
-    engine::Vector3 corner(Index face, std::size_t i) const;
     double texel_length() const;
     Vec3 weights_beyond(std::size_t c, const Vec3& w) const;
     SurfacePoint map_near(const TexelSample& at, std::uint32_t x, std::uint32_t y, const SurfacePoint& near);
     Block& block_of(const TexelSample& at, std::uint32_t x, std::uint32_t y);
     Ball ball_around(const Block& block, std::uint32_t size, std::size_t cache_index) const;
     void prepare(Block& block, const TexelSample& at, const SurfacePoint& near);
-    UnfoldedNeighbour unfold(std::size_t c, Index neighbour, std::size_t other) const;
+    UnfoldedNeighbour unfold(std::size_t c, const PageMesh& mesh) const;
     Vec3 own_weights(const TexelSample& at) const;
 
     const PageFace face_;
@@ -115,8 +102,7 @@ private:
     const BarycentricFrame frame_;
     const std::size_t right_angle_corner_;
     const BakePart& part_;
-    const CornerNormals& normals_;
-    const TriangleMesh& mesh_;
+    const PageTriangle& triangle_;
     const double texel_length_;
     const double spacing_;
     const std::uint32_t block_size_;                  // texels along each axis

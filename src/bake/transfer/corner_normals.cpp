@@ -111,10 +111,10 @@ void transfer_normals(const BakePart& part, const Workers& workers, std::vector<
 
 }  // namespace
 
-Vector3 oriented_face_normal(const BakePart& part, const CornerNormals& normals, std::size_t face) {
+Vector3 oriented_face_normal(const BakePart& part, std::size_t face) {
     const Vector3 face_normal =
         winding_normal(part.simplified->mesh.positions, part.simplified->mesh.triangles[face]);
-    return normals.has_reversed_winding[face] ? Vector3(-face_normal) : face_normal;
+    return part.normals.has_reversed_winding[face] ? Vector3(-face_normal) : face_normal;
 }
 
 bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corner, std::size_t other,
@@ -133,8 +133,8 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Wor
                          faces_with_reversed_winding(part)};
     parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
-            face_normals[f] = transfers ? oriented_face_normal(part, result, f)
-                                        : winding_normal(mesh.positions, mesh.triangles[f]);
+            face_normals[f] = winding_normal(mesh.positions, mesh.triangles[f]);
+            if (transfers && result.has_reversed_winding[f]) face_normals[f] = -face_normals[f];
             for (std::size_t c = 3 * f; c < 3 * f + 3; ++c) raw[c] = face_normals[f];
         }
     });

@@ -2,8 +2,7 @@
 /// \file
 /// Normals at the corners of the simplified mesh.
 
-#include <cstdint>
-#include <vector>
+#include <cstddef>
 
 #include "bake/transfer/corners.hpp"
 #include "faqem/detail/base/parallel.hpp"
@@ -11,18 +10,9 @@
 
 namespace faqem::detail {
 
-/// Normals of the simplified mesh, and their clusters.
-struct CornerNormals {
-    std::vector<Vec3f> normals;   ///< by corner: unit length, within 90 degrees of the face normal
-    std::vector<Index> clusters;  ///< by corner: corners of a vertex that share a normal have the same number
-    /// By face: 1 if the winding of the source face contradicts its vertex normals, while it agrees with them
-    /// on most of the part's area. Such a face is shaded by its vertex normals, as in the source.
-    std::vector<std::uint8_t> has_reversed_winding;
-};
-
 /// Unit normal of a simplified face by its winding, reversed where CornerNormals::has_reversed_winding is
 /// set. Zero if the face is degenerate. Complexity: O(1).
-engine::Vector3 oriented_face_normal(const BakePart& part, const CornerNormals& normals, std::size_t face);
+engine::Vector3 oriented_face_normal(const BakePart& part, std::size_t face);
 
 /// Whether the edge between two faces of consistent winding is a crease: the normals of both its vertices are
 /// split along it.
@@ -39,6 +29,7 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
 /// latter, which is oriented_face_normal() with Normals::transfer, and otherwise given by the winding.
 /// Normals::flat has the clusters of Normals::smooth, but keeps the face normals.
 /// Complexity: O(corners) for a bounded number of creases per vertex.
+/// \param part  its normals are not used
 CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Workers workers);
 
 }  // namespace faqem::detail

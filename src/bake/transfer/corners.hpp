@@ -2,6 +2,7 @@
 /// \file
 /// Welds the corners of a simplified mesh with equal attributes to vertices of an output part.
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -12,6 +13,15 @@
 
 namespace faqem::detail {
 
+/// Normals of a simplified mesh, and their clusters.
+struct CornerNormals {
+    std::vector<Vec3f> normals;   ///< by corner: unit length, within 90 degrees of the face normal
+    std::vector<Index> clusters;  ///< by corner: corners of a vertex that share a normal have the same number
+    /// By face: 1 if the winding of the source face contradicts its vertex normals, while it agrees with them
+    /// on most of the part's area. Such a face is shaded by its vertex normals, as in the source.
+    std::vector<std::uint8_t> has_reversed_winding;
+};
+
 /// A part of the source with its simplified mesh.
 struct BakePart {
     Index index = 0;  ///< index into Asset::parts
@@ -19,6 +29,9 @@ struct BakePart {
     const SimplifyResult* simplified = nullptr;
     /// Null if the simplified mesh has no faces, or at most normals are transferred from the source.
     std::unique_ptr<const SurfaceMap> map;
+    CornerNormals normals = {};  ///< empty without faces, if it is kept, and with Normals::none
+    /// Whether baking leaves it empty in the result, because it is added later with its own vertices or UVs.
+    bool is_kept = false;
 
     std::size_t faces() const { return simplified->mesh.triangles.size(); }
 };

@@ -122,8 +122,7 @@ void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
     }
 }
 
-std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler,
-                                 const CornerNormals& normals, Workers workers) {
+std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler, Workers workers) {
     const TriangleMesh& mesh = part.simplified->mesh;
     std::vector<LinearColor> raw(3 * mesh.triangles.size());
     parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
@@ -145,7 +144,7 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
     std::vector<Vec4f> result(raw.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         std::vector<std::uint64_t> corners(at.at(v).begin(), at.at(v).end());
-        const auto key = [&](std::uint64_t c) { return std::pair(normals.clusters[c], group(c)); };
+        const auto key = [&](std::uint64_t c) { return std::pair(part.normals.clusters[c], group(c)); };
         std::sort(corners.begin(), corners.end(), [&](std::uint64_t a, std::uint64_t b) {
             return key(a) != key(b) ? key(a) < key(b) : a < b;
         });

@@ -2,7 +2,6 @@
 /// \file
 /// Vertex attributes, transferred from the source through the surface map.
 
-#include "bake/transfer/corner_normals.hpp"
 #include "bake/transfer/corners.hpp"
 #include "bake/transfer/source_sampler.hpp"
 
@@ -20,7 +19,6 @@ void transfer_skin_and_morphs(const BakePart& part, WeldedPart& welded,
 /// colour of the source, averaged over the corners of a vertex with the same cluster and face group.
 /// \return 3 * faces colours, linear, not premultiplied, in [0, 1]
 /// \throws whatever `workers.check_cancelled` throws
-std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler,
-                                 const CornerNormals& normals, Workers workers);
+std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler, Workers workers);
 
 }  // namespace faqem::detail

@@ -14,13 +14,13 @@ using namespace faqem;
 using detail::Box2;
 using detail::BoxGrid;
 using detail::Chart;
-using detail::ChartFace;
+using detail::PageTriangle;
 using detail::Point2;
 
 namespace {
 
 struct Fan {
-    std::vector<ChartFace> faces;
+    std::vector<PageTriangle> faces;
     Chart chart;
 };
 
@@ -32,7 +32,7 @@ Fan fan(std::size_t count, double angle, double flat_angle, double legs) {
         const auto at = [&](std::size_t k, double a) {
             return Point2{legs * std::cos(a * double(k)), legs * std::sin(a * double(k))};
         };
-        ChartFace face;
+        PageTriangle face;
         const Point2 p = at(i, angle), q = at(i + 1, angle);
         face.corners = {Vec3{0, 0, 0}, Vec3{p.x, p.y, 0}, Vec3{q.x, q.y, 0}};
         if (i + 1 < count) face.adjacent[1] = {static_cast<Index>(i + 1), 2};

@@ -23,7 +23,7 @@ std::vector<Index> all_of(std::size_t n) {
 }
 
 // Checks the invariants of charts for any input.
-void check_charts(const std::vector<ChartFace>& faces, const Charts& charts) {
+void check_charts(const std::vector<PageTriangle>& faces, const Charts& charts) {
     std::vector<int> seen(faces.size(), 0);
     for (const Chart& chart : charts.charts) {
         REQUIRE(chart.points.size() == chart.faces.size());
@@ -38,11 +38,11 @@ void check_charts(const std::vector<ChartFace>& faces, const Charts& charts) {
 }
 
 // Largest relative difference between the lengths of an edge in its chart and on the surface.
-double worst_edge(const std::vector<ChartFace>& faces, const Charts& charts) {
+double worst_edge(const std::vector<PageTriangle>& faces, const Charts& charts) {
     double worst = 0;
     for (const Chart& chart : charts.charts) {
         for (std::size_t i = 0; i < chart.faces.size(); ++i) {
-            const ChartFace& face = faces[chart.faces[i]];
+            const PageTriangle& face = faces[chart.faces[i]];
             for (std::size_t c = 0; c < 3; ++c) {
                 const Vec3 d = test::minus(face.corners[c], face.corners[(c + 1) % 3]);
                 const double wanted = face.density * std::hypot(d[0], d[1], d[2]);
@@ -64,9 +64,9 @@ TEST_CASE("the sides of a cube are at most six charts without distortion") {
     // Without creases several sides can be in one chart.
     CHECK(charts.charts.size() <= 6);
     auto creased = faces;
-    for (ChartFace& face : creased) {
+    for (PageTriangle& face : creased) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const auto n = [](const ChartFace& f) {
+            const auto n = [](const PageTriangle& f) {
                 return engine::area_vector(engine::to_eigen(f.corners[0]), engine::to_eigen(f.corners[1]),
                                            engine::to_eigen(f.corners[2]));
             };

@@ -17,10 +17,9 @@ using namespace faqem::detail;
 namespace {
 
 struct Made {
-    std::vector<ChartFace> faces;
+    std::vector<PageTriangle> faces;
     Charts charts;
     ChartPage page;
-    std::vector<std::array<AdjacentTriangle, 3>> adjacent;
 };
 
 Made made(const TriangleMesh& mesh, double density, std::uint32_t side = 1024) {
@@ -30,7 +29,6 @@ Made made(const TriangleMesh& mesh, double density, std::uint32_t side = 1024) {
     auto page = pack_charts(result.charts.charts, result.faces.size(), side);
     REQUIRE(page);
     result.page = *std::move(page);
-    for (const ChartFace& face : result.faces) result.adjacent.push_back(face.adjacent);
     return result;
 }
 
@@ -160,7 +158,7 @@ TEST_CASE("samples of a chart are assigned to the triangle that contains them or
     std::size_t inside = 0, outside = 0;
     for (const ChartTile& tile : split_into_tiles(m.page.charts)) {
         const AtlasChart& chart = m.page.charts[tile.chart];
-        const TileOwners o = tile_owners(m.page.atlas, chart, m.adjacent, tile, samples);
+        const TileOwners o = tile_owners(m.page.atlas, chart, m.faces, tile, samples);
         for (std::uint32_t j = 0; j < tile.height * samples; ++j) {
             for (std::uint32_t i = 0; i < tile.width * samples; ++i) {
                 const std::uint32_t owner = o.owners[std::size_t{j} * tile.width * samples + i];

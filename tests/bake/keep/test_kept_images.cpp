@@ -21,15 +21,14 @@ Pixels smooth(std::uint32_t size, std::uint8_t alpha = 255) {
 // The images of an asset after add_kept_images() and encode_pending_images(), with one part that keeps its UVs.
 Asset encoded(const Asset& asset, const BakeOptions& bake,
               std::vector<detail::KeptPart> parts = {{0, false}}) {
-    Options options;
-    options.bake = bake;
-    detail::BakeJob job(asset, options);
-    job.result.asset.parts = asset.parts;
-    job.result.asset.materials = asset.materials;
-    job.result.asset.images = asset.images;
-    detail::add_kept_images(job, parts);
-    detail::encode_pending_images(job.pending, bake, {}, job.result.asset.images);
-    return job.result.asset;
+    detail::UnencodedResult out;
+    Asset& result = out.asset.asset;
+    result.parts = asset.parts;
+    result.materials = asset.materials;
+    result.images = asset.images;
+    detail::add_kept_images(asset, bake, parts, {}, out);
+    detail::encode_pending_images(out.pending, bake, {}, result.images);
+    return result;
 }
 
 }  // namespace

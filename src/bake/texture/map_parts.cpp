@@ -1,8 +1,9 @@
+#include "bake/texture/map_parts.hpp"
+
 #include <algorithm>
 #include <memory>
-#include <utility>
 
-#include "bake/texture/bake_job.hpp"
+#include "bake/transfer/corner_normals.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -26,24 +27,28 @@ bool needs_map(const Asset& asset, const Part& part, const BakeOptions& bake) {
 
 }  // namespace
 
-void map_parts(BakeJob& job, std::span<const SimplifyResult> simplified) {
-    double done = 0;
-    for (std::size_t p = 0; p < job.source.parts.size(); ++p) {
-        job.report_progress(Phase::map, done++ / static_cast<double>(job.source.parts.size()));
-        BakePart part{static_cast<Index>(p), &job.source.parts[p], &simplified[p], nullptr};
-        if (part.faces() > 0 && !job.skipped[p] && needs_map(job.source, *part.source, job.options.bake)) {
+std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyResult> simplified,
+                                std::span<const std::uint8_t> kept, const BakeOptions& bake,
+                                BakeProgress& progress) {
+    std::vector<BakePart> parts;
+    for (std::size_t p = 0; p < source.parts.size(); ++p) {
+        progress.report(Phase::map, static_cast<double>(p) / static_cast<double>(source.parts.size()));
+        BakePart& part = parts.emplace_back();
+        part.index = static_cast<Index>(p);
+        part.source = &source.parts[p];
+        part.simplified = &simplified[p];
+        part.is_kept = kept[p] != 0;
+        if (part.faces() > 0 && !part.is_kept && needs_map(source, *part.source, bake)) {
             part.map = std::make_unique<const SurfaceMap>(make_surface_map(
-                part.simplified->history, job.options.bake.mapping, part.source->triangles, job.workers()));
+                simplified[p].history, bake.mapping, part.source->triangles, progress.workers()));
         }
-        job.parts.push_back(std::move(part));
     }
-    for (const BakePart& part : job.parts) {
-        job.report_progress(Phase::map, 1);
-        const bool has_normals =
-            part.faces() > 0 && !job.skipped[part.index] && job.options.bake.normals != Normals::none;
-        job.normals.push_back(has_normals ? make_normals(part, job.options.bake, job.workers())
-                                          : CornerNormals{});
+    for (BakePart& part : parts) {
+        progress.report(Phase::map, 1);
+        if (part.faces() > 0 && !part.is_kept && bake.normals != Normals::none)
+            part.normals = make_normals(part, bake, progress.workers());
     }
+    return parts;
 }
 
 }  // namespace faqem::detail
