@@ -184,6 +184,13 @@ enum class Compression {
     meshopt,
 };
 
+/// Whether vertices in glTF files are integers, which viewers must know (KHR_mesh_quantization).
+enum class Quantize {
+    source,  ///< meshes that have integer positions in the source keep their grid
+    off,     ///< floats
+    on,      ///< all meshes, with the bits of QuantizeOptions
+};
+
 /// Whether a new atlas has a normal map. Bake::keep preserves those of the source, the other kinds have none.
 enum class NormalMap {
     /// If the source has one, or if it has other textures and normals differ by more than 5 degrees on average

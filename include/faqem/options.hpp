@@ -59,6 +59,17 @@ struct BakeOptions {
     Recording correspondence = Recording::off;
 };
 
+/// Rounding of vertices in glTF files, see docs/assets.md, "Quantisation".
+struct QuantizeOptions {
+    Quantize kind = Quantize::source;
+    /// Positions are rounded to a grid that all meshes of a scene, and all levels of detail, have in common. Its
+    /// spacing is the diagonal of the scene divided by 2 to this power, rounded up to a power of two. In [8, 16].
+    std::uint32_t position_bits = 14;
+    std::uint32_t normal_bits =
+        10;  ///< of the two octahedral coordinates of compressed normals and tangents; [8, 16]
+    std::uint32_t uv_bits = 13;  ///< of compressed texture coordinates from 0 to 1, in [8, 16]
+};
+
 /// Options of simplify() and of all other entry points.
 struct Options {
     Target target = {};
@@ -79,6 +90,7 @@ struct Options {
     Recording history = Recording::off;  ///< whether to record the collapse history; free if off
     BakeOptions bake = {};
     Compression compress = Compression::source;  ///< of the glTF file that the result is saved to
+    QuantizeOptions quantize = {};               ///< of the glTF file that the result is saved to
     /// Maximum number of threads; 0: all. The result does not depend on it.
     std::uint32_t threads = 0;
     /// Called at intervals, may cancel the run. May be empty.

@@ -62,7 +62,8 @@ struct PhaseSeconds {
 };
 
 /// Measured two-sided Hausdorff distance between result and original, for Options::max_error. Distances are
-/// in model units; for an asset, in scene units. Later rounding of positions to float is not included.
+/// in model units; for an asset, in scene units. Rounding of positions by Options::quantize is included, that to float
+/// is not.
 struct MeasuredError {
     double allowed = 0;      ///< Options::max_error
     double value = 0;        ///< lower bound of the distance
@@ -70,6 +71,12 @@ struct MeasuredError {
     std::uint64_t runs = 0;  ///< number of runs from the original
 
     bool within() const { return bound <= allowed; }
+};
+
+/// Rounding of positions to a grid, for Options::quantize.
+struct PositionRounding {
+    double spacing = 0;    ///< of the grid, in scene units; of several grids, the largest
+    double max_error = 0;  ///< largest distance by which a vertex of the result moves, scene units
 };
 
 /// A connected component of the input that has no face in the result, although it was visible.
@@ -138,7 +145,8 @@ struct Report {
     std::uint64_t virtual_edges = 0;    ///< virtual edges added
     std::vector<RemovedComponent> removed_components;  ///< visible ones, the largest first
     std::optional<MeasuredError> max_error = {};  ///< if Options::max_error is set and the run was completed
-    std::vector<BakedPage> pages;                 ///< pages of a new atlas; only of materials with images
+    std::optional<PositionRounding> position_rounding = {};  ///< of an asset, if its positions are rounded
+    std::vector<BakedPage> pages;  ///< pages of a new atlas; only of materials with images
     /// Of an asset: names of the parts that bake() left as they are (BakeOptions::untouched), as in warnings.
     std::vector<std::string> untouched_parts;
     /// Of an asset: names of the parts for which bake() with Bake::automatic kept the UVs of the source.

@@ -45,6 +45,14 @@ BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
     return requested;
 }
 
+QuantizeOptions resolve_quantize(QuantizeOptions requested, const std::filesystem::path& out) {
+    const detail::FileFormat* format = detail::format_by_name(out);
+    if (!format || format->is_gltf) return requested;
+    if (requested.kind == Quantize::on) throw OptionError("--quantize on: the output must be .glb or .gltf");
+    requested.kind = Quantize::off;
+    return requested;
+}
+
 std::uint64_t input_bytes(const std::filesystem::path& model) {
     std::vector<std::filesystem::path> files = detail::referenced_files(model, detail::References::readable);
     files.push_back(model);

@@ -47,6 +47,10 @@ auto with_file_in_errors(const std::filesystem::path& file, Work&& work) {
 BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
                                    const std::filesystem::path& out);
 
+/// Options of vertices for an output file: off in formats that have no such integers.
+/// \throws OptionError  Quantize::on is asked for, and the output is not glTF
+QuantizeOptions resolve_quantize(QuantizeOptions requested, const std::filesystem::path& out);
+
 /// Returns the total size of a model and of the files that it refers to, bytes.
 std::uint64_t input_bytes(const std::filesystem::path& model);
 

@@ -29,7 +29,7 @@ std::string changed_text(const OptionRow& row) {
             if (word != option_text({}, row)) return word;
         }
     }
-    for (const char* text : {"0.5", "7", "50", "128"}) {
+    for (const char* text : {"0.5", "7", "9", "50", "128"}) {
         try {
             Options options;
             set_option(options, row, text, name_spelling);
@@ -69,10 +69,10 @@ TEST_CASE("every member that affects the result changes the key of the options")
         change(options);
         return keys.insert(options_key(options)).second;
     };
-    for (std::size_t k = 0; k < 9; ++k) {
+    for (std::size_t k = 0; k < 13; ++k) {
         CHECK(changes_key([k](Options& o) {
             auto& [target, budget, visibility, max_error, max_seconds, preset, weights, topology, history,
-                   bake, compress, threads, progress] = o;
+                   bake, compress, quantize, threads, progress] = o;
             if (k == 0) target = ratio(0.1);
             if (k == 1) target = faces(1);
             if (k == 2) budget = Budget::mesh;
@@ -82,6 +82,11 @@ TEST_CASE("every member that affects the result changes the key of the options")
             if (k == 6) history = Recording::on;
             if (k == 7) max_seconds = 60;
             if (k == 8) compress = Compression::meshopt;
+            auto& [kind, position_bits, normal_bits, uv_bits] = quantize;
+            if (k == 9) kind = Quantize::on;
+            if (k == 10) position_bits = 16;
+            if (k == 11) normal_bits = 16;
+            if (k == 12) uv_bits = 16;
         }));
     }
     CHECK(changes_key([](Options& o) { o.max_error = of_diagonal(0.1); }));

@@ -50,6 +50,7 @@ Part with_faces(const Part& part, const std::vector<Index>& faces, std::vector<I
         copy_vertices(result.morph_targets[m].positions, part.morph_targets[m].positions, vertices);
         copy_vertices(result.morph_targets[m].normals, part.morph_targets[m].normals, vertices);
     }
+    result.position_spacing = part.position_spacing;
     result.file_order = part.file_order;
     return result;
 }
@@ -65,6 +66,8 @@ std::optional<DividedAsset> divided_into_objects(const Asset& asset) {
     divided.images = asset.images;
     divided.source = asset.source;
     divided.compression = asset.compression;
+    divided.normal_bits = asset.normal_bits;
+    divided.uv_bits = asset.uv_bits;
     divided.warnings = asset.warnings;
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const Part& part = asset.parts[p];

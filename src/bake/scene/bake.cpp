@@ -13,6 +13,7 @@
 #include "bake/keep/kept_uvs.hpp"
 #include "bake/keep/untouched_parts.hpp"
 #include "bake/scene/check_asset.hpp"
+#include "bake/scene/position_grids.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/bake_progress.hpp"
@@ -187,12 +188,11 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
     Report& report = out.asset.report = simplified.report;
     out.asset.asset.source = source.source;
     out.asset.asset.warnings = source.warnings;
-    out.asset.asset.compression =
-        options.compress == Compression::source ? source.compression : options.compress;
     if (report.stop == StopReason::cancelled) return out;
     const Stopwatch watch;
     try {
         bake_parts(source, simplified, options.bake, progress, out);
+        set_quantization(source, options, out.asset.asset, report);
     } catch (const engine::Cancelled&) {
         set_cancelled(out.asset);
         out.pending.clear();

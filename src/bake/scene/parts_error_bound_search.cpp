@@ -2,12 +2,16 @@
 
 #include <algorithm>
 
+#include "bake/scene/position_grids.hpp"
 #include "bake/scene/simplify_parts.hpp"
+#include "faqem/error.hpp"
 
 namespace faqem::detail {
 
 ReferenceParts::ReferenceParts(const Asset& source, const Options& options, CancellationCheck check_cancelled)
-    : options_(options), size_(scene_size(source)) {
+    : options_(options),
+      size_(scene_size(source)),
+      rounding_(position_grids(source, options).max_distance()) {
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
         const Part& part = source.parts[p];
         originals_.emplace_back(MeshView{part.positions, part.triangles},
@@ -18,16 +22,23 @@ ReferenceParts::ReferenceParts(const Asset& source, const Options& options, Canc
 
 MeasuredDistance ReferenceParts::operator()(const SimplifiedParts& simplified, double allowed,
                                             MeasureMode mode, CancellationCheck check_cancelled) const {
+    if (!(rounding_ < allowed))
+        throw OptionError("max_error: rounding of positions alone may move them by " +
+                          std::to_string(rounding_) + ", " + std::to_string(allowed) +
+                          " is allowed; quantize must be off, or position_bits larger");
     MeasuredDistance most;
     for (std::size_t p = 0; p < originals_.size(); ++p) {
         const PartScale& scale = size_.scales[p];
         if (originals_[p].surface().triangles.empty() || !(scale.largest > 0)) continue;
-        const MeasuredDistance own = distance(originals_[p], simplified.parts[p], allowed / scale.largest,
-                                              mode, options_, check_cancelled);
+        const MeasuredDistance own =
+            distance(originals_[p], simplified.parts[p], (allowed - rounding_) / scale.largest, mode,
+                     options_, check_cancelled);
         most.value = std::max(most.value, own.value > 0 ? own.value * scale.smallest : 0);
         most.bound = std::max(most.bound, own.bound > 0 ? own.bound * scale.largest : 0);
         most.undecided_count += own.undecided_count;
     }
+    most.value = std::max(0.0, most.value - rounding_);
+    most.bound += rounding_;
     return most;
 }
 

@@ -22,10 +22,12 @@ public:
     const SceneSize& size() const { return size_; }
     /// Number of faces of all parts.
     std::uint64_t faces() const { return faces_; }
-    /// Measures the largest distance of all parts from their originals, in units of the scene.
+    /// Measures the largest distance of all parts from their originals, in units of the scene. It includes the rounding
+    /// of positions that Options::quantize demands.
     /// \param simplified  one result per part
     /// \param allowed     allowed distance, in units of the scene
     /// \param mode        as distance()
+    /// \throws OptionError  the rounding alone may be as large as the allowed distance
     /// \throws whatever `check_cancelled` throws
     MeasuredDistance operator()(const SimplifiedParts& simplified, double allowed, MeasureMode mode,
                                 CancellationCheck check_cancelled) const;
@@ -33,6 +35,7 @@ public:
 private:
     const Options& options_;
     SceneSize size_;
+    double rounding_;  // largest distance by which positions are rounded afterwards, units of the scene
     std::vector<DistanceReference> originals_;
     std::uint64_t faces_ = 0;
 };

@@ -72,6 +72,7 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
     const SizeRule rule = {file.out, input_bytes(file.in),
                            larger_result(work.options.bake, work.allow_larger)};
     options.bake = resolve_automatic_bake(options.bake, source, file.out);
+    options.quantize = resolve_quantize(options.quantize, file.out);
     SimplifiedAsset simplified = simplify_model(source, file.in, options, rule);
     const Report& report = simplified.report;
     if (report.stop == StopReason::cancelled) return cancelled_result();

@@ -285,6 +285,7 @@ int run(const LodArguments& arguments) {
         bar.show(Phase::load, 0);
         source = load_model(arguments.in, arguments.strictness());
         options.bake = resolve_automatic_bake(options.bake, source, outputs.models[0]);
+        options.quantize = resolve_quantize(options.quantize, outputs.models[0]);
         code = writer();
     }
     if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";

@@ -198,6 +198,7 @@ int run(const SimplifyCommandArguments& arguments) {
         const SizeRule rule = {arguments.out, input_bytes(arguments.in),
                                larger_result(options.bake, arguments.allow_larger)};
         options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
+        options.quantize = resolve_quantize(options.quantize, arguments.out);
         require_memory(arguments.in, estimated_peak_memory(source, options), allowed);
         options = detail::with_time_left(options, deadline);
         simplified = simplify_model(source, arguments.in, options, rule, byte_budget(arguments));

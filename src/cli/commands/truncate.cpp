@@ -69,6 +69,7 @@ Asset baked_model(const TruncateArguments& arguments, const SimplifiedParts& sim
     const Asset source = load_model(arguments.source, Strictness::lenient);
     Options bake_options = options;
     bake_options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
+    bake_options.quantize = resolve_quantize(bake_options.quantize, arguments.out);
     return with_file_in_errors(arguments.source, [&] {
         detail::check_source_matches_histories(source, simplified_parts);
         return bake(source, simplified_parts, bake_options).asset;

@@ -35,7 +35,10 @@ std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSur
     asset.parts[1].uvs.resize(1);
     for (const double distance : error.distances)
         asset.parts[1].uvs[0].push_back({static_cast<float>(distance / frame.unit), 0});
-    for (Part& part : asset.parts) normalize_positions(part.positions, frame);
+    for (Part& part : asset.parts) {
+        normalize_positions(part.positions, frame);
+        part.position_spacing = 0;
+    }
     return detail::encode_glb(asset);
 }
 

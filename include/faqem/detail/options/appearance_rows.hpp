@@ -104,6 +104,33 @@ inline constexpr OptionRow appearance_rows[] = {
          .help = "Compression of geometry in glTF files: source (as the input: meshopt "
                  "or none), none, meshopt (viewers need EXT_meshopt_compression)",
          .entry_points = in_all}),
+    option_row<&Options::quantize, &QuantizeOptions::kind>(
+        {.name = "quantize",
+         .choices = "source|off|on",
+         .value_name = "source|off|on",
+         .flag_value = "on",
+         .default_text = "source",
+         .help = "Vertices in glTF files as integers: source (as the input), off, on (viewers need "
+                 "KHR_mesh_quantization)",
+         .entry_points = in_all}),
+    option_row<&Options::quantize, &QuantizeOptions::position_bits>(
+        {.name = "position-bits",
+         .range = {.min = 8, .max = 16},
+         .value_name = "N",
+         .help = "Bits of quantised positions: steps of the grid along the diagonal of the scene",
+         .entry_points = in_all}),
+    option_row<&Options::quantize, &QuantizeOptions::normal_bits>(
+        {.name = "normal-bits",
+         .range = {.min = 8, .max = 16},
+         .value_name = "N",
+         .help = "Bits of quantised normals and tangents that are compressed",
+         .entry_points = in_all}),
+    option_row<&Options::quantize, &QuantizeOptions::uv_bits>(
+        {.name = "uv-bits",
+         .range = {.min = 8, .max = 16},
+         .value_name = "N",
+         .help = "Bits of quantised texture coordinates that are compressed",
+         .entry_points = in_all}),
 };
 
 }  // namespace detail

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "asset/gltf/read/read.hpp"
 #include "asset/scene/repair.hpp"
 #include "faqem/error.hpp"
+#include "faqem/options.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -205,6 +207,35 @@ std::vector<Triangle> triangles_of(const std::vector<Index>& v, int mode) {
     return triangles;
 }
 
+/// Distance of the values that the integers of an accessor stand for; 0 for floats.
+double spacing_of_integers(const Json& accessor) {
+    const bool is_normalized = member(accessor, "normalized") == true;
+    switch (static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0))) {
+        case ComponentType::i8:
+            return is_normalized ? 1.0 / 127 : 1;
+        case ComponentType::u8:
+            return is_normalized ? 1.0 / 255 : 1;
+        case ComponentType::i16:
+            return is_normalized ? 1.0 / 32767 : 1;
+        case ComponentType::u16:
+            return is_normalized ? 1.0 / 65535 : 1;
+        default:
+            return 0;
+    }
+}
+
+/// Part::position_spacing: that of the primitives, if they all have the same.
+double position_spacing(const tinygltf::Mesh& mesh, const Json& accessors) {
+    std::optional<double> spacing;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        if (!is_triangle_primitive(primitive)) continue;
+        const double own = spacing_of_integers(accessors[find_accessor(primitive.attributes, "POSITION")]);
+        if (spacing.value_or(own) != own) return 0;
+        spacing = own;
+    }
+    return spacing.value_or(0);
+}
+
 /// Replaces non-finite positions by the first finite position. Their faces have been removed before.
 void repair_positions(Part& part, Repairs& repairs) {
     const auto finite = std::find_if(part.positions.begin(), part.positions.end(), is_finite<double, 3>);
@@ -284,10 +315,31 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
             part.face_material.push_back(material);
         }
     }
+    part.position_spacing = position_spacing(mesh, loaded.source->document["accessors"]);
     repair_positions(part, repairs);
     add_warnings(loaded, where, repairs, dropped, excess, layout);
     dropped_faces += dropped;
     return part;
+}
+
+void read_vertex_bits(const LoadedGltf& loaded, Asset& asset) {
+    constexpr QuantizeOptions standard;
+    const Json& accessors = loaded.source->document["accessors"];
+    for (const tinygltf::Mesh& mesh : loaded.model.meshes) {
+        for (const tinygltf::Primitive& primitive : mesh.primitives) {
+            if (!is_triangle_primitive(primitive)) continue;
+            for (const auto& [name, accessor] : primitive.attributes) {
+                if (spacing_of_integers(accessors[static_cast<std::size_t>(accessor)]) == 0) continue;
+                if (name == "NORMAL" || name == "TANGENT") asset.normal_bits = standard.normal_bits;
+                if (name.compare(0, 9, "TEXCOORD_") == 0) asset.uv_bits = standard.uv_bits;
+            }
+        }
+    }
+    // Integers for texture coordinates alone need no extension, and do not tell of quantisation.
+    const bool is_quantized =
+        asset.normal_bits > 0 || std::any_of(asset.parts.begin(), asset.parts.end(),
+                                             [](const Part& part) { return part.position_spacing > 0; });
+    if (!is_quantized) asset.uv_bits = 0;
 }
 
 }  // namespace faqem::detail

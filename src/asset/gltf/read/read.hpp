@@ -13,6 +13,11 @@ namespace faqem::detail {
 /// \throws InputError  if an index is out of range or there are too many vertices
 Part read_part(LoadedGltf& loaded, Index mesh, std::uint64_t& dropped_faces);
 
+/// Sets Asset::normal_bits and uv_bits to their defaults if vertices of the document are integers.
+/// \param loaded  the document
+/// \param asset   has the parts
+void read_vertex_bits(const LoadedGltf& loaded, Asset& asset);
+
 /// Reads all materials. TextureRef::image is an index into the images of the document.
 /// \param loaded  the document; warnings are added to it
 std::vector<Material> read_materials(LoadedGltf& loaded);

@@ -85,7 +85,7 @@ void GltfBufferBuilder::append_view(const Group& group, std::vector<std::uint8_t
                                     std::uint64_t& fallback_size, Json& views) const {
     std::optional<CompressedView> compressed;
     if (compression_ == Compression::meshopt)
-        compressed = encode_meshopt(group.bytes, group.stride, group.use);
+        compressed = encode_meshopt(group.bytes, group.stride, group.use, bits_);
     pad_to_4(buffer);
     const std::vector<std::uint8_t>& bytes = compressed ? compressed->bytes : group.bytes;
     Json view = {{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};

@@ -14,8 +14,9 @@ namespace faqem::detail {
 
 /// Purpose of an accessor. Accessors share a buffer view if and only if they have the same use and stride.
 enum class AccessorUse {
-    vertices,    ///< attributes that stay as they are
-    directions,  ///< normals and tangents of a simplified mesh, as floats: compression may round them
+    vertices,          ///< attributes that stay as they are
+    directions,        ///< normals and tangents of a simplified mesh, as floats: compression may round them
+    short_directions,  ///< normals and tangents of a simplified mesh, as normalised 16-bit integers: as above
     texture_coordinates,  ///< of a simplified mesh, as floats: compression may round them
     indices,
     triangles,  ///< indices of triangles whose corners compression may rotate
@@ -26,7 +27,7 @@ enum class AccessorUse {
 /// Whether the accessor has one element per vertex.
 constexpr bool is_vertex_attribute(AccessorUse use) {
     return use == AccessorUse::vertices || use == AccessorUse::directions ||
-           use == AccessorUse::texture_coordinates;
+           use == AccessorUse::short_directions || use == AccessorUse::texture_coordinates;
 }
 
 /// Whether the accessor has vertex indices.
@@ -34,12 +35,20 @@ constexpr bool is_index(AccessorUse use) {
     return use == AccessorUse::indices || use == AccessorUse::triangles;
 }
 
+/// Bits to which compression rounds vertices; 0: those that are not seen.
+struct VertexBits {
+    std::uint32_t normals = 0;  ///< of the two octahedral coordinates of AccessorUse::short_directions
+    std::uint32_t uvs = 0;      ///< of texture coordinates from 0 to 1
+};
+
 /// Collects accessors and views, and writes them to a buffer. Equal accessors are stored once.
 class GltfBufferBuilder {
 public:
     /// \param compression  of vertices and triangles; with meshopt, finish() adds EXT_meshopt_compression to the
     ///                     extensions of the document
-    explicit GltfBufferBuilder(Compression compression = Compression::none) : compression_(compression) {}
+    /// \param bits         for meshopt
+    explicit GltfBufferBuilder(Compression compression = Compression::none, VertexBits bits = {})
+        : compression_(compression), bits_(bits) {}
 
     /// Adds an accessor.
     /// \param description  componentType, type, count and any other members of the accessor
@@ -78,6 +87,7 @@ private:
                      Json& views) const;
 
     Compression compression_;
+    VertexBits bits_;
     std::vector<StoredAccessor> stored_;
     std::map<std::size_t, std::vector<Index>> accessors_by_hash_;
     std::vector<Group> groups_;

@@ -1,11 +1,11 @@
 #include "asset/gltf/write/levels.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
 #include "asset/gltf/instancing.hpp"
+#include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/writer.hpp"
 
 namespace faqem::detail {
@@ -14,55 +14,19 @@ namespace {
 
 constexpr const char* lod_extension = "MSFT_lod";
 
-/// Node members that are moved to another node together with the mesh.
-constexpr std::array<const char*, 3> mesh_keys = {"mesh", "skin", "weights"};
-
-bool is_animated(const Json& document, Index node) {
-    for (const Json& animation : member(document, "animations"))
-        for (const Json& channel : member(animation, "channels"))
-            if (index_member(member(channel, "target"), "node") == node) return true;
-    return false;
-}
-
 /// Whether the mesh of a node must be moved to a child node. Otherwise the nodes of the other levels, which
 /// are not in the scene, would need copies of its transform, children, camera or animation.
-bool needs_child_node(const Json& document, Index node) {
-    const Json& json = document["nodes"][node];
+bool needs_child_node(const GltfWriter& writer, Index node) {
+    const Json& json = writer.out["nodes"][node];
     for (const char* key : {"children", "matrix", "translation", "rotation", "scale", "camera"})
         if (json.contains(key)) return true;
-    return is_animated(document, node);
-}
-
-void retarget_weight_channels(Json& document, Index from, Index to) {
-    if (!document.contains("animations")) return;
-    for (Json& animation : document["animations"])
-        for (Json& channel : animation["channels"]) {
-            Json& target = channel["target"];
-            if (index_member(target, "node") == from && string_member(target, "path") == "weights")
-                target["node"] = to;
-        }
+    return is_animated(writer, node);
 }
 
 /// Moves the mesh of a node to a new child node if needs_child_node(). Returns the node that has the mesh.
 Index split_mesh_node(GltfWriter& writer, Index node) {
-    if (!needs_child_node(writer.out, node)) return node;
-    Json child = Json::object();
-    Json& parent = writer.out["nodes"][node];
-    if (parent.contains("name")) child["name"] = string_member(parent, "name") + "_mesh";
-    for (const char* key : mesh_keys) {
-        if (!parent.contains(key)) continue;
-        child[key] = parent[key];
-        parent.erase(key);
-    }
-    if (member(parent, "extensions").contains(instancing_name)) {
-        child["extensions"][instancing_name] = parent["extensions"][instancing_name];
-        parent["extensions"].erase(instancing_name);
-        if (parent["extensions"].empty()) parent.erase("extensions");
-    }
-    const Index index = append(writer, "nodes", std::move(child));
-    writer.out["nodes"][node]["children"].push_back(index);
-    retarget_weight_channels(writer.out, node, index);
-    return index;
+    if (!needs_child_node(writer, node)) return node;
+    return move_mesh_to_child(writer, node);
 }
 
 /// Lets the animations of the morph weights of a node move another node, too.

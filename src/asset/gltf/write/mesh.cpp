@@ -130,6 +130,19 @@ void update_morph_targets(Json& mesh, std::uint64_t targets) {
     }
 }
 
+/// The grid of a mesh. Points and lines, which are copied, have no other positions than those of the source.
+MeshGrid grid_of(GltfWriter& writer, const Json& source, const std::vector<const Part*>& parts) {
+    std::string unfit;
+    MeshGrid grid = choose_grid(parts, writer.origin, unfit);
+    const Json& primitives = member(source, "primitives");
+    if (grid.needs_transform() && !std::all_of(primitives.begin(), primitives.end(), is_triangle_primitive)) {
+        unfit = "it has points or lines";
+        grid = {};
+    }
+    if (!unfit.empty()) warn_mesh(writer, parts.front()->name, "the positions are not quantised: " + unfit);
+    return grid;
+}
+
 /// Appends a mesh with the given parts. Other members are copied from the source mesh.
 /// \param source  source mesh, or null
 /// \return index of the mesh; no_index if it has no primitives, which glTF does not allow
@@ -137,8 +150,9 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
     Json mesh = source.is_null() ? Json::object() : source;
     Json primitives = Json::array();
     std::uint64_t targets = 0;
+    const MeshGrid grid = grid_of(writer, source, parts);
     for (const Part* part : parts) {
-        write_part(writer, *part, primitives);
+        write_part(writer, *part, grid, primitives);
         targets = std::max<std::uint64_t>(targets, part->morph_targets.size());
         if (!part->name.empty()) mesh["name"] = part->name;
     }
@@ -161,6 +175,7 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
         if (mesh["extensions"].empty()) mesh.erase("extensions");
     }
     mesh["primitives"] = std::move(primitives);
+    writer.grids.push_back(grid);
     return append(writer, "meshes", std::move(mesh));
 }
 

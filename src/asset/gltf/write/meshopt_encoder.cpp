@@ -47,6 +47,20 @@ std::optional<std::vector<std::uint8_t>> rounded_floats(std::span<const std::uin
     return result;
 }
 
+// Unit vectors of normalised 16-bit integers in the layout of the filter OCTAHEDRAL.
+std::vector<std::uint8_t> octahedral(std::span<const std::uint8_t> bytes, std::uint32_t bits) {
+    constexpr float unit = 32767;
+    std::vector<float> values(bytes.size() / sizeof(std::int16_t));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        std::int16_t value;
+        std::memcpy(&value, &bytes[i * sizeof(value)], sizeof(value));
+        values[i] = static_cast<float>(value) / unit;
+    }
+    std::vector<std::uint8_t> result(bytes.size());
+    meshopt_encodeFilterOct(result.data(), values.size() / 4, 8, static_cast<int>(bits), values.data());
+    return result;
+}
+
 CompressedView encoded_attributes(std::span<const std::uint8_t> bytes, std::uint64_t stride,
                                   std::string_view filter) {
     CompressedView view{{}, bytes.size() / stride, "ATTRIBUTES", filter};
@@ -72,18 +86,21 @@ CompressedView encoded_triangles(std::span<const std::uint8_t> bytes, std::uint6
 bool can_encode_meshopt() { return true; }
 
 std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t> bytes, std::uint64_t stride,
-                                             AccessorUse use) {
+                                             AccessorUse use, const VertexBits& bits) {
     constexpr std::uint64_t max_stride = 256;
     if (bytes.empty()) return std::nullopt;
     set_codec_versions();
     std::optional<CompressedView> view;
     if (use == AccessorUse::triangles && bytes.size() / stride % 3 == 0)
         view = encoded_triangles(bytes, stride);
+    else if (use == AccessorUse::short_directions && stride == 8 && bits.normals > 0)
+        view = encoded_attributes(octahedral(bytes, bits.normals), stride, "OCTAHEDRAL");
     else if (is_vertex_attribute(use) && stride <= max_stride) {
         std::optional<std::vector<std::uint8_t>> rounded;
         if (use == AccessorUse::directions) rounded = rounded_floats(bytes, direction_exponent);
         if (use == AccessorUse::texture_coordinates)
-            rounded = rounded_floats(bytes, texture_coordinate_exponent);
+            rounded = rounded_floats(
+                bytes, bits.uvs > 0 ? -static_cast<int>(bits.uvs) : texture_coordinate_exponent);
         view = rounded ? encoded_attributes(*rounded, stride, "EXPONENTIAL")
                        : encoded_attributes(bytes, stride, {});
     }
@@ -95,7 +112,8 @@ std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t> bytes
 
 bool can_encode_meshopt() { return false; }
 
-std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t>, std::uint64_t, AccessorUse) {
+std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t>, std::uint64_t, AccessorUse,
+                                             const VertexBits&) {
     return std::nullopt;
 }
 

@@ -17,20 +17,22 @@ struct CompressedView {
     std::vector<std::uint8_t> bytes;
     std::uint64_t count = 0;  ///< elements
     std::string_view mode;    ///< ATTRIBUTES or TRIANGLES
-    std::string_view filter;  ///< EXPONENTIAL, or empty
+    std::string_view filter;  ///< EXPONENTIAL, OCTAHEDRAL, or empty
 };
 
 /// Whether faqem was built with meshoptimizer.
 bool can_encode_meshopt();
 
 /// Encodes the elements of a view. Directions and texture coordinates are rounded to multiples of 2^-11 and 2^-15, the
-/// smallest angles and distances that are seen; rounded values stay as they are. Everything else is lossless, but the
+/// smallest angles and distances that are seen, or to the given bits; rounded values stay as they are. Everything else is lossless, but the
 /// corners of a triangle may be rotated.
-/// \param bytes   the elements, floats for AccessorUse::directions and texture_coordinates
+/// \param bytes   the elements: floats for AccessorUse::directions and texture_coordinates, four 16-bit integers for
+///                short_directions
 /// \param stride  bytes of an element: a multiple of 4, of indices 2 or 4
+/// \param bits    of rounded values
 /// \return nothing if the use is not compressed, if nothing is gained, or if faqem was built without meshoptimizer
 /// O(bytes)
 std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t> bytes, std::uint64_t stride,
-                                             AccessorUse use);
+                                             AccessorUse use, const VertexBits& bits);
 
 }  // namespace faqem::detail

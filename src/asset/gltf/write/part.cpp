@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <type_traits>
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
+#include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/scene/messages.hpp"
@@ -25,16 +27,19 @@ Json accessor_description(ComponentType component, const char* type, std::size_t
 }
 
 /// Adds min and max. They are written exactly, since readers compare them with the floats.
-void add_bounds(Json& description, const std::vector<Vec3f>& values) {
-    Vec3f low = values[0], high = values[0];
-    for (const Vec3f& value : values)
+template <class T>
+void add_bounds(Json& description, const std::vector<std::array<T, 3>>& values) {
+    std::array<T, 3> low = values[0], high = values[0];
+    for (const std::array<T, 3>& value : values)
         for (std::size_t i = 0; i < 3; ++i) {
             low[i] = std::min(low[i], value[i]);
             high[i] = std::max(high[i], value[i]);
         }
-    for (std::size_t i = 0; i < 3; ++i) {
-        low[i] += 0.0f;  // -0 becomes 0
-        high[i] += 0.0f;
+    if constexpr (std::is_floating_point_v<T>) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            low[i] += T{0};  // -0 becomes 0
+            high[i] += T{0};
+        }
     }
     description["min"] = Json(low);
     description["max"] = Json(high);
@@ -46,10 +51,88 @@ Index add_vertices(GltfWriter& writer, Json description, const std::vector<T>& v
     return writer.binary.add_accessor(std::move(description), bytes_of(values), use);
 }
 
-Index add_positions(GltfWriter& writer, const std::vector<Vec3f>& values) {
-    Json description = accessor_description(ComponentType::f32, "VEC3", values.size());
-    add_bounds(description, values);
-    return add_vertices(writer, std::move(description), values);
+/// Writes integer vectors with bounds.
+template <class T, class Value>
+Index add_bounded_integers(GltfWriter& writer, const std::vector<Value>& values, const MeshGrid& grid,
+                           ComponentType type) {
+    std::vector<std::array<T, 3>> integers;
+    integers.reserve(values.size());
+    for (const Value& v : values)
+        integers.push_back({static_cast<T>(v[0]), static_cast<T>(v[1]), static_cast<T>(v[2])});
+    Json description = accessor_description(type, "VEC3", integers.size());
+    if (grid.normalized) description["normalized"] = true;
+    add_bounds(description, integers);
+    writer.needs_quantization = true;
+    return add_vertices(writer, std::move(description), integers);
+}
+
+Index add_positions(GltfWriter& writer, const std::vector<Vec3f>& values, const MeshGrid& grid) {
+    if (!grid.is_on()) {
+        Json description = accessor_description(ComponentType::f32, "VEC3", values.size());
+        add_bounds(description, values);
+        return add_vertices(writer, std::move(description), values);
+    }
+    std::vector<std::array<std::int32_t, 3>> steps;
+    steps.reserve(values.size());
+    for (const Vec3f& v : values)
+        steps.push_back({grid.step(v[0], 0), grid.step(v[1], 1), grid.step(v[2], 2)});
+    switch (grid.type) {
+        case ComponentType::i8:
+            return add_bounded_integers<std::int8_t>(writer, steps, grid, grid.type);
+        case ComponentType::u8:
+            return add_bounded_integers<std::uint8_t>(writer, steps, grid, grid.type);
+        case ComponentType::i16:
+            return add_bounded_integers<std::int16_t>(writer, steps, grid, grid.type);
+        default:
+            return add_bounded_integers<std::uint16_t>(writer, steps, grid, ComponentType::u16);
+    }
+}
+
+/// Writes unit vectors as normalised 16-bit integers. Compression may round those of new vertices further.
+template <std::size_t N>
+Index add_short_directions(GltfWriter& writer, const std::vector<std::array<float, N>>& values, bool is_new) {
+    std::vector<std::array<std::int16_t, N>> integers(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (std::size_t c = 0; c < N; ++c)
+            integers[i][c] =
+                static_cast<std::int16_t>(std::lround(std::clamp(values[i][c], -1.0f, 1.0f) * 32767.0));
+    Json description = accessor_description(ComponentType::i16, N == 3 ? "VEC3" : "VEC4", integers.size());
+    description["normalized"] = true;
+    writer.needs_quantization = true;
+    return add_vertices(writer, std::move(description), integers,
+                        is_new ? AccessorUse::short_directions : AccessorUse::vertices);
+}
+
+/// Writes unit vectors, as integers with Asset::normal_bits.
+template <std::size_t N>
+Index add_directions(GltfWriter& writer, const std::vector<std::array<float, N>>& values, bool is_new) {
+    if (writer.asset.normal_bits > 0) return add_short_directions(writer, values, is_new);
+    return add_vertices(writer,
+                        accessor_description(ComponentType::f32, N == 3 ? "VEC3" : "VEC4", values.size()),
+                        values, is_new ? AccessorUse::directions : AccessorUse::vertices);
+}
+
+/// Writes texture coordinates. With Asset::uv_bits they are normalised integers if all are from 0 to 1. Where compression
+/// rounds floats, these are smaller; vertices that are not new stay exact there.
+Index add_uvs(GltfWriter& writer, const std::vector<Vec2f>& values, bool is_new) {
+    constexpr double unit = 65535;
+    const bool is_compressed = writer.asset.compression == Compression::meshopt;
+    const bool fits = std::all_of(values.begin(), values.end(), [&](const Vec2f& uv) {
+        return std::all_of(uv.begin(), uv.end(), [&](float x) {
+            return x >= 0 && x <= 1 &&
+                   (!is_compressed || static_cast<float>(std::round(x * unit) / unit) == x);
+        });
+    });
+    if (writer.asset.uv_bits == 0 || (is_compressed && is_new) || !fits)
+        return add_vertices(writer, accessor_description(ComponentType::f32, "VEC2", values.size()), values,
+                            is_new ? AccessorUse::texture_coordinates : AccessorUse::vertices);
+    std::vector<std::array<std::uint16_t, 2>> integers(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (std::size_t c = 0; c < 2; ++c)
+            integers[i][c] = static_cast<std::uint16_t>(std::lround(values[i][c] * unit));
+    Json description = accessor_description(ComponentType::u16, "VEC2", integers.size());
+    description["normalized"] = true;
+    return add_vertices(writer, std::move(description), integers);
 }
 
 /// Writes colours as normalised 16-bit integers, since 8 bits are too few for linear colours; as floats if a
@@ -101,14 +184,35 @@ Index add_displacements(GltfWriter& writer, const std::vector<Vec3f>& values, bo
     return add_vertices(writer, std::move(description), values);
 }
 
-Json write_morph_targets(GltfWriter& writer, const Part& part, const PrimitiveData& data) {
+/// Writes displacements in steps of a grid, as integers if their type has a sign and all are in its range.
+Index add_displacement_steps(GltfWriter& writer, const std::vector<Vec3f>& values, const MeshGrid& grid) {
+    std::vector<std::array<double, 3>> steps;
+    double largest = 0;
+    for (const Vec3f& v : values) {
+        steps.push_back({grid.steps(v[0]), grid.steps(v[1]), grid.steps(v[2])});
+        for (const double step : steps.back()) largest = std::max(largest, std::abs(step));
+    }
+    const bool fits = largest <= 32767 && (!grid.normalized || grid.type == ComponentType::i16);
+    if (fits && largest > 0)
+        return add_bounded_integers<std::int16_t>(writer, steps, grid, ComponentType::i16);
+    std::vector<Vec3f> floats;
+    const double unit = grid.normalized ? grid.spacing : 1;
+    for (const auto& step : steps)
+        floats.push_back({static_cast<float>(step[0] * unit), static_cast<float>(step[1] * unit),
+                          static_cast<float>(step[2] * unit)});
+    return add_displacements(writer, floats, true);
+}
+
+Json write_morph_targets(GltfWriter& writer, const Part& part, const PrimitiveData& data,
+                         const MeshGrid& grid) {
     Json targets = Json::array();
     for (const MorphTarget& target : part.morph_targets) {
         Json json = Json::object();
         const std::vector<Vec3f> positions = target.positions.empty()
                                                  ? std::vector<Vec3f>(data.vertices.size(), Vec3f{})
                                                  : gather(target.positions, data.vertices);
-        json["POSITION"] = add_displacements(writer, positions, true);
+        json["POSITION"] = grid.is_on() ? add_displacement_steps(writer, positions, grid)
+                                        : add_displacements(writer, positions, true);
         if (!target.normals.empty() && !data.normals.empty())
             json["NORMAL"] = add_displacements(writer, gather(target.normals, data.vertices), false);
         targets.push_back(std::move(json));
@@ -156,23 +260,16 @@ Index add_custom(GltfWriter& writer, const CustomAttribute& attribute, const Pri
     return add_vertices(writer, std::move(description), values);
 }
 
-Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData& data) {
+Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData& data, const MeshGrid& grid) {
     const std::size_t count = data.vertices.size();
     // Vertices and triangles that are not those of the source may be changed by compression.
     const bool is_new = part.file_order == FileOrder::for_gpu;
-    const AccessorUse directions = is_new ? AccessorUse::directions : AccessorUse::vertices;
-    const AccessorUse uvs = is_new ? AccessorUse::texture_coordinates : AccessorUse::vertices;
-    Json json = {{"POSITION", add_positions(writer, data.positions)}};
-    if (!data.normals.empty())
-        json["NORMAL"] = add_vertices(writer, accessor_description(ComponentType::f32, "VEC3", count),
-                                      data.normals, directions);
-    if (!data.tangents.empty())
-        json["TANGENT"] = add_vertices(writer, accessor_description(ComponentType::f32, "VEC4", count),
-                                       data.tangents, directions);
+    Json json = {{"POSITION", add_positions(writer, data.positions, grid)}};
+    if (!data.normals.empty()) json["NORMAL"] = add_directions(writer, data.normals, is_new);
+    if (!data.tangents.empty()) json["TANGENT"] = add_directions(writer, data.tangents, is_new);
     for (std::size_t set = 0; set < part.uvs.size(); ++set)
         json["TEXCOORD_" + std::to_string(set)] =
-            add_vertices(writer, accessor_description(ComponentType::f32, "VEC2", count),
-                         gather(part.uvs[set], data.vertices), uvs);
+            add_uvs(writer, gather(part.uvs[set], data.vertices), is_new);
     if (!data.colors.empty()) json["COLOR_0"] = add_colors(writer, data.colors);
     if (!data.joints.empty()) {
         json["JOINTS_0"] = add_joints(writer, data.joints);
@@ -197,26 +294,48 @@ std::vector<std::pair<Index, std::vector<Index>>> faces_by_material(const Part& 
     return groups;
 }
 
+/// Number of triangles that have two different positions which become equal on the grid.
+std::size_t degenerate_on_grid(const PrimitiveData& data, const MeshGrid& grid) {
+    const auto is_rounded_to_zero = [&](Index a, Index b) {
+        const Vec3f &p = data.positions[a], &q = data.positions[b];
+        return p != q && grid.step(p[0], 0) == grid.step(q[0], 0) &&
+               grid.step(p[1], 1) == grid.step(q[1], 1) && grid.step(p[2], 2) == grid.step(q[2], 2);
+    };
+    std::size_t count = 0;
+    for (std::size_t c = 0; c + 2 < data.corners.size(); c += 3) {
+        const Index* t = &data.corners[c];
+        count += is_rounded_to_zero(t[0], t[1]) || is_rounded_to_zero(t[1], t[2]) ||
+                 is_rounded_to_zero(t[2], t[0]);
+    }
+    return count;
+}
+
+void warn_degenerate(GltfWriter& writer, const Part& part, std::size_t faces, const char* why) {
+    if (faces > 0)
+        writer.warnings.push_back("part '" + part.name + "': " + why + "; " + pluralized(faces, "face") +
+                                  " became degenerate");
+}
+
 }  // namespace
 
-void write_part(GltfWriter& writer, const Part& part, Json& primitives) {
+void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json& primitives) {
     std::vector<Index> scratch(part.positions.size(), no_index);
-    std::size_t degenerate_faces = 0;
+    std::size_t degenerate_faces = 0, degenerate_grid_faces = 0;
     for (const auto& [material, faces] : faces_by_material(part)) {
         const PrimitiveData data = gather_primitive(part, faces, writer.origin, scratch);
         degenerate_faces += data.degenerate_faces;
+        if (grid.is_on()) degenerate_grid_faces += degenerate_on_grid(data, grid);
         Json primitive = kept_primitive_members(writer, part, material);
-        primitive["attributes"] = write_attributes(writer, part, data);
+        primitive["attributes"] = write_attributes(writer, part, data, grid);
         primitive["indices"] = add_indices(
             writer, data,
             part.file_order == FileOrder::for_gpu ? AccessorUse::triangles : AccessorUse::indices);
-        if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data);
+        if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data, grid);
         if (material != no_index) primitive["material"] = write_material(writer, material);
         primitives.push_back(std::move(primitive));
     }
-    if (degenerate_faces > 0)
-        writer.warnings.push_back("part '" + part.name + "': glTF stores positions as floats; " +
-                                  pluralized(degenerate_faces, "face") + " became degenerate");
+    warn_degenerate(writer, part, degenerate_faces, "glTF stores positions as floats");
+    warn_degenerate(writer, part, degenerate_grid_faces, "positions are rounded to a grid");
 }
 
 }  // namespace faqem::detail

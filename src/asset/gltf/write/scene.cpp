@@ -46,7 +46,7 @@ void erase_instancing(Json& node) {
 void update_node(GltfWriter& writer, Json& node) {
     const Index source_mesh = index_member(node, "mesh");
     if (source_mesh == no_index || writer.mesh_map[source_mesh] == no_index) erase_instancing(node);
-    remap_instancing(writer, node);
+    if (!any_needs_transform(writer)) remap_instancing(writer, node);
     if (source_mesh == no_index) return;
     const Index mesh = writer.mesh_map[source_mesh];
     if (mesh == no_index) {
@@ -191,7 +191,7 @@ void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes) {
     if (writer.out.contains("nodes"))
         for (Json& node : writer.out["nodes"]) update_node(writer, node);
     add_nodes(writer, new_meshes);
-    if (writer.out.contains("skins"))
+    if (writer.out.contains("skins") && !any_needs_transform(writer))
         for (Json& skin : writer.out["skins"])
             if (skin.contains("inverseBindMatrices"))
                 skin["inverseBindMatrices"] =
@@ -214,10 +214,14 @@ void write_extension_lists(GltfWriter& writer) {
     }
     std::set<std::string> used;
     for_each_extension(writer.out, [&](const std::string& name, const Json&) { used.insert(name); });
-    if (writer.needs_quantization) used.insert("KHR_mesh_quantization");
     Json required = Json::array();
+    const char* quantization_name = "KHR_mesh_quantization";
+    if (writer.needs_quantization) {
+        used.insert(quantization_name);
+        required.push_back(quantization_name);
+    }
     for (const Json& name : source_array(writer, "extensionsRequired"))
-        if (used.count(name.get<std::string>()) != 0) required.push_back(name);
+        if (name != quantization_name && used.count(name.get<std::string>()) != 0) required.push_back(name);
     for (const char* key : {"extensionsUsed", "extensionsRequired"}) writer.out.erase(key);
     if (!used.empty()) writer.out["extensionsUsed"] = Json(used);
     if (!required.empty()) writer.out["extensionsRequired"] = std::move(required);

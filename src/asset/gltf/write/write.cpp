@@ -10,6 +10,7 @@
 #include "asset/gltf/container.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/write/levels.hpp"
+#include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/meshopt_encoder.hpp"
 #include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
@@ -129,7 +130,7 @@ GltfWriter make_writer(const Asset& asset) {
     const SourceDocument& source = asset.source ? *asset.source : none;
     GltfWriter writer{asset, source, start_document(source.document),
                       asset.source ? Vec3{} : local_origin(asset.parts),
-                      GltfBufferBuilder(asset.compression)};
+                      GltfBufferBuilder(asset.compression, {asset.normal_bits, asset.uv_bits})};
     if (asset.compression == Compression::meshopt && !can_encode_meshopt())
         writer.warnings.push_back("faqem was built without meshoptimizer: the geometry was not compressed");
     return writer;
@@ -140,6 +141,7 @@ void write_meshes_and_scene(GltfWriter& writer) {
     std::vector<Index> new_meshes;
     write_meshes(writer, new_meshes);
     write_scene(writer, new_meshes);
+    place_grids(writer);
 }
 
 }  // namespace
@@ -200,6 +202,7 @@ std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs
     new_meshes.resize(new_meshes.size() - other_part_count);
     write_scene(writer, new_meshes);
     attach_levels(writer, leveled, mesh);
+    place_grids(writer);
     write_output(writer, file, overwrite);
     return std::move(writer.warnings);
 }

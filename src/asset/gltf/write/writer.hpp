@@ -11,6 +11,7 @@
 
 #include "asset/gltf/source_document.hpp"
 #include "asset/gltf/write/buffer_builder.hpp"
+#include "asset/gltf/write/mesh_grid.hpp"
 
 namespace faqem::detail {
 
@@ -37,7 +38,8 @@ struct GltfWriter {
     std::vector<Index> source_image_of =
         {};                            ///< per asset image: a source image with equal bytes, or no_index
     std::vector<Index> mesh_map = {};  ///< source mesh to output mesh; no_index if it was left out
-    bool needs_quantization = false;   ///< a copied primitive needs KHR_mesh_quantization
+    std::vector<MeshGrid> grids = {};  ///< by output mesh
+    bool needs_quantization = false;   ///< a primitive needs KHR_mesh_quantization
 };
 
 /// The top-level array `key` of the source document, or null.
@@ -76,7 +78,8 @@ Index write_source_material(GltfWriter& writer, Index material);
 Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material);
 
 /// Appends the primitives of a part: one per material, in the order of first use.
-void write_part(GltfWriter& writer, const Part& part, Json& primitives);
+/// \param grid  of the positions
+void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json& primitives);
 
 /// Writes all meshes and sets GltfWriter::mesh_map.
 /// \param new_meshes  receives the output meshes of parts without a source mesh
@@ -85,7 +88,7 @@ void write_meshes(GltfWriter& writer, std::vector<Index>& new_meshes);
 /// Number of morph targets of an output mesh: the most of its primitives; 0 for no_index.
 Index morph_target_count(const GltfWriter& writer, Index mesh);
 
-/// Writes nodes, skins and animations, and remaps the references of extensions.
+/// Writes nodes, skins and animations, and remaps the references of extensions. place_grids() comes afterwards.
 /// \param new_meshes  output meshes that get new nodes
 void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes);
 

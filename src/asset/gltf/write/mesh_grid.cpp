@@ -1,0 +1,100 @@
+#include "asset/gltf/write/mesh_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faqem::detail {
+namespace {
+
+/// Integers that a position may be stored as.
+struct StepRange {
+    ComponentType type;
+    double low, high;
+    double unit;  // spacing of normalised integers
+};
+
+constexpr std::array<StepRange, 4> step_ranges = {{{ComponentType::i16, -32767, 32767, 1.0 / 32767},
+                                                   {ComponentType::u16, 0, 65535, 1.0 / 65535},
+                                                   {ComponentType::i8, -127, 127, 1.0 / 127},
+                                                   {ComponentType::u8, 0, 255, 1.0 / 255}}};
+
+/// Bounds of all positions in steps.
+struct StepBounds {
+    std::array<double, 3> low, high;
+
+    StepBounds() {
+        low.fill(std::numeric_limits<double>::infinity());
+        high.fill(-std::numeric_limits<double>::infinity());
+    }
+
+    bool is_within(const StepRange& range) const {
+        return std::all_of(low.begin(), low.end(), [&](double x) { return x >= range.low; }) &&
+               std::all_of(high.begin(), high.end(), [&](double x) { return x <= range.high; });
+    }
+
+    double extent() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
+};
+
+StepBounds bounds_in_steps(const std::vector<const Part*>& parts, const Vec3& origin, double spacing) {
+    StepBounds bounds;
+    for (const Part* part : parts) {
+        for (const Triangle& triangle : part->triangles) {
+            for (const Index v : triangle) {
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const auto stored = static_cast<float>(part->positions[v][axis] - origin[axis]);
+                    const double step = std::round(double{stored} / spacing);
+                    bounds.low[axis] = std::min(bounds.low[axis], step);
+                    bounds.high[axis] = std::max(bounds.high[axis], step);
+                }
+            }
+        }
+    }
+    return bounds;
+}
+
+}  // namespace
+
+Vec3 MeshGrid::offset() const {
+    Vec3 result;
+    for (std::size_t axis = 0; axis < 3; ++axis) result[axis] = static_cast<double>(origin[axis]) * spacing;
+    return result;
+}
+
+std::int32_t MeshGrid::step(float position, std::size_t axis) const {
+    return static_cast<std::int32_t>(std::round(double{position} / spacing) -
+                                     static_cast<double>(origin[axis]));
+}
+
+double MeshGrid::steps(float displacement) const { return std::round(double{displacement} / spacing); }
+
+MeshGrid choose_grid(const std::vector<const Part*>& parts, const Vec3& origin, std::string& unfit) {
+    constexpr double max_origin = 0x1p52, max_extent = 65535;
+    MeshGrid grid;
+    const auto has_faces = [](const Part* part) { return !part->triangles.empty(); };
+    const auto first = std::find_if(parts.begin(), parts.end(), has_faces);
+    if (first == parts.end() || !((*first)->position_spacing > 0)) return grid;
+    const double spacing = (*first)->position_spacing;
+    if (std::any_of(parts.begin(), parts.end(),
+                    [&](const Part* part) { return has_faces(part) && part->position_spacing != spacing; })) {
+        unfit = "its parts have different grids";
+        return grid;
+    }
+    const StepBounds bounds = bounds_in_steps(parts, origin, spacing);
+    for (const StepRange& range : step_ranges)
+        if (spacing == range.unit && bounds.is_within(range)) return {spacing, {}, range.type, true};
+    for (const StepRange& range : {step_ranges[0], step_ranges[1]})
+        if (bounds.is_within(range)) return {spacing, {}, range.type, false};
+    if (!(bounds.extent() <= max_extent) || !std::all_of(bounds.low.begin(), bounds.low.end(), [&](double x) {
+            return std::abs(x) <= max_origin;
+        })) {
+        unfit = "it extends over more than 65536 steps of the grid";
+        return grid;
+    }
+    grid = {spacing, {}, ComponentType::u16, false};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        grid.origin[axis] = static_cast<std::int64_t>(bounds.low[axis]);
+    return grid;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,248 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "asset/gltf/accessor.hpp"
+#include "asset/gltf/instancing.hpp"
+#include "asset/gltf/scene.hpp"
+#include "asset/gltf/write/mesh_grid.hpp"
+#include "asset/gltf/write/writer.hpp"
+#include "asset/scene/affine.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using Matrix = std::array<double, 16>;
+
+/// Node members that are moved to another node together with the mesh.
+constexpr std::array<const char*, 3> mesh_members = {"mesh", "skin", "weights"};
+
+/// Node members beside which a node may itself restore the size of its mesh: nothing else depends on its transform.
+constexpr std::array<std::string_view, 8> scalable_members = {"mesh",        "weights",  "name",  "extras",
+                                                              "translation", "rotation", "scale", "matrix"};
+
+Matrix matrix_of(const MeshGrid& grid) {
+    return transform_matrix(grid.offset(), {0, 0, 0, 1}, {grid.spacing, grid.spacing, grid.spacing});
+}
+
+bool is_grid_node(const GltfWriter& writer, const Json& node) {
+    const Index mesh = index_member(node, "mesh");
+    return mesh != no_index && writer.grids[mesh].needs_transform();
+}
+
+/// The beginning of JSON pointers to members of a node.
+std::string pointer_to(Index node) { return "/nodes/" + std::to_string(node) + "/"; }
+
+std::string animated_pointer(const Json& channel) {
+    return string_member(member(member(member(channel, "target"), "extensions"), "KHR_animation_pointer"),
+                         "pointer");
+}
+
+void retarget_weight_channels(Json& document, Index from, Index to) {
+    if (!document.contains("animations")) return;
+    for (Json& animation : document["animations"])
+        for (Json& channel : animation["channels"]) {
+            Json& target = channel["target"];
+            if (index_member(target, "node") == from && string_member(target, "path") == "weights")
+                target["node"] = to;
+            const std::string pointer = animated_pointer(channel), weights = pointer_to(from) + "weights";
+            if (pointer == weights || pointer.compare(0, weights.size() + 1, weights + "/") == 0)
+                target["extensions"]["KHR_animation_pointer"]["pointer"] =
+                    pointer_to(to) + pointer.substr(pointer_to(from).size());
+        }
+}
+
+template <std::size_t N>
+std::array<double, N> numbers(const Json& node, const char* key, std::array<double, N> values) {
+    const Json& array = member(node, key);
+    for (std::size_t i = 0; i < N && i < array.size(); ++i) values[i] = array[i].get<double>();
+    return values;
+}
+
+/// Multiplies the transform of a node by that of a grid.
+void scale_node(Json& node, const MeshGrid& grid) {
+    if (node.contains("matrix")) {
+        node["matrix"] = product(numbers<16>(node, "matrix", identity_transform), matrix_of(grid));
+        return;
+    }
+    auto translation = numbers<3>(node, "translation", {0, 0, 0}),
+         scale = numbers<3>(node, "scale", {1, 1, 1});
+    if (grid.origin != std::array<std::int64_t, 3>{}) {
+        const Matrix m =
+            product(transform_matrix(translation, numbers<4>(node, "rotation", {0, 0, 0, 1}), scale),
+                    matrix_of(grid));
+        node["translation"] = {m[12], m[13], m[14]};
+    }
+    for (double& s : scale) s *= grid.spacing;
+    node["scale"] = scale;
+}
+
+bool may_be_scaled(const GltfWriter& writer, Index index) {
+    const Json& node = writer.out["nodes"][index];
+    for (const auto& [key, value] : node.items())
+        if (std::find(scalable_members.begin(), scalable_members.end(), key) == scalable_members.end())
+            return false;
+    return !is_animated(writer, index);
+}
+
+template <std::size_t N>
+Index add_floats(GltfWriter& writer, const std::vector<std::array<float, N>>& values, const char* type,
+                 AccessorUse use) {
+    Json description = {{"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
+                        {"type", type},
+                        {"count", values.size()}};
+    return writer.binary.add_accessor(
+        std::move(description),
+        {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(values[0])}, use);
+}
+
+/// Copies the instances of a node. Those of a mesh on a grid are scaled, which a transform of the node could not do.
+void write_instances(GltfWriter& writer, Json& node) {
+    Json& attributes = node["extensions"][instancing_name]["attributes"];
+    if (is_grid_node(writer, node)) {
+        const MeshGrid& grid = writer.grids[node["mesh"].get<Index>()];
+        const Vec3 offset = grid.offset();
+        std::vector<Vec3f> translations, scales;
+        for (const Matrix& m : instance_matrices(writer.source, node)) {
+            Vec3f t;
+            for (std::size_t i = 0; i < 3; ++i)
+                t[i] = static_cast<float>(m[i] * offset[0] + m[4 + i] * offset[1] + m[8 + i] * offset[2] +
+                                          m[12 + i]);
+            translations.push_back(t);
+        }
+        const Index scale = index_member(attributes, "SCALE");
+        if (scale != no_index) scales = read_vectors<float, 3>(writer.source, scale);
+        scales.resize(translations.size(), {1, 1, 1});
+        for (Vec3f& s : scales)
+            for (float& x : s) x = static_cast<float>(x * grid.spacing);
+        for (auto& [name, accessor] : attributes.items())
+            if (name != "TRANSLATION" && name != "SCALE")
+                accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
+        attributes["TRANSLATION"] = add_floats(writer, translations, "VEC3", AccessorUse::other);
+        attributes["SCALE"] = add_floats(writer, scales, "VEC3", AccessorUse::other);
+        return;
+    }
+    for (auto& [name, accessor] : attributes.items())
+        accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
+}
+
+/// Writes the inverse bind matrices of a skin, multiplied by the transform of a grid.
+void write_bind_matrices(GltfWriter& writer, Json& skin, const MeshGrid& grid) {
+    const Index accessor = index_member(skin, "inverseBindMatrices");
+    if (accessor != no_index && !grid.needs_transform()) {
+        skin["inverseBindMatrices"] = copy_accessor(writer, accessor, AccessorUse::matrices);
+        return;
+    }
+    if (!grid.needs_transform()) return;
+    std::vector<std::array<float, 16>> matrices(array_size(skin, "joints"));
+    if (accessor != no_index) {
+        const std::vector<std::uint8_t> bytes = dense_bytes(writer.source, accessor);
+        matrices.resize(bytes.size() / sizeof(matrices[0]));
+        if (!matrices.empty())
+            std::memcpy(matrices.data(), bytes.data(), matrices.size() * sizeof(matrices[0]));
+    } else {
+        std::array<float, 16> identity;
+        std::copy(identity_transform.begin(), identity_transform.end(), identity.begin());
+        std::fill(matrices.begin(), matrices.end(), identity);
+    }
+    for (std::array<float, 16>& own : matrices) {
+        Matrix m;
+        std::copy(own.begin(), own.end(), m.begin());
+        const Matrix scaled = product(m, matrix_of(grid));
+        std::transform(scaled.begin(), scaled.end(), own.begin(),
+                       [](double x) { return static_cast<float>(x); });
+    }
+    skin["inverseBindMatrices"] = add_floats(writer, matrices, "MAT4", AccessorUse::matrices);
+}
+
+/// Gives each skin the inverse bind matrices for the grid of its meshes. A skin of meshes with several grids is copied.
+void place_skins(GltfWriter& writer) {
+    if (!writer.out.contains("skins")) return;
+    const std::size_t skins = writer.out["skins"].size();
+    std::vector<std::vector<std::pair<MeshGrid, Index>>> copies(skins);  // by skin: grids, and skins for them
+    const Json originals = writer.out["skins"];
+    for (Json& node : writer.out["nodes"]) {
+        const Index skin = index_member(node, "skin"), mesh = index_member(node, "mesh");
+        if (skin == no_index || mesh == no_index) continue;
+        MeshGrid grid = writer.grids[mesh];
+        if (!grid.needs_transform()) grid = {};
+        auto& own = copies[skin];
+        auto found = std::find_if(own.begin(), own.end(), [&](const auto& copy) {
+            return copy.first.spacing == grid.spacing && copy.first.origin == grid.origin;
+        });
+        if (found == own.end()) {
+            const Index copy = own.empty() ? skin : append(writer, "skins", originals[skin]);
+            own.push_back({grid, copy});
+            found = own.end() - 1;
+        }
+        node["skin"] = found->second;
+    }
+    for (Index skin = 0; skin < skins; ++skin) {
+        if (copies[skin].empty()) write_bind_matrices(writer, writer.out["skins"][skin], {});
+        for (const auto& [grid, copy] : copies[skin])
+            write_bind_matrices(writer, writer.out["skins"][copy], grid);
+    }
+}
+
+}  // namespace
+
+bool is_animated(const GltfWriter& writer, Index node) {
+    for (const Json& animation : member(writer.out, "animations"))
+        for (const Json& channel : member(animation, "channels"))
+            if (index_member(member(channel, "target"), "node") == node ||
+                animated_pointer(channel).compare(0, pointer_to(node).size(), pointer_to(node)) == 0)
+                return true;
+    return false;
+}
+
+Index move_mesh_to_child(GltfWriter& writer, Index node) {
+    Json child = Json::object();
+    Json& parent = writer.out["nodes"][node];
+    if (parent.contains("name")) child["name"] = string_member(parent, "name") + "_mesh";
+    for (const char* key : mesh_members) {
+        if (!parent.contains(key)) continue;
+        child[key] = parent[key];
+        parent.erase(key);
+    }
+    if (member(parent, "extensions").contains(instancing_name)) {
+        child["extensions"][instancing_name] = parent["extensions"][instancing_name];
+        parent["extensions"].erase(instancing_name);
+        if (parent["extensions"].empty()) parent.erase("extensions");
+    }
+    const Index index = append(writer, "nodes", std::move(child));
+    writer.out["nodes"][node]["children"].push_back(index);
+    retarget_weight_channels(writer.out, node, index);
+    return index;
+}
+
+bool any_needs_transform(const GltfWriter& writer) {
+    return std::any_of(writer.grids.begin(), writer.grids.end(),
+                       [](const MeshGrid& grid) { return grid.needs_transform(); });
+}
+
+void place_grids(GltfWriter& writer) {
+    if (!any_needs_transform(writer)) return;
+    const std::size_t nodes = array_size(writer.out, "nodes");
+    for (Index n = 0; n < nodes; ++n) {
+        Json& node = writer.out["nodes"][n];
+        if (member(member(node, "extensions"), instancing_name).contains("attributes")) {
+            write_instances(writer, node);
+            continue;
+        }
+        if (!is_grid_node(writer, node) || node.contains("skin")) continue;
+        const MeshGrid grid = writer.grids[node["mesh"].get<Index>()];
+        const Index scaled = may_be_scaled(writer, n) ? n : move_mesh_to_child(writer, n);
+        scale_node(writer.out["nodes"][scaled], grid);
+    }
+    place_skins(writer);
+}
+
+}  // namespace faqem::detail
