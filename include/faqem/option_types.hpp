@@ -165,14 +165,16 @@ enum class ImageFormat {
     /// the source has WebP images.
     automatic,
     png,
-    jpeg,    ///< with BakeOptions::jpeg_quality
-    source,  ///< JPEG if all images that a channel is baked from are JPEG, else PNG
-    webp,    ///< the smallest WebP within BakeOptions::image_quality, possibly with fewer texels
+    jpeg,         ///< with BakeOptions::jpeg_quality
+    source,       ///< JPEG if all images that a channel is baked from are JPEG, else PNG
+    webp,         ///< the smallest WebP within BakeOptions::image_quality, possibly with fewer texels
+    png_or_jpeg,  ///< as `automatic`, but never WebP
 };
 
 /// Tests whether BakeOptions::image_quality determines the encoding.
 constexpr bool has_image_quality(ImageFormat format) {
-    return format == ImageFormat::automatic || format == ImageFormat::webp;
+    return format == ImageFormat::automatic || format == ImageFormat::webp ||
+           format == ImageFormat::png_or_jpeg;
 }
 
 /// Compression of the geometry in glTF files.

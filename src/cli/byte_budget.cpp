@@ -46,6 +46,8 @@ std::string encoding_name(const BakeOptions& bake) {
             return "format of the source";
         case ImageFormat::webp:
             return "WebP " + quality_name(bake);
+        case ImageFormat::png_or_jpeg:
+            return "PNG or JPEG " + quality_name(bake);
     }
     return {};
 }

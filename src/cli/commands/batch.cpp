@@ -11,6 +11,7 @@
 #include "cli/memory/machine_memory.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/options/bound_options.hpp"
+#include "cli/options/builtin_profiles.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
@@ -116,8 +117,9 @@ CommandInfo batch_command() {
             option.description = "Maximum number of threads per model; 0: all, divided by the jobs (default)";
     }
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
-    add_options(command.options, {allow_larger_option(arguments->allow_larger), profile_option(),
-                                  flag_option("--force", arguments->force, "Overwrite existing files")});
+    add_options(command.options,
+                {allow_larger_option(arguments->allow_larger), profile_option(), builtin_profile_option(),
+                 flag_option("--force", arguments->force, "Overwrite existing files")});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -49,9 +49,9 @@ CommandTree command_tree() {
     tree.options = {
         help_option,
         {{"--version"}, "", "Display program version information and exit", detail::OptionKind::flag}};
-    tree.commands = {simplify_command(),   lod_command(),     truncate_command(), batch_command(),
-                     info_command(),       compare_command(), render_command(),   report_command(),
-                     completion_command(), man_command()};
+    tree.commands = {simplify_command(), lod_command(),        truncate_command(), batch_command(),
+                     info_command(),     compare_command(),    render_command(),   report_command(),
+                     profiles_command(), completion_command(), man_command()};
     complete_options(tree);
     return tree;
 }

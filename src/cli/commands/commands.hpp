@@ -14,6 +14,7 @@ CommandInfo info_command();
 CommandInfo compare_command();
 CommandInfo render_command();
 CommandInfo report_command();
+CommandInfo profiles_command();
 CommandInfo completion_command();
 CommandInfo man_command();
 

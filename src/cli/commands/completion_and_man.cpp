@@ -6,6 +6,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/options/bound_options.hpp"
+#include "cli/options/builtin_profiles.hpp"
 #include "cli/shell/completion.hpp"
 #include "cli/shell/man_page.hpp"
 #include "faqem/version.hpp"
@@ -22,6 +23,21 @@ CommandInfo completion_command() {
             [shell] {
                 const CommandTree tree = command_tree();
                 std::cout << (*shell == "bash" ? bash_completion(tree) : zsh_completion(tree));
+                return exit_ok;
+            }};
+}
+
+CommandInfo profiles_command() {
+    const auto name = std::make_shared<std::string>();
+    OptionInfo shown = positional("NAME", *name, "Print this profile as a file for --config", "web|game");
+    shown.is_required = false;
+    return {"profiles",
+            "Show what the built-in profiles set",
+            {"faqem profiles", "faqem profiles web > web.json"},
+            {shown},
+            {},
+            [name] {
+                std::cout << (name->empty() ? profile_list() : profile_file(builtin_profile(*name)));
                 return exit_ok;
             }};
 }

@@ -15,6 +15,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/no_larger.hpp"
 #include "cli/options/bound_options.hpp"
+#include "cli/options/builtin_profiles.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
@@ -336,7 +337,7 @@ CommandInfo lod_command() {
     add_options(command.options, table_options(detail::in_lod, arguments->options));
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
     add_options(command.options,
-                {allow_larger_option(arguments->allow_larger), profile_option(),
+                {allow_larger_option(arguments->allow_larger), profile_option(), builtin_profile_option(),
                  flag_option("--force", arguments->force, "Overwrite existing files"),
                  flag_option("--quiet", arguments->quiet, "Print no summary and no progress bar")});
     command.run = [arguments] { return run(*arguments); };

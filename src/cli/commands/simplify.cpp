@@ -19,6 +19,7 @@
 #include "cli/memory/memory_estimate.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/options/bound_options.hpp"
+#include "cli/options/builtin_profiles.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
@@ -240,6 +241,7 @@ std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
             text_option("--correspondence", "FILE", a.correspondence,
                         "Write the position of each texel of the new atlas on the original to this file"),
             profile_option(),
+            builtin_profile_option(),
             allow_larger_option(a.allow_larger),
             flag_option("--force", a.force, "Overwrite existing files"),
             flag_option("--quiet", a.quiet, "Print no summary and no progress bar")};

@@ -6,6 +6,7 @@
 
 #include "asset/io/file.hpp"
 #include "cli/json.hpp"
+#include "cli/options/builtin_profiles.hpp"
 #include "cli/protected_files.hpp"
 #include "faqem/detail/base/closest_word.hpp"
 #include "faqem/error.hpp"
@@ -121,30 +122,53 @@ bool reads_profiles(const CommandInfo& command) {
 
 std::string profile_key(const OptionInfo& option) {
     const std::string& name = option.names.back();
-    return name == "--config" || name == "--help" ? "" : name.substr(2);
+    return name == "--config" || name == "--profile" || name == "--help" ? "" : name.substr(2);
 }
+
+namespace {
+
+// Inserts options before `--`, because words after it are not options.
+void insert_options(std::vector<std::string>& words, const std::vector<std::string>& added) {
+    words.insert(std::find(words.begin(), words.end(), "--"), added.begin(), added.end());
+}
+
+void add_profile_file(const CommandTree& tree, const CommandInfo& command, const std::string& file,
+                      std::vector<std::string>& words) {
+    protect_input(file);
+    const Json profile = parse_profile(file);
+    check_version(profile, file);
+    std::vector<std::string> added;
+    for (const auto& [key, value] : profile.items()) {
+        if (key == version_key || key == schema_key) continue;
+        const OptionInfo* option = find_option(command, key);
+        if (!option) throw_unknown_key(tree, command, file, key);
+        const std::vector<std::string> more = to_words(*option, value, file + ": " + key);
+        if (!is_overridden(*option, words)) added.insert(added.end(), more.begin(), more.end());
+    }
+    insert_options(words, added);
+}
+
+void add_builtin_profile(const CommandInfo& command, const BuiltinProfile& profile,
+                         std::vector<std::string>& words) {
+    std::vector<std::string> added;
+    for (const auto& [key, value] : profile.options) {
+        const OptionInfo* option = find_option(command, std::string(key));
+        if (option && !is_overridden(*option, words))
+            added.push_back(option->names.back() + "=" + std::string(value));
+    }
+    insert_options(words, added);
+}
+
+}  // namespace
 
 std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std::string> words) {
     const auto command = std::find_if(tree.commands.begin(), tree.commands.end(), [&](const CommandInfo& c) {
         return !words.empty() && c.name == words[0];
     });
-    if (command == tree.commands.end()) return words;
-    const std::optional<std::string> file = value_of("--config", words);
-    if (!reads_profiles(*command) || !file || file->empty()) return words;
-
-    protect_input(*file);
-    const Json profile = parse_profile(*file);
-    check_version(profile, *file);
-    std::vector<std::string> added;
-    for (const auto& [key, value] : profile.items()) {
-        if (key == version_key || key == schema_key) continue;
-        const OptionInfo* option = find_option(*command, key);
-        if (!option) throw_unknown_key(tree, *command, *file, key);
-        const std::vector<std::string> more = to_words(*option, value, *file + ": " + key);
-        if (!is_overridden(*option, words)) added.insert(added.end(), more.begin(), more.end());
-    }
-    // Inserted before `--`, because words after it are not options.
-    words.insert(std::find(words.begin(), words.end(), "--"), added.begin(), added.end());
+    if (command == tree.commands.end() || !reads_profiles(*command)) return words;
+    const std::optional<std::string> file = value_of("--config", words), name = value_of("--profile", words);
+    if (file && !file->empty()) add_profile_file(tree, *command, *file, words);
+    if (name && !name->empty()) add_builtin_profile(*command, builtin_profile(*name), words);
     return words;
 }
 

@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/command_line.hpp"
+#include "cli/options/builtin_profiles.hpp"
 #include "cli/options/profile_schema.hpp"
+#include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
@@ -122,4 +124,34 @@ TEST_CASE("docs/profile.schema.json is the schema of all options of simplify, lo
     for (const char* other : {"help", "config", "source"}) CHECK(!properties.contains(other));
     write("profile.schema.json", schema);  // to be copied to docs after a change of the options
     CHECK(schema == read(fs::path(source_path) / "docs/profile.schema.json"));
+}
+
+TEST_CASE("the options of a built-in profile come last, and a file before them") {
+    const auto expanded = [](Words words) {
+        const std::size_t given = words.size();
+        const Words all = expand_profile(command_tree(), std::move(words));
+        return Words(all.begin() + static_cast<std::ptrdiff_t>(given), all.end());
+    };
+    const Words web = {"--image-format=webp", "--compress=meshopt", "--quantize=on"};
+    CHECK(expanded({"simplify", "a", "b", "--profile", "web"}) == web);
+    CHECK(expanded({"lod", "a", "b", "--profile=web"}) == web);
+    CHECK(expanded({"batch", "a", "b", "--compress", "none", "--profile", "web"}) ==
+          Words{"--image-format=webp", "--quantize=on"});
+    CHECK(expanded({"simplify", "a", "b", "--profile", "game", "--quantize"}) ==
+          Words{"--image-format=png-or-jpeg", "--compress=none"});
+    CHECK(expanded({"info", "--profile=web"}).empty());
+    CHECK(added(R"({"faqem-profile": 1, "compress": "none", "quantize": true})",
+                {"simplify", "a", "b", "--profile", "web"}) ==
+          Words{"--compress=none", "--quantize", "--image-format=webp"});
+    CHECK_THROWS_AS(expanded({"simplify", "a", "b", "--profile", "print"}), faqem::OptionError);
+}
+
+TEST_CASE("a built-in profile that is printed is a file with the same options") {
+    for (const BuiltinProfile& profile : builtin_profiles()) {
+        const Words from_file = added(profile_file(profile));
+        const Words all =
+            expand_profile(command_tree(), {"simplify", "a", "b", "--profile", std::string(profile.name)});
+        CHECK(Words(all.begin() + 5, all.end()) == from_file);
+        CHECK(profile_list().find(std::string(profile.name) + ": ") != std::string::npos);
+    }
 }

@@ -59,10 +59,11 @@ inline constexpr OptionRow appearance_rows[] = {
          .help = "Angle between normals above which smooth normals split a vertex"}),
     option_row<&Options::bake, &BakeOptions::image_format>(
         {.name = "image-format",
-         .choices = "auto|png|jpeg|source|webp",
-         .help = "Format of baked images: auto (the smallest within --image-quality), png, jpeg or "
-                 "jpeg:QUALITY (1 to 100, default 90), source (that of the images they are baked from), webp "
-                 "(within --image-quality; viewers need EXT_texture_webp)",
+         .choices = "auto|png|jpeg|source|webp|png-or-jpeg",
+         .help =
+             "Format of baked images: auto (the smallest within --image-quality), png, jpeg or "
+             "jpeg:QUALITY (1 to 100, default 90), source (that of the images they are baked from), webp "
+             "(within --image-quality; viewers need EXT_texture_webp), png-or-jpeg (as auto, but never WebP)",
          .suffix_choice = "jpeg",
          .suffix_option = "jpeg-quality",
          .entry_points = in_all}),
@@ -72,9 +73,9 @@ inline constexpr OptionRow appearance_rows[] = {
          .unit = "dB",
          .value_name = "DB",
          .default_text = "40, 38 to 44 if pictures were compared",
-         .help =
-             "Least PSNR of baked colours with --image-format auto or webp; of data 4 dB less, of normals "
-             "up to 4 dB less, where the surface is rough",
+         .help = "Least PSNR of baked colours with --image-format auto, webp or png-or-jpeg; of data 4 dB "
+                 "less, of normals "
+                 "up to 4 dB less, where the surface is rough",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::jpeg_quality>(
         {.name = "jpeg-quality",
