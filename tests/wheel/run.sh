@@ -34,8 +34,12 @@ tag_and_size() {
     tr -s '\n ' ' ' <"$work/shown" | grep -F "$(basename "$1") is consistent with the following platform tag: \"manylinux_2_34_x86_64\""
 }
 
+peers() {
+    in_root "$work/build" "env/bin/pip install -q fast-simplification wheels/*.whl; env/bin/python faqem/tests/wheel/peers.py"
+}
+
 types() {
-    in_root "$work/build" "env/bin/pip install -q mypy wheels/*.whl"
+    in_root "$work/build" "env/bin/pip install -q mypy"
     in_root "$work/build" "mkdir typed; cp faqem/tests/wheel/typed.py typed; cd typed; ../env/bin/mypy --strict typed.py"
 }
 
@@ -85,6 +89,7 @@ step "the wheel, from the sources alone" build
 end
 step "the same bytes from the source distribution" from_source
 step "platform tag and size" tag_and_size
+step "comparison with fast-simplification" peers
 step "types of a program that uses it" types
 step "Debian 12, newest numpy" installed bookworm numpy
 step "Debian 12, numpy 1" installed bookworm "numpy<2"

@@ -17,6 +17,11 @@ level: faqem.Simplified
 for level in faqem.simplify_levels(vertices, triangles, [0.5, 1000, "error:1%"], history=True):
     print(level.error, level.report["faces_out"], level.map([0], [[1, 0, 0]])[1].dtype)
 
+points, faces = faqem.simplify(vertices, triangles, 0.5, agg=3, verbose=True)
+points, faces, collapses = faqem.simplify(vertices, triangles, target_count=1, return_collapses=True)
+points, faces, mapping = faqem.replay_simplification(points=vertices, triangles=triangles, collapses=collapses)
+print(points.dtype, faces.dtype, collapses.kept, mapping.dtype)
+
 model = faqem.load("statue.glb")
 baked = faqem.bake(model, faces=20_000, texture_size=2048, image_format="webp")
 faqem.save(baked, "simplified.glb", overwrite=True)
@@ -24,6 +29,6 @@ faqem.save((out.vertices, out.triangles), "simplified.ply")
 faqem.save_levels([model, *faqem.bake_levels(model, [0.5, 0.1], textures="shared")], "levels.glb")
 print(faqem.History.load("history").truncate(100).vertices.shape, faqem.__version__)
 
-faqem.simplify(vertices, triangles, rato=0.5)  # type: ignore[call-arg]
-faqem.simplify(vertices, triangles, preset="bes")  # type: ignore[arg-type]
+faqem.simplify(vertices, triangles, rato=0.5)  # type: ignore[call-overload]
+faqem.simplify(vertices, triangles, preset="bes")  # type: ignore[call-overload]
 faqem.bake(model, texture_size="large")  # type: ignore[arg-type]

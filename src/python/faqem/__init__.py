@@ -17,11 +17,14 @@ TYPE_CHECKING = False  # type checkers take it for true; the module typing would
 if TYPE_CHECKING:
     from ._levels import History, simplify_levels
     from ._model import Model, Part, bake, bake_levels, bake_truncated, load, save, save_levels
-    from ._simplify import Simplified, simplify
+    from ._call import simplify
+    from ._compatible import Collapses, replay_simplification
+    from ._simplify import Simplified
 
     __version__: str
 
 __all__ = [
+    "Collapses",
     "Error",
     "History",
     "InputError",
@@ -37,6 +40,7 @@ __all__ = [
     "bake_truncated",
     "bake_levels",
     "load",
+    "replay_simplification",
     "save",
     "save_levels",
     "simplify",
@@ -48,7 +52,9 @@ __all__ = [
 _modules = {
     **dict.fromkeys(["History", "simplify_levels"], "_levels"),
     **dict.fromkeys(["Model", "Part", "bake", "bake_levels", "bake_truncated", "load", "save", "save_levels"], "_model"),
-    **dict.fromkeys(["Simplified", "simplify"], "_simplify"),
+    **dict.fromkeys(["Collapses", "replay_simplification"], "_compatible"),
+    "Simplified": "_simplify",
+    "simplify": "_call",
 }
 
 

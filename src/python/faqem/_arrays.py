@@ -73,7 +73,7 @@ def _per_element(values: ArrayLike, count: int, kind: DTypeLike, name: str) -> A
 
 
 class MeshArrays:
-    """A mesh for the C API. `mesh` is valid as long as this object exists.
+    """A mesh for the C API. `mesh` is valid as long as this object exists; `kind` is the type of the positions.
 
     Arrays of the right type are not copied.
     """
@@ -90,6 +90,7 @@ class MeshArrays:
         positions = _positions(vertices)
         corners = _indices(triangles, "triangles")
         corners = _check_shape(corners.reshape(0, 3) if corners.size == 0 else corners, 3, "triangles")
+        self.kind = positions.dtype
         self.mesh = Mesh(vertex_count=len(positions), face_count=len(corners))
         self._arrays: list[Array] = []
         name = "positions" if positions.dtype == numpy.float32 else "double_positions"

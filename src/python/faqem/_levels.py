@@ -71,7 +71,7 @@ def simplify_levels(
     wanted = level_array(levels)
     made = (ctypes.c_void_p * len(levels))()
     chosen.run(lambda: call(library.faqem_simplify_levels, mesh_pointer(arrays), chosen.object, wanted, len(levels), made))
-    return [Simplified(ctypes.c_void_p(one)) for one in made]
+    return [Simplified(ctypes.c_void_p(one), arrays.kind) for one in made]
 
 
 def handle_array(levels: Sequence[Simplified] | Sequence[Model]) -> Any:
@@ -109,10 +109,14 @@ class History:
 
     def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Writes the history in the format of docs/history-format.md. Raises OSError."""
-        size = ctypes.c_size_t()
-        content = ctypes.string_at(library.faqem_history_bytes(self._handle, ctypes.byref(size)), size.value)
         with open(os.fspath(path), "wb" if overwrite else "xb") as file:
-            file.write(content)
+            file.write(self.to_bytes())
+
+    def to_bytes(self) -> bytes:
+        """Returns the content of the file that save() writes."""
+        size = ctypes.c_size_t()
+        content = library.faqem_history_bytes(self._handle, ctypes.byref(size))
+        return ctypes.string_at(content, size.value)
 
     def __len__(self) -> int:
         """Number of levels."""

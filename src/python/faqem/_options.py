@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import difflib
 import operator
+import sys
 import weakref
 from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from typing import Any, TypeVar, Union
 
-from ._library import Progress, call, library
+from ._library import Progress as Callback
+from ._library import call, library
 from .errors import OptionError
 
 Result = TypeVar("Result")
+Progress = Union[Callable[[str, float], object], bool, None]
 
 _phases = ["load", "weld", "simplify", "map", "bake", "save"]
 
@@ -64,10 +67,29 @@ def _text(value: Any) -> str | None:
     return None
 
 
+class _ProgressLine:
+    """A line on standard error with phase and percentage, written over itself."""
+
+    def __init__(self) -> None:
+        self._text = ""
+
+    def __call__(self, phase: str, fraction: float) -> None:
+        text = f"{phase} {fraction:.0%}"
+        if text != self._text:
+            sys.stderr.write("\r" + text.ljust(len(self._text)))
+            sys.stderr.flush()
+            self._text = text
+
+    def end(self) -> None:
+        if self._text:
+            sys.stderr.write("\n")
+            self._text = ""
+
+
 class Options:
     """Options object of the C API. The keywords are option_names(); None leaves an option at its default."""
 
-    def __init__(self, *, progress: Callable[[str, float], object] | None = None, **options: Any) -> None:
+    def __init__(self, *, progress: Progress = None, **options: Any) -> None:
         given = {keyword: value for keyword, value in options.items() if value is not None}
         if "ratio" in given and "faces" in given:
             raise OptionError("ratio and faces: only one of them can be set")
@@ -92,19 +114,22 @@ class Options:
         except OptionError as error:
             raise OptionError(str(error).replace(name, keyword, 1)) from None
 
-    def _set_progress(self, progress: Callable[[str, float], object] | None) -> None:
-        """Sets the callback. Exceptions cannot pass through C: they cancel the run, and run() raises them."""
+    def _set_progress(self, progress: Progress) -> None:
+        """Sets the callback; True: a line on standard error. Exceptions cannot pass through C: they cancel the run, and run() raises them."""
+
+        self._line = _ProgressLine() if progress is True else None
+        show = self._line or (progress if callable(progress) else None)
 
         def called(_user: object, phase: int, fraction: float) -> int:
             try:
-                if progress is not None:
-                    progress(_phases[phase], fraction)
+                if show is not None:
+                    show(_phases[phase], fraction)
             except BaseException as raised:  # includes KeyboardInterrupt
                 self._callback_exception = raised
                 return 1
             return 0
 
-        self._callback = Progress(called)  # keeps the callback alive: C has only a pointer to it
+        self._callback = Callback(called)  # keeps the callback alive: C has only a pointer to it
         library.faqem_options_set_progress(self.object, self._callback, None)
 
     def run(self, work: Callable[[], Result]) -> Result:
@@ -112,6 +137,8 @@ class Options:
         try:
             return work()
         finally:
+            if self._line:
+                self._line.end()
             if self._callback_exception is not None:
                 raised, self._callback_exception = self._callback_exception, None
                 raise raised

@@ -5,20 +5,15 @@ from __future__ import annotations
 import ctypes
 import json
 import weakref
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from ._arrays import MeshArrays, checked_indices, copy_array, mesh_pointer
 from ._library import call, create, library
 from ._options import Options, enum_value
 from .errors import InputError
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack
-
-    from ._types import SimplifyOptions
 
 _mappings = ["projection", "lineage", "closest"]
 
@@ -26,7 +21,7 @@ _mappings = ["projection", "lineage", "closest"]
 class Simplified:
     """A simplified mesh, the origin of its elements, and the report. Owns its arrays."""
 
-    vertices: NDArray[numpy.float64]  #: (v, 3) float64; vertices that were not moved are unchanged bit by bit
+    vertices: NDArray[numpy.floating[Any]]  #: (v, 3) float32 if the input is, else float64; vertices that were not moved are unchanged bit by bit
     triangles: NDArray[numpy.uint32]  #: (f, 3) uint32
     groups: NDArray[numpy.uint32] | None  #: (f,) uint32, or None if the input has no groups
     uvs: NDArray[numpy.float32] | None  #: (f, 3, n) float32, or None if the input has no uvs
@@ -35,14 +30,14 @@ class Simplified:
     report: dict[str, Any]  #: with the keys documented in docs/cli.md
     error: float | None  #: upper bound of the distance of a level from the original; None for other results
 
-    def __init__(self, handle: ctypes.c_void_p) -> None:
+    def __init__(self, handle: ctypes.c_void_p, kind: DTypeLike = numpy.float64) -> None:
         self._handle = handle  # kept for map() and History.of(), which need the history
         weakref.finalize(self, library.faqem_result_destroy, handle)
         v = library.faqem_result_vertex_count(handle)
         f = library.faqem_result_face_count(handle)
         groups = library.faqem_result_face_groups(handle)
         width = library.faqem_result_corner_width(handle)
-        self.vertices = copy_array(library.faqem_result_positions(handle), v, 3)
+        self.vertices = copy_array(library.faqem_result_positions(handle), v, 3).astype(kind, copy=False)
         self.triangles = copy_array(library.faqem_result_triangles(handle), f, 3)
         self.groups = copy_array(groups, f) if groups else None
         self.uvs = copy_array(library.faqem_result_corner_values(handle), f, 3, width) if width else None
@@ -79,29 +74,17 @@ class Simplified:
         return source_faces, source_weights
 
 
-def simplify(
+def simplify_arrays(
     vertices: ArrayLike,
     triangles: ArrayLike,
-    /,
-    *,
     groups: ArrayLike | None = None,
     locks: ArrayLike | None = None,
     weights: ArrayLike | None = None,
     uvs: ArrayLike | None = None,
-    **options: Unpack[SimplifyOptions],
+    **options: Any,
 ) -> Simplified:
-    """Simplifies a triangle soup.
-
-    vertices   (v, 3) positions; float32 and float64 are used without a copy
-    triangles  (f, 3) vertex indices; uint32 and uint16 are used without a copy
-    groups     (f,) integers, for group_boundaries="kept"
-    locks      (v,) booleans: true for vertices that must not move
-    weights    (v,) factors on the costs, in [1e-6, 1e6]
-    uvs        (f, 3, n) attributes of the corners, which are preserved
-    options    ratio, faces, max_error, preset, history, progress and others; see docs/python.md
-
-    Returns a Simplified. Raises OptionError, InputError, MemoryError, and the exceptions of `progress`.
-    """
+    """See simplify()."""
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
     chosen = Options(**options)
-    return Simplified(chosen.run(lambda: create(library.faqem_simplify, mesh_pointer(arrays), chosen.object)))
+    handle = chosen.run(lambda: create(library.faqem_simplify, mesh_pointer(arrays), chosen.object))
+    return Simplified(handle, arrays.kind)

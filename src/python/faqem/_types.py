@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Literal, TypedDict, Union
 
+from numpy.typing import ArrayLike
+
 Length = Union[float, str]  # 0.01 in model units, or "0.1%" of the diagonal
 
 
@@ -26,7 +28,7 @@ class CommonOptions(TypedDict, total=False):
     virtual_edges: float | bool | None
     history: bool | None
     threads: int | None
-    progress: Callable[[str, float], object] | None
+    progress: Callable[[str, float], object] | bool | None
 
 
 class _Target(TypedDict, total=False):
@@ -47,13 +49,29 @@ class CommonBakeOptions(CommonOptions, total=False):
     normal_map: Literal["automatic", "on", "off"] | None
     normals: Literal["transfer", "smooth", "flat", "none"] | None
     crease_angle: float | None
-    image_format: Literal["auto", "png", "jpeg", "source", "webp"] | None
+    image_format: Literal["auto", "png", "jpeg", "source", "webp", "png-or-jpeg", "png_or_jpeg"] | None
     image_quality: float | None
     jpeg_quality: int | None
     untouched: Literal["auto", "kept", "baked"] | None
     mapping: Literal["projection", "lineage", "closest"] | None
     samples: int | None
     compress: Literal["source", "none", "meshopt"] | None
+    quantize: Literal["source", "off", "on"] | None
+    position_bits: int | None
+    normal_bits: int | None
+    uv_bits: int | None
+
+
+class CompatibleOptions(CommonOptions, total=False):
+    """Options of simplify() when it is called like fast_simplification.simplify()."""
+
+    agg: float
+    verbose: bool
+    preserve_border: bool
+    max_seconds: float | None
+    groups: ArrayLike | None
+    locks: ArrayLike | None
+    weights: ArrayLike | None
 
 
 class SimplifyOptions(CommonOptions, _Target, total=False):
