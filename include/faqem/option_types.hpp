@@ -165,9 +165,9 @@ enum class ImageFormat {
     /// the source has WebP images.
     automatic,
     png,
-    jpeg,         ///< with BakeOptions::jpeg_quality
-    source,       ///< JPEG if all images that a channel is baked from are JPEG, else PNG
-    webp,         ///< the smallest WebP within BakeOptions::image_quality, possibly with fewer texels
+    jpeg,    ///< with BakeOptions::jpeg_quality
+    source,  ///< JPEG if all images that a channel is baked from are JPEG, else PNG
+    webp,  ///< as automatic, with WebP for colours and where it is smaller: normals are often smaller as JPEG
     png_or_jpeg,  ///< as `automatic`, but never WebP
 };
 

@@ -14,11 +14,12 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, Cancel
     const Pixels& pixels = pending.pixels;
     const Content content = encoded_content(pending.content);
     if (has_image_quality(bake.image_format)) {
-        const bool is_webp = bake.image_format == ImageFormat::webp;
+        const bool is_webp = bake.image_format == ImageFormat::webp && is_color(pending.content);
         const bool may_be_webp = bake.image_format != ImageFormat::png_or_jpeg;
         const ImageLimits limits{
             least_quality(bake, pending.content, pending.roughness, pending.quality_change),
-            pending.may_shrink, !is_webp, is_webp || (may_be_webp && pending.tries_webp)};
+            pending.may_shrink, !is_webp,
+            bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp)};
         Image smallest =
             encode_smallest(pixels, *pending.known, pending.name, content, limits, check_cancelled);
         const bool was_webp = pending.original && pending.original->mime_type == "image/webp";

@@ -12,8 +12,8 @@ namespace {
 
 using ProfileEntry = std::pair<std::string_view, std::string_view>;
 
-constexpr std::array<ProfileEntry, 3> web_options = {
-    {{"image-format", "webp"}, {"compress", "meshopt"}, {"quantize", "on"}}};
+constexpr std::array<ProfileEntry, 4> web_options = {
+    {{"image-format", "webp"}, {"image-quality", "34"}, {"compress", "meshopt"}, {"quantize", "on"}}};
 
 constexpr std::array<ProfileEntry, 3> game_options = {
     {{"image-format", "png-or-jpeg"}, {"compress", "none"}, {"quantize", "off"}}};

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
+#include "bake/texture/pending_images.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
@@ -35,6 +37,21 @@ Pixels noise(std::uint32_t size) {
         for (std::size_t k = 0; k < 3; ++k) {
             state = state * 1664525u + 1013904223u;
             texel[k] = static_cast<std::uint8_t>(state >> 24);
+        }
+        return texel;
+    });
+}
+
+// The mean of 2 x 2 texels.
+Pixels blurred(const Pixels& pixels) {
+    return paint(pixels.width, pixels.height, [&](std::uint32_t x, std::uint32_t y) {
+        Rgba texel{0, 0, 0, 255};
+        for (std::size_t k = 0; k < 3; ++k) {
+            unsigned sum = 0;
+            for (const std::uint32_t i : {x, (x + 1) % pixels.width})
+                for (const std::uint32_t j : {y, (y + 1) % pixels.height})
+                    sum += pixels.rgba[4 * (std::size_t{j} * pixels.width + i) + k];
+            texel[k] = static_cast<std::uint8_t>(sum / 4);
         }
         return texel;
     });
@@ -209,6 +226,22 @@ TEST_CASE("automatic formats are WebP only if a glTF source has WebP images") {
     CHECK(mime_type() != "image/webp");
     options.bake.image_format = ImageFormat::webp;
     CHECK(mime_type() == "image/webp");
+}
+
+TEST_CASE("with webp, colours are WebP, and normals are not larger than as PNG or JPEG") {
+    for (const Pixels& pixels : {ramp(128), waves(64), noise(64), blurred(noise(64))}) {
+        PendingImage pending{0, pixels, {}, "page"};
+        pending.known = std::make_shared<const std::vector<std::uint8_t>>(all_known(pixels));
+        const auto image = [&](TextureContent content, ImageFormat format) {
+            pending.content = content;
+            std::vector<Image> images(1);
+            encode_pending_images({&pending, 1}, {.image_format = format}, {}, images);
+            return images[0];
+        };
+        CHECK(image(TextureContent::color, ImageFormat::webp).mime_type == "image/webp");
+        CHECK(image(TextureContent::normal, ImageFormat::webp).encoded.size() <=
+              image(TextureContent::normal, ImageFormat::png_or_jpeg).encoded.size());
+    }
 }
 
 TEST_CASE("baked images are chosen by loss unless a format, a density or a correspondence is requested") {

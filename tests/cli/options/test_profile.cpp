@@ -132,17 +132,17 @@ TEST_CASE("the options of a built-in profile come last, and a file before them")
         const Words all = expand_profile(command_tree(), std::move(words));
         return Words(all.begin() + static_cast<std::ptrdiff_t>(given), all.end());
     };
-    const Words web = {"--image-format=webp", "--compress=meshopt", "--quantize=on"};
+    const Words web = {"--image-format=webp", "--image-quality=34", "--compress=meshopt", "--quantize=on"};
     CHECK(expanded({"simplify", "a", "b", "--profile", "web"}) == web);
     CHECK(expanded({"lod", "a", "b", "--profile=web"}) == web);
     CHECK(expanded({"batch", "a", "b", "--compress", "none", "--profile", "web"}) ==
-          Words{"--image-format=webp", "--quantize=on"});
+          Words{"--image-format=webp", "--image-quality=34", "--quantize=on"});
     CHECK(expanded({"simplify", "a", "b", "--profile", "game", "--quantize"}) ==
           Words{"--image-format=png-or-jpeg", "--compress=none"});
     CHECK(expanded({"info", "--profile=web"}).empty());
     CHECK(added(R"({"faqem-profile": 1, "compress": "none", "quantize": true})",
                 {"simplify", "a", "b", "--profile", "web"}) ==
-          Words{"--compress=none", "--quantize", "--image-format=webp"});
+          Words{"--compress=none", "--quantize", "--image-format=webp", "--image-quality=34"});
     CHECK_THROWS_AS(expanded({"simplify", "a", "b", "--profile", "print"}), faqem::OptionError);
 }
 

@@ -60,10 +60,10 @@ inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::bake, &BakeOptions::image_format>(
         {.name = "image-format",
          .choices = "auto|png|jpeg|source|webp|png-or-jpeg",
-         .help =
-             "Format of baked images: auto (the smallest within --image-quality), png, jpeg or "
-             "jpeg:QUALITY (1 to 100, default 90), source (that of the images they are baked from), webp "
-             "(within --image-quality; viewers need EXT_texture_webp), png-or-jpeg (as auto, but never WebP)",
+         .help = "Format of baked images: auto (the smallest within --image-quality), png, jpeg or "
+                 "jpeg:QUALITY (1 to 100, default 90), source (that of the images they are baked from), webp "
+                 "(for colours, and where it is smaller; viewers need EXT_texture_webp), png-or-jpeg (as "
+                 "auto, never WebP)",
          .suffix_choice = "jpeg",
          .suffix_option = "jpeg-quality",
          .entry_points = in_all}),
