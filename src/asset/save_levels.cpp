@@ -97,6 +97,8 @@ std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::p
     detail::LeveledAsset leveled;
     leveled.parts_per_level = parts;
     for (std::size_t p = 0; p < parts; ++p) leveled.coverage.push_back(coverage_of(levels, p));
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        for (const Part& part : levels[0].asset.parts) leveled.sources.push_back(part.source);
     leveled.asset = std::move(levels[0].asset);
     for (std::size_t i = 1; i < levels.size(); ++i) append_level(leveled.asset, std::move(levels[i].asset));
     return format->write_levels(leveled, file, overwrite);

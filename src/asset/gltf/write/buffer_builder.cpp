@@ -75,8 +75,8 @@ Index GltfBufferBuilder::add_accessor(Json description, std::span<const std::uin
     return candidates.back();
 }
 
-Index GltfBufferBuilder::add_view(std::span<const std::uint8_t> bytes) {
-    views_.push_back(bytes);
+Index GltfBufferBuilder::add_view(std::span<const std::uint8_t> bytes, std::uint64_t alignment) {
+    views_.push_back({bytes, alignment});
     return static_cast<Index>(groups_.size() + views_.size() - 1);
 }
 
@@ -109,7 +109,7 @@ void GltfBufferBuilder::append_view(const Group& group, std::vector<std::uint8_t
 std::vector<std::uint8_t> GltfBufferBuilder::finish(Json& document) {
     std::uint64_t total = 0, fallback_size = 0;
     for (const Group& group : groups_) total += group.bytes.size() + 3;
-    for (const auto& view : views_) total += view.size() + 3;
+    for (const SeparateView& view : views_) total += view.bytes.size() + view.alignment - 1;
     std::vector<std::uint8_t> buffer;
     buffer.reserve(total);
     Json views = Json::array();
@@ -117,8 +117,8 @@ std::vector<std::uint8_t> GltfBufferBuilder::finish(Json& document) {
         append_view(group, buffer, fallback_size, views);
         std::vector<std::uint8_t>().swap(group.bytes);
     }
-    for (const auto& bytes : views_) {
-        pad_to_4(buffer);
+    for (const auto& [bytes, alignment] : views_) {
+        buffer.resize((buffer.size() + alignment - 1) / alignment * alignment);
         views.push_back({{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}});
         buffer.insert(buffer.end(), bytes.begin(), bytes.end());
     }

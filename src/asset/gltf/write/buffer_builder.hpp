@@ -57,10 +57,11 @@ public:
     Index add_accessor(Json description, std::span<const std::uint8_t> dense, AccessorUse use);
 
     /// Adds bytes, for example of an image, in a separate view.
-    /// \param bytes  borrowed until finish()
+    /// \param bytes      borrowed until finish()
+    /// \param alignment  of its offset in the buffer, a multiple of 4
     /// \return index of the view
     /// \pre no accessor is added afterwards
-    Index add_view(std::span<const std::uint8_t> bytes);
+    Index add_view(std::span<const std::uint8_t> bytes, std::uint64_t alignment = 4);
 
     /// Writes accessors, bufferViews and buffers[0] (without uri) to the document, and buffers[1], which has no bytes,
     /// if views were compressed.
@@ -83,6 +84,11 @@ private:
     bool is_equal(const StoredAccessor& stored, const Json& description, Index group,
                   std::span<const std::uint8_t> strided) const;
 
+    struct SeparateView {
+        std::span<const std::uint8_t> bytes;
+        std::uint64_t alignment;
+    };
+
     void append_view(const Group& group, std::vector<std::uint8_t>& buffer, std::uint64_t& fallback_size,
                      Json& views) const;
 
@@ -91,7 +97,7 @@ private:
     std::vector<StoredAccessor> stored_;
     std::map<std::size_t, std::vector<Index>> accessors_by_hash_;
     std::vector<Group> groups_;
-    std::vector<std::span<const std::uint8_t>> views_;
+    std::vector<SeparateView> views_;
 };
 
 }  // namespace faqem::detail

@@ -16,6 +16,8 @@ struct LeveledAsset {
     /// The parts of the first level, followed by the parts of the other levels, which have no source.
     Asset asset;
     std::size_t parts_per_level = 0;
+    /// By part of the asset: the source mesh of the same part of the first level.
+    std::vector<Index> sources = {};
     /// Values of MSFT_screencoverage: for each part, one value per level.
     std::vector<std::vector<double>> coverage;
 

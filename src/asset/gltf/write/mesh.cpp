@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
+#include "asset/gltf/write/feature_metadata.hpp"
+#include "asset/gltf/write/index_extensions.hpp"
 #include "asset/gltf/write/writer.hpp"
 
 namespace faqem::detail {
@@ -12,9 +15,7 @@ namespace {
 constexpr std::uint64_t first_triangle_mode = 4;
 constexpr const char* variants_name = "KHR_materials_variants";
 
-/// Extensions of primitives and meshes that describe the source vertices or triangles, which no longer exist.
-constexpr const char* features_name = "EXT_mesh_features";
-
+/// Extensions of primitives and meshes that describe the source vertices or triangles, which may no longer exist.
 constexpr std::array<std::string_view, 6> vertex_extensions = {
     "KHR_draco_mesh_compression", "EXT_mesh_features", "EXT_structural_metadata",
     "CESIUM_primitive_outline",   "EXT_mesh_manifold", "FB_ngon_encoding"};
@@ -37,10 +38,11 @@ void remap_variants(GltfWriter& writer, Json& primitive) {
 std::vector<const Json*> source_primitives(const GltfWriter& writer, const Part& part,
                                            const Material* material) {
     std::vector<const Json*> found;
-    if (part.source >= array_size(writer.source.document, "meshes")) return found;
+    const Index mesh = source_mesh(writer, part);
+    if (mesh >= array_size(writer.source.document, "meshes")) return found;
     const bool any = material && (material->rebaked || material->source == no_index);
     const Index wanted = material ? material->source : no_index;
-    for (const Json& primitive : member(source_array(writer, "meshes")[part.source], "primitives"))
+    for (const Json& primitive : member(source_array(writer, "meshes")[mesh], "primitives"))
         if (is_triangle_primitive(primitive) && (any || index_member(primitive, "material") == wanted))
             found.push_back(&primitive);
     return found;
@@ -148,11 +150,11 @@ MeshGrid grid_of(GltfWriter& writer, const Json& source, const std::vector<const
 /// \return index of the mesh; no_index if it has no primitives, which glTF does not allow
 Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const Part*>& parts) {
     Json mesh = source.is_null() ? Json::object() : source;
-    Json primitives = Json::array();
+    Json primitives = Json::array(), fitting = Json::object();
     std::uint64_t targets = 0;
     const MeshGrid grid = grid_of(writer, source, parts);
     for (const Part* part : parts) {
-        write_part(writer, *part, grid, primitives);
+        write_part(writer, *part, grid, primitives, fitting);
         targets = std::max<std::uint64_t>(targets, part->morph_targets.size());
         if (!part->name.empty()) mesh["name"] = part->name;
     }
@@ -169,7 +171,9 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
     update_morph_targets(mesh, targets);
     if (mesh.contains("extensions")) {
         for (const std::string_view extension : vertex_extensions)
-            if (mesh["extensions"].erase(std::string(extension)) != 0)
+            if (fitting.contains(extension) && primitives.size() == 1)
+                mesh["extensions"][std::string(extension)] = fitting[std::string(extension)];
+            else if (mesh["extensions"].erase(std::string(extension)) != 0)
                 warn_mesh(writer, name,
                           std::string(extension) + " does not fit the new triangles and was left out");
         if (mesh["extensions"].empty()) mesh.erase("extensions");
@@ -179,31 +183,47 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
     return append(writer, "meshes", std::move(mesh));
 }
 
-/// Keeps the feature ids of EXT_mesh_features that are vertex attributes of the part. Those in textures, and the
-/// numbers of vertices, are left out with a warning.
-/// \return whether any are left
-bool keep_feature_ids(GltfWriter& writer, const Part& part, Json& extensions) {
-    if (!member(member(extensions, features_name), "featureIds").is_array()) return false;
-    Json kept = Json::array();
-    const Json& all = extensions[features_name]["featureIds"];
-    for (const Json& ids : all) {
-        const bool is_kept =
-            std::any_of(part.custom_attributes.begin(), part.custom_attributes.end(), [&](const auto& own) {
-                return member(ids, "attribute").is_number_unsigned() &&
-                       own.name == "_FEATURE_ID_" + std::to_string(ids["attribute"].get<std::uint64_t>());
-            });
-        if (is_kept) kept.push_back(ids);
-    }
-    if (kept.empty()) return false;
-    if (kept.size() < all.size())
-        warn_mesh(writer, part.name, "feature ids that are not in vertex attributes were left out");
-    extensions[features_name]["featureIds"] = std::move(kept);
-    return true;
+/// Names of the extensions that describe vertices or triangles and fit the output primitive. Their references are
+/// remapped.
+/// \param from  the corresponding primitives of the source
+std::vector<std::string> fitting_extensions(GltfWriter& writer, const Part& part,
+                                            const std::vector<const Json*>& from, const PrimitiveData& data,
+                                            Json& extensions) {
+    const bool has_any = std::any_of(vertex_extensions.begin(), vertex_extensions.end(),
+                                     [&](std::string_view name) { return extensions.contains(name); });
+    if (!has_any) return {};
+    std::optional<VertexNumbers> vertices;
+    if (from.size() == 1 && part.file_order == FileOrder::given)
+        vertices = unchanged_vertices(writer, *from.front(), data);
+    std::vector<std::string> fitting;
+    if (vertices) fitting = remap_index_extensions(writer, *vertices, extensions);
+    if (keep_feature_ids(writer, part, vertices, extensions)) fitting.emplace_back(features_name);
+    if (fits_metadata(writer, part, extensions)) fitting.emplace_back(metadata_name);
+    return fitting;
 }
 
 }  // namespace
 
-Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material_index) {
+Index source_mesh(const GltfWriter& writer, const Part& part) {
+    const auto index = static_cast<std::size_t>(&part - writer.asset.parts.data());
+    return index < writer.sources.size() ? writer.sources[index] : part.source;
+}
+
+void keep_manifold(GltfWriter& writer, const Part& part, const PrimitiveData& data, const Json& primitive,
+                   Json& extensions) {
+    const Index mesh = source_mesh(writer, part);
+    if (mesh >= source_array(writer, "meshes").size() || part.file_order != FileOrder::given) return;
+    const Json& source = source_array(writer, "meshes")[mesh];
+    if (!member(source, "extensions").contains(manifold_name) || array_size(source, "primitives") != 1)
+        return;
+    const auto vertices = unchanged_vertices(writer, source["primitives"][0], data);
+    Json manifold = source["extensions"][manifold_name];
+    if (vertices && remap_manifold(writer, *vertices, data.corners.size(), primitive, manifold))
+        extensions[manifold_name] = std::move(manifold);
+}
+
+Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material_index,
+                            const PrimitiveData& data) {
     const Material* material = material_index == no_index ? nullptr : &writer.asset.materials[material_index];
     const std::vector<const Json*> from = source_primitives(writer, part, material);
     Json kept = Json::object();
@@ -221,16 +241,18 @@ Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material
         warn_mesh(writer, part.name, "extensions of primitives that were joined differ and were left out");
         return kept;
     }
-    const bool has_features = keep_feature_ids(writer, part, extensions);
+    const std::vector<std::string> fitting = fitting_extensions(writer, part, from, data, extensions);
+    const auto fits = [&](const auto& name) {
+        return std::find(fitting.begin(), fitting.end(), name) != fitting.end();
+    };
     for (const std::string_view name : vertex_extensions)
-        if (!(has_features && name == features_name) && extensions.erase(std::string(name)) != 0 &&
-            name != "KHR_draco_mesh_compression")
+        if (!fits(name) && extensions.erase(std::string(name)) != 0 && name != "KHR_draco_mesh_compression")
             warn_mesh(writer, part.name,
                       std::string(name) + " does not fit the new vertices and triangles and was left out");
     // What an unknown extension says may not hold for other triangles.
     if (part.file_order == FileOrder::for_gpu) {
         for (auto extension = extensions.begin(); extension != extensions.end();) {
-            if (extension.key() == variants_name || extension.key() == features_name) {
+            if (extension.key() == variants_name || fits(extension.key())) {
                 ++extension;
                 continue;
             }

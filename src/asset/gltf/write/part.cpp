@@ -318,20 +318,22 @@ void warn_degenerate(GltfWriter& writer, const Part& part, std::size_t faces, co
 
 }  // namespace
 
-void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json& primitives) {
+void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json& primitives,
+                Json& mesh_extensions) {
     std::vector<Index> scratch(part.positions.size(), no_index);
     std::size_t degenerate_faces = 0, degenerate_grid_faces = 0;
     for (const auto& [material, faces] : faces_by_material(part)) {
         const PrimitiveData data = gather_primitive(part, faces, writer.origin, scratch);
         degenerate_faces += data.degenerate_faces;
         if (grid.is_on()) degenerate_grid_faces += degenerate_on_grid(data, grid);
-        Json primitive = kept_primitive_members(writer, part, material);
+        Json primitive = kept_primitive_members(writer, part, material, data);
         primitive["attributes"] = write_attributes(writer, part, data, grid);
         primitive["indices"] = add_indices(
             writer, data,
             part.file_order == FileOrder::for_gpu ? AccessorUse::triangles : AccessorUse::indices);
         if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data, grid);
         if (material != no_index) primitive["material"] = write_material(writer, material);
+        keep_manifold(writer, part, data, primitive, mesh_extensions);
         primitives.push_back(std::move(primitive));
     }
     warn_degenerate(writer, part, degenerate_faces, "glTF stores positions as floats");

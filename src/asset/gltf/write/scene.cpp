@@ -8,15 +8,18 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/instancing.hpp"
+#include "asset/gltf/write/feature_metadata.hpp"
+#include "asset/gltf/write/index_extensions.hpp"
 #include "asset/gltf/write/writer.hpp"
 
 namespace faqem::detail {
 namespace {
 
 /// Extensions whose references are remapped, or that have no references.
-constexpr std::array<std::string_view, 8> remapped_extensions = {
+constexpr std::array<std::string_view, 11> remapped_extensions = {
     instancing_name, "EXT_lights_image_based", "EXT_texture_webp", "EXT_lights_ies", "MSFT_texture_dds",
-    "MSFT_lod",      "EXT_mesh_manifold",      "EXT_mesh_features"};
+    "MSFT_lod",      "EXT_instance_features",  features_name,      metadata_name,    manifold_name,
+    outline_name};
 
 bool is_skinned(const GltfWriter& writer, Index mesh) {
     for (const Json& primitive : member(writer.out, "meshes")[mesh]["primitives"])

@@ -9,6 +9,7 @@
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/container.hpp"
 #include "asset/gltf/gltf.hpp"
+#include "asset/gltf/write/feature_metadata.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/meshopt_encoder.hpp"
@@ -142,6 +143,7 @@ void write_meshes_and_scene(GltfWriter& writer) {
     write_meshes(writer, new_meshes);
     write_scene(writer, new_meshes);
     place_grids(writer);
+    remap_structural_metadata(writer);
 }
 
 }  // namespace
@@ -190,6 +192,7 @@ std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs
                                            Overwrite overwrite) {
     const Asset& asset = leveled.asset;
     GltfWriter writer = make_writer(asset);
+    writer.sources = leveled.sources;
     find_source_images(writer);
     std::vector<Index> new_meshes, mesh;
     write_meshes(writer, new_meshes);
@@ -203,6 +206,7 @@ std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs
     write_scene(writer, new_meshes);
     attach_levels(writer, leveled, mesh);
     place_grids(writer);
+    remap_structural_metadata(writer);
     write_output(writer, file, overwrite);
     return std::move(writer.warnings);
 }

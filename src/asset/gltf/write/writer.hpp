@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "asset/gltf/source_document.hpp"
 #include "asset/gltf/write/buffer_builder.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
+#include "asset/gltf/write/primitive_data.hpp"
 
 namespace faqem::detail {
 
@@ -40,6 +42,8 @@ struct GltfWriter {
     std::vector<Index> mesh_map = {};  ///< source mesh to output mesh; no_index if it was left out
     std::vector<MeshGrid> grids = {};  ///< by output mesh
     bool needs_quantization = false;   ///< a primitive needs KHR_mesh_quantization
+    /// By part: the source mesh whose primitives give extras and extensions; empty: Part::source.
+    std::span<const Index> sources = {};
 };
 
 /// The top-level array `key` of the source document, or null.
@@ -75,11 +79,22 @@ Index write_source_material(GltfWriter& writer, Index material);
 /// The members that the output primitive of a part with the given asset material keeps from the source:
 /// extras and extensions of the corresponding triangle primitives, if these agree. Extensions that do not fit
 /// the new vertices or textures are left out with a warning.
-Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material);
+/// \param data  vertices and corners of the output primitive
+Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material, const PrimitiveData& data);
+
+/// The source mesh whose primitives give extras and extensions to those of a part of the asset; no_index: none.
+Index source_mesh(const GltfWriter& writer, const Part& part);
+
+/// Adds EXT_mesh_manifold to the extensions of a mesh if the source mesh has one primitive and its vertices and triangles
+/// are those of the output primitive.
+void keep_manifold(GltfWriter& writer, const Part& part, const PrimitiveData& data, const Json& primitive,
+                   Json& extensions);
 
 /// Appends the primitives of a part: one per material, in the order of first use.
-/// \param grid  of the positions
-void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json& primitives);
+/// \param grid             of the positions
+/// \param mesh_extensions  receives extensions of the mesh that fit it if the primitive is the only one
+void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json& primitives,
+                Json& mesh_extensions);
 
 /// Writes all meshes and sets GltfWriter::mesh_map.
 /// \param new_meshes  receives the output meshes of parts without a source mesh

@@ -1,0 +1,139 @@
+#include <algorithm>
+
+#include "asset/gltf/accessor.hpp"
+#include "support/catch.hpp"
+#include "support/gltf_builder.hpp"
+
+using namespace faqem;
+using namespace faqem::testing;
+
+namespace {
+
+// The square of two triangles after a vertex that no triangle uses, so that its vertices get other numbers.
+GltfBuilder numbered_square() {
+    GltfBuilder builder;
+    std::vector<Vec3f> positions = {{9, 9, 9}};
+    positions.insert(positions.end(), square.begin(), square.end());
+    std::vector<std::uint16_t> corners = square_corners;
+    for (std::uint16_t& corner : corners) ++corner;
+    const auto vertices = builder.accessor(positions, f32, "VEC3");
+    const auto indices = builder.accessor(corners, u16, "SCALAR");
+    builder.mesh({{"attributes", {{"POSITION", vertices}}}, {"indices", indices}});
+    return builder;
+}
+
+Json& primitive_of(GltfBuilder& builder) { return builder.json["meshes"][0]["primitives"][0]; }
+
+// The numbers in an accessor of a GLB file.
+std::vector<Index> numbers(const std::string& glb, const Json& accessor) {
+    const Asset asset = load_glb(glb);
+    return detail::read_indices(*asset.source, accessor.get<Index>());
+}
+
+struct Written {
+    std::string glb;
+    Json json;
+    std::vector<std::string> warnings;
+
+    bool warns(const std::string& text) const {
+        return std::any_of(warnings.begin(), warnings.end(),
+                           [&](const std::string& w) { return w.find(text) != std::string::npos; });
+    }
+};
+
+Written write(const Asset& asset) {
+    const TemporaryFolder folder;
+    Written written;
+    written.warnings = save(asset, folder / "out.glb");
+    written.glb = get(folder / "out.glb");
+    written.json = json_of(written.glb);
+    return written;
+}
+
+GltfBuilder outlined_square() {
+    GltfBuilder builder = numbered_square();
+    const auto outline = builder.accessor(std::vector<std::uint8_t>{1, 2, 2, 4}, u8, "SCALAR");
+    primitive_of(builder)["extensions"] = {{"CESIUM_primitive_outline", {{"indices", outline}}},
+                                           {"FB_ngon_encoding", Json::object()}};
+    return builder;
+}
+
+// A square whose triangles share no vertices, and the manifold that joins them.
+GltfBuilder manifold_square() {
+    GltfBuilder builder;
+    const std::vector<Vec3f> positions = {square[0], square[1], square[2], square[2], square[1], square[3]};
+    const auto vertices = builder.accessor(positions, f32, "VEC3");
+    builder.mesh({{"attributes", {{"POSITION", vertices}}}});
+    const auto joined = builder.accessor(std::vector<std::uint16_t>{0, 1, 2, 2, 1, 5}, u16, "SCALAR");
+    const auto moved = builder.accessor(std::vector<std::uint16_t>{3, 4}, u16, "SCALAR");
+    const auto values = builder.accessor(std::vector<std::uint16_t>{2, 1}, u16, "SCALAR");
+    builder.json["meshes"][0]["extensions"]["EXT_mesh_manifold"] = {
+        {"manifoldPrimitive", {{"indices", joined}, {"attributes", {{"POSITION", vertices}}}}},
+        {"mergeIndices", moved},
+        {"mergeValues", values}};
+    return builder;
+}
+
+}  // namespace
+
+TEST_CASE("the outline of unchanged triangles gets the new numbers of the vertices") {
+    const Written written = write(load_glb(outlined_square()));
+    const Json& extensions = written.json["meshes"][0]["primitives"][0]["extensions"];
+    CHECK(numbers(written.glb, extensions["CESIUM_primitive_outline"]["indices"]) ==
+          std::vector<Index>{0, 1, 1, 3});
+    CHECK(extensions.contains("FB_ngon_encoding"));
+    CHECK(written.json["extensionsUsed"] == Json({"CESIUM_primitive_outline", "FB_ngon_encoding"}));
+    CHECK(written.warnings.empty());
+}
+
+TEST_CASE("the outline of other triangles is left out with a warning") {
+    Asset asset = load_glb(outlined_square());
+    SECTION("in another order") { std::swap(asset.parts[0].triangles[0], asset.parts[0].triangles[1]); }
+    SECTION("fewer") {
+        asset.parts[0].triangles.pop_back();
+        asset.parts[0].face_material.pop_back();
+    }
+    SECTION("moved") { asset.parts[0].positions[4][2] = 1; }
+    SECTION("in the order of a simplified mesh") { asset.parts[0].file_order = FileOrder::for_gpu; }
+    const Written written = write(asset);
+    CHECK_FALSE(written.json["meshes"][0]["primitives"][0].contains("extensions"));
+    CHECK_FALSE(written.json.contains("extensionsUsed"));
+    CHECK(written.warns("CESIUM_primitive_outline does not fit"));
+    CHECK(written.warns("FB_ngon_encoding does not fit"));
+}
+
+TEST_CASE("an outline with a vertex that no triangle uses is left out") {
+    GltfBuilder builder = outlined_square();
+    builder.bin[builder.bin.size() - 1] = 0;
+    const Written written = write(load_glb(builder));
+    CHECK(written.warns("CESIUM_primitive_outline does not fit"));
+    CHECK(written.json["extensionsUsed"] == Json({"FB_ngon_encoding"}));
+}
+
+TEST_CASE("the manifold of an unchanged mesh is kept, with the accessors of the output") {
+    const Written written = write(load_glb(manifold_square()));
+    CHECK(written.warnings.empty());
+    const Json& mesh = written.json["meshes"][0];
+    const Json& manifold = mesh["extensions"]["EXT_mesh_manifold"];
+    CHECK(manifold["manifoldPrimitive"]["attributes"] == mesh["primitives"][0]["attributes"]);
+    CHECK(numbers(written.glb, manifold["manifoldPrimitive"]["indices"]) ==
+          std::vector<Index>{0, 1, 2, 2, 1, 5});
+    CHECK(numbers(written.glb, manifold["mergeIndices"]) == std::vector<Index>{3, 4});
+    CHECK(numbers(written.glb, manifold["mergeValues"]) == std::vector<Index>{2, 1});
+}
+
+TEST_CASE("a manifold that does not fit is left out with a warning") {
+    GltfBuilder builder = manifold_square();
+    Json& manifold = builder.json["meshes"][0]["extensions"]["EXT_mesh_manifold"];
+    SECTION("an accessor does not exist") { manifold["mergeValues"] = 99; }
+    SECTION("an accessor has no integers") { manifold["mergeIndices"] = 0; }
+    SECTION("lists of different sizes") {
+        manifold["mergeValues"] = manifold["manifoldPrimitive"]["indices"];
+    }
+    SECTION("an attribute that the mesh does not have") {
+        manifold["manifoldPrimitive"]["attributes"]["NORMAL"] = 0;
+    }
+    const Written written = write(load_glb(builder));
+    CHECK_FALSE(written.json["meshes"][0].contains("extensions"));
+    CHECK(written.warns("EXT_mesh_manifold does not fit"));
+}
