@@ -1,12 +1,17 @@
 #include "cli/report/model_comparison.hpp"
 
+#include <utility>
+
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/rounding_weld.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
 
 FlattenedModel load_flattened(const std::string& file) {
     FlattenedModel model{file, load(file), {}};
+    for (std::string& warning : detail::weld_rounded_positions(model.asset))
+        model.asset.warnings.push_back(std::move(warning));
     model.flat = detail::flatten(model.asset);
     if (!(info(model.view()).area > 0)) throw InputError(file, "", "has no face with non-zero area");
     return model;

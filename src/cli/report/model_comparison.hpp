@@ -21,7 +21,8 @@ struct FlattenedModel {
     MeshView view() const { return {flat.positions, flat.triangles}; }
 };
 
-/// Loads and flattens a model.
+/// Loads a model, welds positions that differ by rounding as in simplify and info, and flattens it. Asset::warnings lists
+/// what was welded.
 /// \throws ReadError         the file cannot be read
 /// \throws InputError        the file is damaged, or no face has a non-zero area
 /// \throws UnsupportedError  the format or a feature of the file is not supported

@@ -54,7 +54,8 @@ std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
         row("Bytes", a.bytes, b.bytes)};
     rows.back()[1] = size_text(a.bytes);
     rows.back()[2] = size_text(b.bytes);
-    return html_table("Counts, after welding equal positions", {"", name_of(a), name_of(b), "ratio"}, rows);
+    return html_table("Counts, after welding positions that are equal or differ by rounding",
+                      {"", name_of(a), name_of(b), "ratio"}, rows);
 }
 
 std::string distances_table(const ReportPage& page) {

@@ -1,5 +1,6 @@
 #include "cli/report/report_page.hpp"
 
+#include <cmath>
 #include <string_view>
 
 #include "asset/gltf/gltf.hpp"
@@ -109,4 +110,33 @@ TEST_CASE("heat_color increases in luminance and clamps its argument") {
     CHECK(heat_color(2) == heat_color(1));
     CHECK(heat_color(-1) == heat_color(0));
     CHECK(heat_color(std::nan("")) == heat_color(0));
+}
+
+TEST_CASE("a report and a comparison weld corners that differ by rounding, and a note counts them") {
+    const Folder folder;
+    save_two(folder);
+    faqem::Asset torn = faqem::load(folder / "a.glb");
+    faqem::Part& part = torn.parts[0];
+    faqem::Part soup;
+    for (faqem::Triangle& t : part.triangles) {
+        for (faqem::Index& v : t) {
+            faqem::Vec3 p = part.positions[v];
+            // Corners of every second face are one unit in the last place away.
+            if (soup.triangles.size() % 2 == 1) p[0] = std::nextafter(static_cast<float>(p[0]), 9.0f);
+            soup.positions.push_back(p);
+            v = static_cast<faqem::Index>(soup.positions.size() - 1);
+        }
+        soup.triangles.push_back(t);
+        soup.face_material.push_back(faqem::no_index);
+    }
+    part = soup;
+    torn.source.reset();
+    faqem::save(torn, folder / "torn.glb");
+    const Outcome outcome = run(folder, std::string("report torn.glb a.glb -o page.html") + small);
+    REQUIRE(outcome.code == 0);
+    const std::string page = read(folder / "page.html");
+    CHECK(has(page, "<th scope=\"row\">Components</th><td>1</td><td>1</td>"));
+    CHECK(has(page, "<th scope=\"row\">Vertices</th><td>81</td><td>81</td>"));
+    CHECK(has(page, "torn.glb: part 0"));
+    CHECK(has(page, "by rounding welded"));
 }
