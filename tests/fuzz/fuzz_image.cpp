@@ -10,6 +10,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Image image;
     image.name = "a";
     image.encoded.assign(data, data + size);
+    // Models name TGA images by their extension, since these have no signature.
+    Image by_name = image;
+    by_name.mime_type = "image/x-tga";
+    detail::declared_size(by_name);
     const auto declared = detail::declared_size(image);
     if ((declared && declared->pixels() > 1 << 20) || detail::needs_plugin(image)) return 0;
     const auto pixels = fuzz::refusable("image 'a'", [&] { return decode(image); });

@@ -88,6 +88,45 @@ testing::GltfBuilder rich_gltf() {
     return b;
 }
 
+/// A mesh that a joint with an inverse bind matrix and default morph weights pose.
+testing::GltfBuilder posed_gltf() {
+    testing::GltfBuilder b = rich_gltf();
+    const std::vector<float> matrix = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -2, 0, 1, 0, 0, 1};
+    b.json["skins"][0]["inverseBindMatrices"] = b.add(
+        "accessors",
+        {{"bufferView", b.view(matrix)}, {"componentType", testing::f32}, {"type", "MAT4"}, {"count", 1}});
+    b.json["meshes"][0]["weights"] = {0.5};
+    b.json["nodes"][0]["weights"] = {1e9};
+    return b;
+}
+
+/// Extensions that refer to vertices, triangles, textures and buffer views.
+testing::GltfBuilder numbered_gltf() {
+    testing::GltfBuilder b = testing::square_gltf();
+    testing::Json& mesh = b.json["meshes"][0];
+    testing::Json& primitive = mesh["primitives"][0];
+    primitive["attributes"]["_FEATURE_ID_0"] =
+        b.accessor(std::vector<float>{0, 1, 1, 0}, testing::f32, "SCALAR");
+    const auto outline = b.accessor(std::vector<std::uint16_t>{0, 1}, testing::u16, "SCALAR");
+    testing::Json manifold = {{"indices", 1}, {"attributes", {{"POSITION", 0}}}};
+    mesh["extensions"]["EXT_mesh_manifold"] = {
+        {"manifoldPrimitive", manifold}, {"mergeIndices", outline}, {"mergeValues", outline}};
+    testing::Json ids = {{{"featureCount", 2}, {"attribute", 0}, {"propertyTable", 0}},
+                         {{"featureCount", 4}}};
+    primitive["extensions"] = {{"CESIUM_primitive_outline", {{"indices", outline}}},
+                               {"FB_ngon_encoding", testing::Json::object()},
+                               {"EXT_mesh_features", {{"featureIds", ids}}},
+                               {"EXT_structural_metadata", {{"propertyAttributes", {0}}}}};
+    const auto values = b.view(std::vector<float>{1, 2});
+    testing::Json table = {{"count", 2},
+                           {"properties", {{"a", {{"values", values}, {"stringOffsets", values}}}}}};
+    testing::Json attributes = {{"properties", {{"a", {{"attribute", "_FEATURE_ID_0"}}}}}};
+    b.json["extensions"]["EXT_structural_metadata"] = {
+        {"propertyTables", testing::Json::array({table})},
+        {"propertyAttributes", testing::Json::array({attributes})}};
+    return b;
+}
+
 void gltf_seeds() {
     const auto write = [](const std::string& name, const testing::GltfBuilder& b) {
         put("glb", name + ".glb", b.glb());
@@ -96,6 +135,8 @@ void gltf_seeds() {
     };
     write("square", testing::square_gltf());
     write("rich", rich_gltf());
+    write("posed", posed_gltf());
+    write("numbered", numbered_gltf());
     testing::GltfBuilder strip = testing::square_gltf();
     strip.json["meshes"][0]["primitives"][0]["mode"] = 5;
     strip.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 6}});
@@ -137,6 +178,13 @@ void text_seeds() {
         "b.png\n"
         "map_d a b.png\nmap_Ke e.png\nnorm n.png\nbump -bm 1 b.png\nnewmtl b\nKa 0 0 0\nillum 2\nKd spectral "
         "x\n");
+    put("mtl", "names",
+        "newmtl \"a b\"\nMAP_KD \"C:\\job\\Wood b.PNG\" -s 2 2\nmap_d /x/../../a.png\nmap_Bump -imfchan m "
+        "-bm 2 "
+        "a.tga\nmap_Pr a.bmp -o 1\nmap_Pm \"a.gif\nmap_Ka 'b.tif'\nnewmtl a b\nTr 1\nd 0\n");
+    put("obj", "objects",
+        "mtllib \"my lib.mtl\" C:\\a.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 1 0\ng x y\nusemtl m n\nf 1 2 3\no b\n"
+        "v 0 1 0\nusemtl \"q\"\nf 1 3 4\no a\nf 3 2 1\n");
     put("obj", "all",
         "\xEF\xBB\xBFmtllib a.mtl\r\no a\nv 0 0 0 1 0 0\nv 1e0 -0 +0\rv 1 1 \\\n 0\nv 0 nan 0\nvt 0 .5\nvn 0 "
         "0 1\n"
@@ -165,6 +213,25 @@ void text_seeds() {
         "property list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty int texnumber\n"
         "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
         "0 0 0 0 0 255\n1 0 0 1 1 1\n1 1 0 1 1 1\n3 0 1 2 6 0 0 1 0 1 1 0 1 2 3\n");
+    put("ply", "two-textures",
+        "ply\nformat ascii 1.0\ncomment TextureFile a.png\ncomment TextureFile \"b c.jpg\"\nelement vertex "
+        "4\n"
+        "property float x\nproperty float y\nproperty float z\nproperty float s\nproperty float t\n"
+        "element face 2\nproperty list uchar int vertex_indices\nproperty int texnumber\n"
+        "property list uchar float texcoord\nend_header\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n"
+        "3 0 1 2 1 6 0 0 1 0 1 1\n4 0 1 2 3 -1 0\n");
+    std::string facets(80, ' ');
+    facets.replace(0, 10, "COLOR=\x10\x20\x30\xFF");
+    facets += std::string("\2\0\0\0", 4);
+    for (const std::string& bits : {std::string("\x1F\x80", 2), std::string("\xE0\3", 2)})
+        facets += std::string("\0\0\0\0\0\0\0\0\0\0\x80\x3F\0\0\0\0\0\0\0\0\0\0\0\0", 24) +
+                  std::string("\0\0\x80\x3F\0\0\0\0\0\0\0\0\0\0\x80\x3F\0\0\x80\x3F\0\0\0\0", 24) + bits;
+    put("stl", "magics", facets);
+    put("stl", "viscam", std::string(80, '\0') + facets.substr(80) + "rest");
+    put("stl", "solids",
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\n"
+        "endfacet\nendsolid\nsolid b c\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 1 0\n"
+        "vertex 0 1 0\nendloop\nendfacet\nendsolid\nrest\n");
     put("stl", "ascii",
         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\n"
         "endfacet\nendsolid a\n");
@@ -200,6 +267,15 @@ void image_seeds() {
     write("data.jpg", encode_jpeg(pixels, "", 95, Content::data));
     write("lossy.webp", encode_webp(pixels, "", {WebpMode::lossy, 50, 4}));
     write("lossless.webp", encode_webp(pixels, "", {WebpMode::lossless, 0, 4}));
+    // The headers of other kinds, which the plugin decodes.
+    put("image", "header.bmp",
+        std::string("BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0\x18\0", 30) +
+            std::string(40, '\0'));
+    put("image", "header.gif", std::string("GIF89a\2\0\2\0\x80\0\0", 13) + std::string(20, '\0'));
+    put("image", "header.tif",
+        std::string("II\x2A\0\x08\0\0\0\2\0\0\1\3\0\1\0\0\0\2\0\0\0\1\1\3\0\1\0\0\0\2\0\0\0\0\0\0\0", 38));
+    put("image", "header.tga",
+        std::string("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\x18\0", 18) + std::string(12, '\x40'));
     put("image", "small.webp",
         {reinterpret_cast<const char*>(testing::small_webp.data()), testing::small_webp.size()});
 }
