@@ -70,8 +70,12 @@ def simplify_levels(
     chosen = Options(**options)
     wanted = level_array(levels)
     made = (ctypes.c_void_p * len(levels))()
-    chosen.run(lambda: call(library.faqem_simplify_levels, mesh_pointer(arrays), chosen.object, wanted, len(levels), made))
-    return [Simplified(ctypes.c_void_p(one), arrays.kind) for one in made]
+
+    def run() -> list[Simplified]:
+        call(library.faqem_simplify_levels, mesh_pointer(arrays), chosen.object, wanted, len(levels), made)
+        return [Simplified(ctypes.c_void_p(one), arrays.kind) for one in made]
+
+    return chosen.run(run)
 
 
 def handle_array(levels: Sequence[Simplified] | Sequence[Model]) -> Any:

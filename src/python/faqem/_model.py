@@ -108,7 +108,7 @@ def bake(model: Model, /, **options: Unpack[BakeOptions]) -> Model:
     `progress`.
     """
     chosen = Options(**options)
-    return Model(chosen.run(lambda: create(library.faqem_asset_simplify, model._handle, chosen.object)))
+    return chosen.run(lambda: Model(create(library.faqem_asset_simplify, model._handle, chosen.object)))
 
 
 def bake_levels(
@@ -127,9 +127,13 @@ def bake_levels(
     chosen = Options(**options)
     wanted = level_array(levels)
     made = (ctypes.c_void_p * len(levels))()
-    chosen.run(lambda: call(library.faqem_asset_simplify_levels, model._handle, chosen.object, wanted, len(levels),
-                            _level_textures[textures], made))
-    return [Model(ctypes.c_void_p(one)) for one in made]
+    shared = _level_textures[textures]
+
+    def run() -> list[Model]:
+        call(library.faqem_asset_simplify_levels, model._handle, chosen.object, wanted, len(levels), shared, made)
+        return [Model(ctypes.c_void_p(one)) for one in made]
+
+    return chosen.run(run)
 
 
 def bake_truncated(model: Model, history: History, faces: int, /, **options: Unpack[CommonBakeOptions]) -> Model:
@@ -144,8 +148,12 @@ def bake_truncated(model: Model, history: History, faces: int, /, **options: Unp
     """
     chosen = Options(**options)
     count = checked_integer(faces, "faces", 53)
-    return Model(chosen.run(lambda: create(library.faqem_asset_bake_truncated, model._handle, history._handle, count,
-                                           chosen.object)))
+
+    def run() -> Model:
+        return Model(
+            create(library.faqem_asset_bake_truncated, model._handle, history._handle, count, chosen.object))
+
+    return chosen.run(run)
 
 
 def save_levels(

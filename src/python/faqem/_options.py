@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import difflib
 import operator
-import sys
 import weakref
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar, Union
 
+from ._interrupt import HeldInterrupt
 from ._library import Progress as Callback
 from ._library import call, library
+from ._progress_line import ProgressLine
 from .errors import OptionError
 
 Result = TypeVar("Result")
@@ -67,25 +68,6 @@ def _text(value: Any) -> str | None:
     return None
 
 
-class _ProgressLine:
-    """A line on standard error with phase and percentage, written over itself."""
-
-    def __init__(self) -> None:
-        self._text = ""
-
-    def __call__(self, phase: str, fraction: float) -> None:
-        text = f"{phase} {fraction:.0%}"
-        if text != self._text:
-            sys.stderr.write("\r" + text.ljust(len(self._text)))
-            sys.stderr.flush()
-            self._text = text
-
-    def end(self) -> None:
-        if self._text:
-            sys.stderr.write("\n")
-            self._text = ""
-
-
 class Options:
     """Options object of the C API. The keywords are option_names(); None leaves an option at its default."""
 
@@ -97,6 +79,7 @@ class Options:
         if not self.object:
             raise MemoryError
         weakref.finalize(self, library.faqem_options_destroy, self.object)
+        self._interrupt = HeldInterrupt()
         self._callback_exception: BaseException | None = None
         for keyword in options.keys() - set(option_names()):
             close = difflib.get_close_matches(keyword, option_names(), 1)
@@ -115,13 +98,16 @@ class Options:
             raise OptionError(str(error).replace(name, keyword, 1)) from None
 
     def _set_progress(self, progress: Progress) -> None:
-        """Sets the callback; True: a line on standard error. Exceptions cannot pass through C: they cancel the run, and run() raises them."""
+        """Sets the callback; True: a line on standard error.
 
-        self._line = _ProgressLine() if progress is True else None
+        Exceptions cannot pass through C: they cancel the run, and run() raises them.
+        """
+        self._line = ProgressLine() if progress is True else None
         show = self._line or (progress if callable(progress) else None)
 
         def called(_user: object, phase: int, fraction: float) -> int:
             try:
+                self._interrupt.deliver()
                 if show is not None:
                     show(_phases[phase], fraction)
             except BaseException as raised:  # includes KeyboardInterrupt
@@ -133,12 +119,19 @@ class Options:
         library.faqem_options_set_progress(self.object, self._callback, None)
 
     def run(self, work: Callable[[], Result]) -> Result:
-        """Calls `work` and returns its result. Raises the exception of the progress callback, if any."""
+        """Calls `work` and returns its result, which owns what was created.
+
+        Raises the exception of the progress callback or of the handler of SIGINT, if any.
+        """
+        self._interrupt = HeldInterrupt()
         try:
-            return work()
+            with self._interrupt:
+                result = work()
         finally:
             if self._line:
                 self._line.end()
             if self._callback_exception is not None:
                 raised, self._callback_exception = self._callback_exception, None
-                raise raised
+                raise raised from None
+            self._interrupt.deliver()
+        return result

@@ -86,5 +86,8 @@ def simplify_arrays(
     """See simplify()."""
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
     chosen = Options(**options)
-    handle = chosen.run(lambda: create(library.faqem_simplify, mesh_pointer(arrays), chosen.object))
-    return Simplified(handle, arrays.kind)
+
+    def run() -> Simplified:
+        return Simplified(create(library.faqem_simplify, mesh_pointer(arrays), chosen.object), arrays.kind)
+
+    return chosen.run(run)

@@ -1,0 +1,103 @@
+"""Tests of calls in unusual places: interrupted, from several threads, after fork()."""
+
+import concurrent.futures
+import os
+import signal
+import subprocess
+import sys
+import threading
+import unittest
+import warnings
+
+import faqem
+import numpy
+from numpy.testing import assert_array_equal
+from test_compatible import bumpy_grid
+
+
+class Interrupt(unittest.TestCase):
+    def setUp(self):
+        self.mesh = bumpy_grid(60)
+        self.before = signal.getsignal(signal.SIGINT)
+
+    def interrupted_at(self, fraction, calls):
+        """Returns a callback that sends SIGINT to this process and counts its calls."""
+
+        def progress(phase, done):
+            calls.append(phase)
+            if len(calls) == fraction:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        return progress
+
+    def test_it_ends_a_run_with_and_without_a_callback(self):
+        calls = []
+        with self.assertRaises(KeyboardInterrupt):
+            faqem.simplify(*self.mesh, ratio=0.1, progress=self.interrupted_at(3, calls))
+        self.assertLessEqual(len(calls), 3)
+        code = ("import faqem, os, signal, threading, test_compatible as t\n"
+                "mesh = t.bumpy_grid(700)\n"
+                "threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
+                "try: faqem.simplify(*mesh, ratio=0.01)\n"
+                "except KeyboardInterrupt: print('interrupted')")
+        done = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.stdout, done.stderr), ("interrupted\n", ""))
+        self.assertIs(signal.getsignal(signal.SIGINT), self.before)
+
+    def test_a_handler_that_raises_nothing_lets_the_run_go_on(self):
+        received, calls = [], []
+        signal.signal(signal.SIGINT, lambda number, frame: received.append(number))
+        self.addCleanup(signal.signal, signal.SIGINT, self.before)
+        out = faqem.simplify(*self.mesh, ratio=0.1, progress=self.interrupted_at(2, calls))
+        assert_array_equal(out.triangles, faqem.simplify(*self.mesh, ratio=0.1).triangles)
+        self.assertEqual(received, [signal.SIGINT])
+        self.assertGreater(len(calls), 2)
+
+    def test_it_ends_levels_and_models_too(self):
+        model = faqem.Model.from_arrays(*self.mesh)
+        for run in (lambda progress: faqem.simplify_levels(*self.mesh, [0.5, 0.1], progress=progress),
+                    lambda progress: faqem.bake(model, ratio=0.1, progress=progress),
+                    lambda progress: faqem.bake_levels(model, [0.5, 0.1], progress=progress)):
+            with self.assertRaises(KeyboardInterrupt):
+                run(self.interrupted_at(2, []))
+
+
+class Processes(unittest.TestCase):
+    def setUp(self):
+        self.mesh = bumpy_grid(40)
+        self.expected = faqem.simplify(*self.mesh, ratio=0.2).vertices
+
+    def test_threads_may_call_at_once(self):
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            for out in pool.map(lambda _: faqem.simplify(*self.mesh, ratio=0.2), range(16)):
+                assert_array_equal(out.vertices, self.expected)
+
+    def test_other_python_threads_run_during_a_call(self):
+        mesh, ticks, stop = bumpy_grid(200), [], threading.Event()
+
+        def count():
+            while not stop.wait(0.001):
+                ticks.append(None)
+
+        counter = threading.Thread(target=count)
+        counter.start()
+        faqem.simplify(*mesh, ratio=0.01)
+        stop.set()
+        counter.join()
+        self.assertGreater(len(ticks), 2)
+
+    def test_a_forked_process_may_call(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # Python 3.12 warns of other threads, which are idle here
+            child = os.fork()
+        if child == 0:
+            status = 1
+            try:
+                status = int(not numpy.array_equal(faqem.simplify(*self.mesh, ratio=0.2, threads=2).vertices, self.expected))
+            finally:
+                os._exit(status)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
