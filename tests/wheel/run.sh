@@ -35,7 +35,8 @@ tag_and_size() {
 }
 
 peers() {
-    in_root "$work/build" "env/bin/pip install -q fast-simplification wheels/*.whl; env/bin/python faqem/tests/wheel/peers.py"
+    in_root "$work/build" "env/bin/pip install -q fast-simplification trimesh pillow scipy wheels/*.whl"
+    in_root "$work/build" "env/bin/python faqem/tests/wheel/peers.py; env/bin/python faqem/tests/wheel/with_trimesh.py"
 }
 
 types() {
@@ -89,7 +90,7 @@ step "the wheel, from the sources alone" build
 end
 step "the same bytes from the source distribution" from_source
 step "platform tag and size" tag_and_size
-step "comparison with fast-simplification" peers
+step "with fast-simplification and trimesh" peers
 step "types of a program that uses it" types
 step "Debian 12, newest numpy" installed bookworm numpy
 step "Debian 12, numpy 1" installed bookworm "numpy<2"

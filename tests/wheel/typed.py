@@ -2,6 +2,7 @@
 
 import faqem
 import numpy
+import trimesh
 
 vertices = numpy.zeros((4, 3), dtype=numpy.float32)
 triangles = [[0, 1, 2], [0, 2, 3]]
@@ -21,6 +22,9 @@ points, faces = faqem.simplify(vertices, triangles, 0.5, agg=3, verbose=True)
 points, faces, collapses = faqem.simplify(vertices, triangles, target_count=1, return_collapses=True)
 points, faces, mapping = faqem.replay_simplification(points=vertices, triangles=triangles, collapses=collapses)
 print(points.dtype, faces.dtype, collapses.kept, mapping.dtype)
+
+small = faqem.simplify(trimesh.load_mesh("statue.glb"), faces=100, texture_size=512)
+print(small.metadata["faqem"], len(small.faces))
 
 model = faqem.load("statue.glb")
 baked = faqem.bake(model, faces=20_000, texture_size=2048, image_format="webp")

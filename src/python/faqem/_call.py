@@ -2,18 +2,34 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar, overload
 
 from numpy.typing import ArrayLike
 
 from ._compatible import Collapses, Faces, Points, simplify_compatibly, triangle_rows
 from ._simplify import Simplified, simplify_arrays
-from .errors import OptionError
+from ._trimesh import is_trimesh, simplify_trimesh
+from .errors import InputError, OptionError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._types import CompatibleOptions, SimplifyOptions
+    from ._types import BakeOptions, CompatibleOptions, SimplifyOptions
+
+
+class _Exportable(Protocol):
+    """Trimesh and Scene of trimesh."""
+
+    metadata: Any
+
+    def export(self, *arguments: Any, **options: Any) -> Any: ...
+
+
+Exportable = TypeVar("Exportable", bound=_Exportable)
+
+
+@overload
+def simplify(points: Exportable, **options: Unpack[BakeOptions]) -> Exportable: ...
 
 
 @overload
@@ -96,8 +112,8 @@ def simplify(
 
 
 def simplify(
-    points: ArrayLike,
-    triangles: ArrayLike,
+    points: Any,
+    triangles: ArrayLike | None = None,
     target_reduction: float | None = None,
     target_count: int | None = None,
     agg: float | None = None,
@@ -107,7 +123,7 @@ def simplify(
     preserve_border: bool = False,
     **options: Any,
 ) -> Any:
-    """Simplifies a triangle soup.
+    """Simplifies a triangle soup, or a mesh or scene of trimesh.
 
     points     (v, 3) positions; float32 and float64 are used without a copy
     triangles  (f, 3) vertex indices; uint32 and uint16 are used without a copy. Or the array `faces` of pyvista
@@ -130,7 +146,17 @@ def simplify(
     verbose           True: shows the progress on standard error
     return_collapses  True: the collapses (n, 2) int32 are the third result, for replay_simplification() of either module
     preserve_border   True: boundary="locked"
+
+    A Trimesh or Scene of trimesh alone gives another one, with new textures; `metadata["faqem"]` is the report. The
+    options are those of bake().
     """
+    if triangles is None:
+        if not is_trimesh(points):
+            raise InputError("triangles: missing; only a Trimesh or a Scene of trimesh can be simplified alone")
+        positional = (target_reduction, target_count, agg, verbose, return_collapses, lossless, preserve_border)
+        if positional != (None, None, None, False, False, False, False):
+            raise OptionError("a Trimesh or Scene is simplified with ratio, faces or max_error")
+        return simplify_trimesh(points, **options)
     if target_reduction is None and target_count is None and not lossless:
         given = {"agg": agg is not None, "verbose": verbose, "return_collapses": return_collapses,
                  "preserve_border": preserve_border}
