@@ -76,6 +76,12 @@ class Call(unittest.TestCase):
         }.items():
             with self.assertRaisesRegex(faqem.OptionError, name):
                 faqem.simplify(*bumpy_grid(40) if "best" in name else (vertices, triangles), **options)
+        for name, points, faces in (("points", vertices[:, :2], triangles), ("points", "none", triangles),
+                                    ("points", [[0, 0, 0], [1]], triangles), ("triangles", vertices, "none"),
+                                    ("triangles", vertices, triangles[:, :2]), ("triangles", vertices, triangles + 0.5)):
+            for run in (lambda p, f: faqem.simplify(p, f, 0.5), lambda p, f: faqem.replay_simplification(p, f, [])):
+                with self.assertRaisesRegex(faqem.InputError, name):
+                    run(points, faces)
         with self.assertRaisesRegex(TypeError, "did you mean 'ratio'"):
             faqem.simplify(vertices, triangles, target_reduction=0.5, rato=0.5)
 

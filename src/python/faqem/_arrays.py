@@ -16,7 +16,7 @@ Array = NDArray[Any]
 _no_index = 2**32 - 1
 
 
-def _check_shape(array: Array, width: int, name: str) -> Array:
+def check_shape(array: Array, width: int, name: str) -> Array:
     if array.ndim != 2 or array.shape[1] != width:
         raise InputError(f"{name}: the shape must be (n, {width}), but is {array.shape}")
     return array
@@ -37,12 +37,23 @@ def _strided(array: ArrayLike, kind: DTypeLike) -> Array:
     return converted if fits else numpy.ascontiguousarray(converted)
 
 
+def checked_array(values: ArrayLike, name: str, kind: DTypeLike | None = None) -> Array:
+    """Returns an array, of a type if given. Raises InputError with the name of the argument if it is none."""
+    try:
+        array: Array = numpy.asarray(values, dtype=kind)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{name}: {error}") from None
+    if array.dtype.kind not in "biufO":
+        raise InputError(f"{name}: numbers are expected, but the type is {array.dtype}")
+    return array
+
+
 def _positions(vertices: ArrayLike) -> Array:
-    array: Array = numpy.asarray(vertices)
+    array = checked_array(vertices, "vertices")
     kind: DTypeLike = numpy.float32 if array.dtype == numpy.float32 else numpy.float64
     if array.size == 0:
         array = array.reshape(0, 3)
-    return _check_shape(_strided(array, kind), 3, "vertices")
+    return check_shape(_strided(checked_array(array, "vertices", kind), kind), 3, "vertices")
 
 
 def checked_indices(values: ArrayLike, name: str) -> Array:
@@ -51,7 +62,7 @@ def checked_indices(values: ArrayLike, name: str) -> Array:
     Raises InputError if they are not integers from 0 to 2^32 - 2. A conversion by numpy would round fractions and
     take the remainder of large numbers.
     """
-    array: Array = numpy.asarray(values)
+    array = checked_array(values, name)
     if array.size and not numpy.issubdtype(array.dtype, numpy.integer):
         raise InputError(f"{name}: integers are expected, but the type is {array.dtype}")
     if array.size and not (array.min() >= 0 and array.max() < _no_index):
@@ -66,7 +77,7 @@ def _indices(values: ArrayLike, name: str) -> Array:
 
 
 def _per_element(values: ArrayLike, count: int, kind: DTypeLike, name: str) -> Array:
-    array: Array = numpy.ascontiguousarray(values, dtype=kind)
+    array: Array = numpy.ascontiguousarray(checked_array(values, name, kind))
     if array.shape != (count,):
         raise InputError(f"{name}: the shape must be ({count},), but is {array.shape}")
     return array
@@ -89,7 +100,7 @@ class MeshArrays:
     ) -> None:
         positions = _positions(vertices)
         corners = _indices(triangles, "triangles")
-        corners = _check_shape(corners.reshape(0, 3) if corners.size == 0 else corners, 3, "triangles")
+        corners = check_shape(corners.reshape(0, 3) if corners.size == 0 else corners, 3, "triangles")
         self.kind = positions.dtype
         self.mesh = Mesh(vertex_count=len(positions), face_count=len(corners))
         self._arrays: list[Array] = []
@@ -102,12 +113,12 @@ class MeshArrays:
             of_faces = _per_element(_indices(groups, "groups"), len(corners), numpy.uint32, "groups")
             self._set_array("face_groups", of_faces)
         if locks is not None:
-            of_vertices = _per_element(numpy.asarray(locks, dtype=bool), len(positions), numpy.uint8, "locks")
+            of_vertices = _per_element(checked_array(locks, "locks", bool), len(positions), numpy.uint8, "locks")
             self._set_array("vertex_locks", of_vertices)
         if weights is not None:
             self._set_array("vertex_weights", _per_element(weights, len(positions), numpy.float32, "weights"))
         if uvs is not None:
-            corner_values = numpy.ascontiguousarray(uvs, dtype=numpy.float32)
+            corner_values = numpy.ascontiguousarray(checked_array(uvs, "uvs", numpy.float32))
             if corner_values.ndim != 3 or corner_values.shape[:2] != (len(corners), 3) or corner_values.shape[2] < 1:
                 raise InputError(f"uvs: the shape must be ({len(corners)}, 3, n), but is {corner_values.shape}")
             self._set_array("corner_values", corner_values)
