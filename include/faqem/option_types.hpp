@@ -179,11 +179,14 @@ constexpr bool has_image_quality(ImageFormat format) {
 
 /// Compression of the geometry in glTF files.
 enum class Compression {
-    source,  ///< `meshopt` if the source has it, else `none`
+    source,  ///< that of the source: `meshopt`, `draco` or `none`
     none,
     /// EXT_meshopt_compression, which viewers must know. Normals and tangents are rounded to multiples of 2^-11, UVs
     /// to 2^-15; positions and all else are exact.
     meshopt,
+    /// KHR_draco_mesh_compression, which viewers must know. Vertices are rounded as by Quantize::on, unless
+    /// Quantize::off is set.
+    draco,
 };
 
 /// Whether vertices in glTF files are integers, which viewers must know (KHR_mesh_quantization).

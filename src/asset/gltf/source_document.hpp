@@ -17,6 +17,7 @@ struct SourceDocument {
     std::vector<std::vector<std::uint8_t>> buffers;  ///< one per buffer, byteLength bytes each
     std::vector<Image> images;        ///< one per image of the document; `encoded` is empty if it is missing
     bool has_meshopt = false;         ///< the file was compressed with EXT_meshopt_compression
+    bool has_draco = false;           ///< the file was compressed with KHR_draco_mesh_compression
     std::vector<Material> materials;  ///< one per material as read; TextureRef::image is an index in `images`
 };
 

@@ -15,6 +15,12 @@ double positive_or(double value, double otherwise) {
     return value > 0 && std::isfinite(value) ? value : otherwise;
 }
 
+bool uses_new_grid(const Asset& source, const Options& options) {
+    return options.quantize.kind == Quantize::on ||
+           (options.quantize.kind == Quantize::source &&
+            result_compression(source, options) == Compression::draco);
+}
+
 // The power of two that is at least the given positive number.
 double power_of_two_above(double x) {
     int exponent;
@@ -48,7 +54,7 @@ Compression result_compression(const Asset& source, const Options& options) {
 
 PositionGrids position_grids(const Asset& source, const Options& options) {
     PositionGrids grids;
-    const bool is_new = options.quantize.kind == Quantize::on;
+    const bool is_new = uses_new_grid(source, options);
     const bool has_grids = options.quantize.kind == Quantize::source &&
                            std::any_of(source.parts.begin(), source.parts.end(),
                                        [](const Part& part) { return part.position_spacing > 0; });
@@ -77,7 +83,7 @@ void set_quantization(const Asset& source, const Options& options, Asset& result
     if (grids.is_left_out)
         report.warnings.push_back(
             "the grids of the source are coarse for max_error: the positions are floats");
-    const bool is_new = options.quantize.kind == Quantize::on;
+    const bool is_new = uses_new_grid(source, options);
     if (options.quantize.kind != Quantize::off) {
         result.normal_bits = is_new || source.normal_bits > 0 ? options.quantize.normal_bits : 0;
         result.uv_bits = is_new || source.uv_bits > 0 ? options.quantize.uv_bits : 0;

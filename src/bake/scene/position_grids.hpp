@@ -22,7 +22,7 @@ struct PositionGrids {
     double max_distance() const;
 };
 
-/// Chooses the grids. With Quantize::on their spacing is the smallest
+/// Chooses the grids. With Quantize::on, or with Draco data unless Quantize::off is set, their spacing is the smallest
 /// power of two in scene units that divides the diagonal of the scene into at most 2^position_bits steps: levels of
 /// detail of a source have the same, and so has a result that is read and written again.
 /// \param source   a valid asset

@@ -55,7 +55,7 @@ class CommonBakeOptions(CommonOptions, total=False):
     untouched: Literal["auto", "kept", "baked"] | None
     mapping: Literal["projection", "lineage", "closest"] | None
     samples: int | None
-    compress: Literal["source", "none", "meshopt"] | None
+    compress: Literal["source", "none", "meshopt", "draco"] | None
     quantize: Literal["source", "off", "on"] | None
     position_bits: int | None
     normal_bits: int | None

@@ -101,9 +101,9 @@ inline constexpr OptionRow appearance_rows[] = {
          .entry_points = 0}),
     option_row<&Options::compress>(
         {.name = "compress",
-         .choices = "source|none|meshopt",
-         .help = "Compression of geometry in glTF files: source (as the input: meshopt "
-                 "or none), none, meshopt (viewers need EXT_meshopt_compression)",
+         .choices = "source|none|meshopt|draco",
+         .help = "Compression of geometry in glTF files: source (as the input), none, meshopt (viewers need "
+                 "EXT_meshopt_compression), draco (viewers need KHR_draco_mesh_compression)",
          .entry_points = in_all}),
     option_row<&Options::quantize, &QuantizeOptions::kind>(
         {.name = "quantize",

@@ -137,6 +137,7 @@ void decompress_primitives(SourceDocument& source, const std::string& file) {
                 const std::string where = child_path(child_path("/meshes", m) + "/primitives", p);
                 budget.consume(draco_element_count(source.document, primitives[p]), where, draco_name);
                 decompress_primitive(source, primitives[p], file, where);
+                source.has_draco = true;
             }
 #endif
             erase_extension(primitives[p], draco_name);

@@ -102,6 +102,7 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
     if (faces == 0 && dropped_faces != 0)
         throw InputError(loaded.file, "/meshes", "all faces have a non-finite position");
     read_vertex_bits(loaded, asset);
+    if (loaded.source->has_draco) asset.compression = Compression::draco;
     if (loaded.source->has_meshopt) asset.compression = Compression::meshopt;
     asset.source = std::move(loaded.source);
     asset.warnings = std::move(loaded.warnings);

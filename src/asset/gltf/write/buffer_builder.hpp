@@ -56,11 +56,22 @@ public:
     /// \return index of the accessor; that of an earlier one if all members and bytes are equal
     Index add_accessor(Json description, std::span<const std::uint8_t> dense, AccessorUse use);
 
+    /// Adds an accessor whose elements are in the data of an extension. It is never shared.
+    /// \return index of the accessor
+    Index add_extension_accessor(Json description);
+
+    /// Adds bytes that an extension refers to, in a separate view.
+    /// \return what must be added to first_data_view() for the index of the view
+    Index add_extension_data(std::vector<std::uint8_t> bytes);
+
+    /// The view of the first data of add_extension_data(). \pre no accessor is added afterwards
+    Index first_data_view() const { return static_cast<Index>(groups_.size()); }
+
     /// Adds bytes, for example of an image, in a separate view.
     /// \param bytes      borrowed until finish()
     /// \param alignment  of its offset in the buffer, a multiple of 4
     /// \return index of the view
-    /// \pre no accessor is added afterwards
+    /// \pre no accessor and no data of an extension is added afterwards
     Index add_view(std::span<const std::uint8_t> bytes, std::uint64_t alignment = 4);
 
     /// Writes accessors, bufferViews and buffers[0] (without uri) to the document, and buffers[1], which has no bytes,
@@ -97,6 +108,7 @@ private:
     std::vector<StoredAccessor> stored_;
     std::map<std::size_t, std::vector<Index>> accessors_by_hash_;
     std::vector<Group> groups_;
+    std::vector<std::vector<std::uint8_t>> extension_data_;
     std::vector<SeparateView> views_;
 };
 

@@ -134,6 +134,8 @@ void update_morph_targets(Json& mesh, std::uint64_t targets) {
 
 /// The grid of a mesh. Points and lines, which are copied, have no other positions than those of the source.
 MeshGrid grid_of(GltfWriter& writer, const Json& source, const std::vector<const Part*>& parts) {
+    // Draco stores rounded positions as floats.
+    if (writer.asset.compression == Compression::draco) return {};
     std::string unfit;
     MeshGrid grid = choose_grid(parts, writer.origin, unfit);
     const Json& primitives = member(source, "primitives");

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -48,7 +50,10 @@ void add_bounds(Json& description, const std::vector<std::array<T, 3>>& values) 
 template <class T>
 Index add_vertices(GltfWriter& writer, Json description, const std::vector<T>& values,
                    AccessorUse use = AccessorUse::vertices) {
-    return writer.binary.add_accessor(std::move(description), bytes_of(values), use);
+    const std::span<const std::uint8_t> bytes = bytes_of(values);
+    if (!writer.draco) return writer.binary.add_accessor(std::move(description), bytes, use);
+    writer.draco->push_back({{}, std::move(description), {bytes.begin(), bytes.end()}});
+    return static_cast<Index>(writer.draco->size() - 1);
 }
 
 /// Writes integer vectors with bounds.
@@ -106,7 +111,7 @@ Index add_short_directions(GltfWriter& writer, const std::vector<std::array<floa
 /// Writes unit vectors, as integers with Asset::normal_bits.
 template <std::size_t N>
 Index add_directions(GltfWriter& writer, const std::vector<std::array<float, N>>& values, bool is_new) {
-    if (writer.asset.normal_bits > 0) return add_short_directions(writer, values, is_new);
+    if (writer.asset.normal_bits > 0 && !writer.draco) return add_short_directions(writer, values, is_new);
     return add_vertices(writer,
                         accessor_description(ComponentType::f32, N == 3 ? "VEC3" : "VEC4", values.size()),
                         values, is_new ? AccessorUse::directions : AccessorUse::vertices);
@@ -123,7 +128,7 @@ Index add_uvs(GltfWriter& writer, const std::vector<Vec2f>& values, bool is_new)
                    (!is_compressed || static_cast<float>(std::round(x * unit) / unit) == x);
         });
     });
-    if (writer.asset.uv_bits == 0 || (is_compressed && is_new) || !fits)
+    if (writer.asset.uv_bits == 0 || (is_compressed && is_new) || !fits || writer.draco)
         return add_vertices(writer, accessor_description(ComponentType::f32, "VEC2", values.size()), values,
                             is_new ? AccessorUse::texture_coordinates : AccessorUse::vertices);
     std::vector<std::array<std::uint16_t, 2>> integers(values.size());
@@ -281,6 +286,61 @@ Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData&
     return json;
 }
 
+std::vector<float> floats_of(const DracoValues& values) {
+    std::vector<float> floats(values.bytes.size() / sizeof(float));
+    if (!floats.empty()) std::memcpy(floats.data(), values.bytes.data(), values.bytes.size());
+    return floats;
+}
+
+/// The steps to which Draco rounds an attribute.
+std::optional<DracoRounding> draco_rounding(const Asset& asset, const Part& part, const DracoValues& values) {
+    // Tangents have a length within 5e-4 of 1, so that they are kept when they are written again.
+    constexpr std::uint32_t min_tangent_bits = 13;
+    if (values.name == "POSITION") return rounding_to_steps(floats_of(values), 3, part.position_spacing);
+    if (values.name == "NORMAL" && asset.normal_bits > 0)
+        return DracoRounding{asset.normal_bits, true, {}, 0};
+    if (values.name == "TANGENT" && asset.normal_bits > 0)
+        return DracoRounding{std::max(asset.normal_bits, min_tangent_bits), false, {-1, -1, -1, -1}, 2};
+    if (values.name.compare(0, 9, "TEXCOORD_") == 0 && asset.uv_bits > 0)
+        return rounding_to_steps(floats_of(values), 2, std::ldexp(1.0, -static_cast<int>(asset.uv_bits)));
+    return std::nullopt;
+}
+
+/// Rounds the bounds of positions as Draco does.
+void round_bounds(Json& description, double spacing) {
+    for (const char* key : {"min", "max"})
+        for (Json& x : description[key])
+            x = static_cast<float>(std::round(x.get<double>() / spacing) * spacing);
+}
+
+/// Writes the attributes and triangles of a primitive as Draco data. Returns false if that is not possible.
+bool write_draco(GltfWriter& writer, const Part& part, const PrimitiveData& data, Json& primitive) {
+    std::vector<DracoValues> values;
+    writer.draco = &values;
+    const Json numbers = write_attributes(writer, part, data, {});
+    writer.draco = nullptr;
+    for (const auto& [name, number] : numbers.items()) {
+        DracoValues& own = values[number.get<std::size_t>()];
+        own.name = name;
+        own.rounding = draco_rounding(writer.asset, part, own);
+        if (name == "POSITION" && own.rounding) round_bounds(own.description, part.position_spacing);
+    }
+    // Morph targets, and extensions that refer to unchanged vertices and triangles, need their order.
+    const bool keeps_order = !part.morph_targets.empty() || part.file_order == FileOrder::given;
+    std::optional<DracoBytes> encoded = encode_draco(values, data.corners, keeps_order);
+    if (!encoded) return false;
+    for (const auto& [name, number] : numbers.items()) {
+        Json& description = values[number.get<std::size_t>()].description;
+        description["count"] = encoded->vertices;
+        primitive["attributes"][name] = writer.binary.add_extension_accessor(std::move(description));
+    }
+    primitive["indices"] = writer.binary.add_extension_accessor(accessor_description(
+        encoded->vertices > 65535 ? ComponentType::u32 : ComponentType::u16, "SCALAR", encoded->corners));
+    primitive["extensions"][draco_name] = {
+        {"bufferView", writer.binary.add_extension_data(std::move(encoded->bytes))}, {"attributes", numbers}};
+    return true;
+}
+
 /// Groups faces by material, in the order of the first use of each material.
 std::vector<std::pair<Index, std::vector<Index>>> faces_by_material(const Part& part) {
     std::vector<std::pair<Index, std::vector<Index>>> groups;
@@ -327,10 +387,14 @@ void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json
         degenerate_faces += data.degenerate_faces;
         if (grid.is_on()) degenerate_grid_faces += degenerate_on_grid(data, grid);
         Json primitive = kept_primitive_members(writer, part, material, data);
-        primitive["attributes"] = write_attributes(writer, part, data, grid);
-        primitive["indices"] = add_indices(
-            writer, data,
-            part.file_order == FileOrder::for_gpu ? AccessorUse::triangles : AccessorUse::indices);
+        const bool is_draco =
+            writer.asset.compression == Compression::draco && write_draco(writer, part, data, primitive);
+        if (!is_draco) {
+            primitive["attributes"] = write_attributes(writer, part, data, grid);
+            primitive["indices"] = add_indices(
+                writer, data,
+                part.file_order == FileOrder::for_gpu ? AccessorUse::triangles : AccessorUse::indices);
+        }
         if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data, grid);
         if (material != no_index) primitive["material"] = write_material(writer, material);
         keep_manifold(writer, part, data, primitive, mesh_extensions);

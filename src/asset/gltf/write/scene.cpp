@@ -223,8 +223,10 @@ void write_extension_lists(GltfWriter& writer) {
         used.insert(quantization_name);
         required.push_back(quantization_name);
     }
+    if (used.count(draco_name) != 0) required.push_back(draco_name);
     for (const Json& name : source_array(writer, "extensionsRequired"))
-        if (name != quantization_name && used.count(name.get<std::string>()) != 0) required.push_back(name);
+        if (name != draco_name && name != quantization_name && used.count(name.get<std::string>()) != 0)
+            required.push_back(name);
     for (const char* key : {"extensionsUsed", "extensionsRequired"}) writer.out.erase(key);
     if (!used.empty()) writer.out["extensionsUsed"] = Json(used);
     if (!required.empty()) writer.out["extensionsRequired"] = std::move(required);

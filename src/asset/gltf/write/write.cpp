@@ -66,7 +66,19 @@ std::string json_text(const Json& document, int indent) {
     return document.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+/// Replaces the numbers of Draco data by the indices of its views.
+void number_draco_views(GltfWriter& writer) {
+    if (writer.asset.compression != Compression::draco || !writer.out.contains("meshes")) return;
+    const Index first = writer.binary.first_data_view();
+    for (Json& mesh : writer.out["meshes"])
+        for (Json& primitive : mesh["primitives"])
+            if (member(member(primitive, "extensions"), draco_name).contains("bufferView"))
+                primitive["extensions"][draco_name]["bufferView"] =
+                    first + primitive["extensions"][draco_name]["bufferView"].get<Index>();
+}
+
 std::vector<std::uint8_t> glb_bytes(GltfWriter& writer, const std::string& file) {
+    number_draco_views(writer);
     for (std::size_t i = 0; i < writer.images.size(); ++i) {
         Json& json = writer.out["images"][i];
         json["bufferView"] = writer.binary.add_view(writer.images[i]->encoded);
@@ -99,6 +111,7 @@ void write_glb(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
 /// Writes the images, the buffer and then the JSON, which refers to them.
 void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
     const std::string stem = file.stem().string();
+    number_draco_views(writer);
     std::vector<FileContent> files;
     for (std::size_t i = 0; i < writer.images.size(); ++i) {
         const Image& image = *writer.images[i];
@@ -134,6 +147,8 @@ GltfWriter make_writer(const Asset& asset) {
                       GltfBufferBuilder(asset.compression, {asset.normal_bits, asset.uv_bits})};
     if (asset.compression == Compression::meshopt && !can_encode_meshopt())
         writer.warnings.push_back("faqem was built without meshoptimizer: the geometry was not compressed");
+    if (asset.compression == Compression::draco && !can_encode_draco())
+        writer.warnings.push_back("faqem was built without Draco: the geometry was not compressed");
     return writer;
 }
 

@@ -12,6 +12,7 @@
 
 #include "asset/gltf/source_document.hpp"
 #include "asset/gltf/write/buffer_builder.hpp"
+#include "asset/gltf/write/draco_encoder.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/primitive_data.hpp"
 
@@ -41,6 +42,8 @@ struct GltfWriter {
         {};                            ///< per asset image: a source image with equal bytes, or no_index
     std::vector<Index> mesh_map = {};  ///< source mesh to output mesh; no_index if it was left out
     std::vector<MeshGrid> grids = {};  ///< by output mesh
+    /// Receives the attributes of a primitive instead of `binary`, while it is not null.
+    std::vector<DracoValues>* draco = nullptr;
     bool needs_quantization = false;   ///< a primitive needs KHR_mesh_quantization
     /// By part: the source mesh whose primitives give extras and extensions; empty: Part::source.
     std::span<const Index> sources = {};
