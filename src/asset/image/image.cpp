@@ -24,15 +24,17 @@ struct FileSignature {
     const char* extension;
 };
 
-constexpr std::array<FileSignature, 9> file_signatures = {{{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
-                                                           {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
-                                                           {{"WEBP", 4}, 8, "image/webp", ".webp"},
-                                                           {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
-                                                           {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
-                                                           {{"GIF8", 4}, 0, "image/gif", ".gif"},
-                                                           {{"II*\0", 4}, 0, "image/tiff", ".tif"},
-                                                           {{"MM\0*", 4}, 0, "image/tiff", ".tif"},
-                                                           {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
+constexpr std::array<FileSignature, 10> file_signatures = {
+    {{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
+     {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
+     {{"WEBP", 4}, 8, "image/webp", ".webp"},
+     {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
+     {{"ftypavif", 8}, 4, "image/avif", ".avif"},
+     {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
+     {{"GIF8", 4}, 0, "image/gif", ".gif"},
+     {{"II*\0", 4}, 0, "image/tiff", ".tif"},
+     {{"MM\0*", 4}, 0, "image/tiff", ".tif"},
+     {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
 
 /// OpenImageIO's name of the format of an image that the plugin decodes; empty for others.
 std::string plugin_format(const Image& image) {
@@ -70,6 +72,11 @@ std::string media_type(const Image& image) {
 
 bool needs_plugin(const Image& image) { return !plugin_format(image).empty(); }
 
+bool is_passed_through(const Image& image) {
+    const std::string type = sniff_mime_type(image.encoded);
+    return type == "image/ktx2" || type == "image/avif";
+}
+
 bool can_decode_image(const std::string& mime_type) {
     return mime_type == "image/png" || mime_type == "image/jpeg" || mime_type == "image/webp";
 }
@@ -93,8 +100,9 @@ Pixels decode(const Image& image) {
     detail::check_header(image);
 #ifdef FAQEM_WITHOUT_IMAGE_PLUGIN
     if (!format.empty())
-        throw UnsupportedError(image.uri, detail::image_title(image),
-                               type + " needs a build of faqem with OpenImageIO; this one reads PNG, JPEG and WebP");
+        throw UnsupportedError(
+            image.uri, detail::image_title(image),
+            type + " needs a build of faqem with OpenImageIO; this one reads PNG, JPEG and WebP");
 #else
     if (!format.empty()) return detail::image_plugin().decode(image, format);
 #endif

@@ -10,7 +10,7 @@
 
 namespace faqem::detail {
 
-/// Detects the media type from the magic bytes: image/png, image/jpeg, image/webp, image/ktx2,
+/// Detects the media type from the magic bytes: image/png, image/jpeg, image/webp, image/ktx2, image/avif,
 /// image/vnd-ms.dds, image/gif, image/bmp or image/tiff; empty if the format is unknown.
 FAQEM_EXPORT std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
 
@@ -22,6 +22,9 @@ FAQEM_EXPORT std::string media_type(const Image& image);
 
 /// Whether decode() uses the plugin: for TGA, BMP, TIFF and GIF. glTF cannot hold such images.
 FAQEM_EXPORT bool needs_plugin(const Image& image);
+
+/// Whether an image is KTX2 or AVIF, which glTF files have by an extension: it is not decoded, but stays as it is.
+FAQEM_EXPORT bool is_passed_through(const Image& image);
 
 /// Whether glTF images of the media type, which is that of PNG, JPEG or WebP, are read.
 bool can_decode_image(const std::string& mime_type);

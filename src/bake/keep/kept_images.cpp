@@ -82,6 +82,8 @@ std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> p
             });
         }
     }
+    for (std::size_t i = 0; i < result.size(); ++i)
+        if (is_passed_through(asset.images[i])) result[i].is_fixed = true;
     return result;
 }
 

@@ -176,9 +176,10 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
 }  // namespace
 
 UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
-                               const Options& options) {
-    validate(options);
+                               const Options& requested) {
+    validate(requested);
     check_asset(source);
+    const Options options = bakeable_options(source, requested);
     check_parts_match(source, simplified);
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
         throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
@@ -186,6 +187,9 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
     BakeProgress progress(options);
     UnencodedResult out;
     Report& report = out.asset.report = simplified.report;
+    if (options.bake.kind != requested.bake.kind)
+        report.warnings.push_back(
+            "images of KTX2 or AVIF cannot be baked: the UVs and images of the source are kept");
     out.asset.asset.source = source.source;
     out.asset.asset.warnings = source.warnings;
     if (report.stop == StopReason::cancelled) return out;

@@ -12,8 +12,9 @@
 namespace faqem {
 
 std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
-                                                        const Options& options) try {
-    validate(options);
+                                                        const Options& requested) try {
+    validate(requested);
+    const Options options = detail::bakeable_options(source, requested);
     const Options own = detail::step_options(options, Phase::simplify, 0, 1);
     detail::check_asset(source);
     const detail::MeasurementMonitor monitor(own, 0);

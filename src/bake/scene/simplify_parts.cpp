@@ -341,9 +341,10 @@ SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options
     return result;
 }
 
-SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
-    validate(options);
+SimplifiedParts simplify_parts(const Asset& source, const Options& requested) {
+    validate(requested);
     detail::check_asset(source);
+    const Options options = detail::bakeable_options(source, requested);
     const detail::Deadline deadline = detail::deadline_of(options);
     const detail::WeldedSource welded(source, options);
     const Options own = detail::with_time_left(options, deadline);

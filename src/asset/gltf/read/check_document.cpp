@@ -15,10 +15,10 @@ constexpr std::array top_level_arrays = {"accessors", "animations", "buffers", "
                                          "scenes",    "skins",      "textures"};
 
 /// Required extensions that are read, or that are passed through and do not affect meshes and materials.
-constexpr std::array<std::string_view, 9> supported_extensions = {
-    "KHR_mesh_quantization",  "KHR_texture_transform", "KHR_lights_punctual",
-    "KHR_xmp_json_ld",        "KHR_animation_pointer", "KHR_node_visibility",
-    "EXT_lights_image_based", "EXT_texture_webp",      instancing_name};
+constexpr std::array<std::string_view, 11> supported_extensions = {
+    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",    "KHR_xmp_json_ld",
+    "KHR_animation_pointer", "KHR_node_visibility",   "EXT_lights_image_based", "EXT_texture_webp",
+    "KHR_texture_basisu",    "EXT_texture_avif",      instancing_name};
 
 template <class List>
 bool contains(const List& list, std::string_view name) {
@@ -50,9 +50,6 @@ void check_required_extensions(const GltfChecker& checker) {
             if (!can_decode(name)) checker.fail_unsupported(where, missing_decoder_message(name));
             continue;
         }
-        if (name == "KHR_texture_basisu")
-            checker.fail_unsupported(
-                where, name + ": KTX2 images are not supported, only " + decodable_format_names + " are");
         if (!contains(supported_extensions, name) && !name.starts_with("KHR_materials_"))
             checker.fail_unsupported(where, "the extension " + name + " is not supported");
     }

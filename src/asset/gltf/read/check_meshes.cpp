@@ -1,3 +1,4 @@
+#include <iterator>
 #include <string_view>
 
 #include "asset/gltf/accessor.hpp"
@@ -131,13 +132,18 @@ void check_material(const GltfChecker& checker, const Json& material, const std:
                 check_texture_info(checker, value, where + "/extensions/" + name + "/" + key);
 }
 
+bool is_image_extension(const std::string& name) {
+    return std::any_of(std::begin(image_extensions), std::end(image_extensions),
+                       [&](const ImageExtension& extension) { return name == extension.name; });
+}
+
 void check_texture(const GltfChecker& checker, const Json& texture, const std::string& where) {
     checker.reference(texture, where, "sampler", "samplers");
     const auto source = checker.reference(texture, where, "source", "images");
     const Json& extensions = checker.object(texture, where, "extensions");
     for (const auto& [name, extension] : extensions.items()) {
         const auto other = checker.reference(extension, where + "/extensions/" + name, "source", "images");
-        if (other && !source && name != "EXT_texture_webp")
+        if (other && !source && !is_image_extension(name))
             checker.fail_unsupported(where, "its only image is in " + name + "; only " +
                                                 decodable_format_names + " are supported");
     }

@@ -28,13 +28,14 @@ Wrap wrap_of(int mode) {
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
 }
 
-/// The image of a texture; if it has none, that of EXT_texture_webp.
+/// The image of a texture; if it has none, the first of one of its extensions.
 Index image_of(const SourceDocument& source, std::size_t index) {
     const Json& texture = source.document["textures"][index];
-    const Index plain = index_member(texture, "source");
-    return plain != no_index
-               ? plain
-               : index_member(member(member(texture, "extensions"), "EXT_texture_webp"), "source");
+    Index image = index_member(texture, "source");
+    for (const ImageExtension& extension : image_extensions)
+        if (image == no_index)
+            image = index_member(member(member(texture, "extensions"), extension.name), "source");
+    return image;
 }
 
 /// Converts a texture info; unset if the texture has no usable image.

@@ -14,13 +14,23 @@
 namespace faqem::detail {
 namespace {
 
-/// Checks that the textures of the core material model can be decoded.
+/// Whether an image is that of an extension, which says that its media type is not one of core glTF.
+bool is_extension_image(const SourceDocument& source, Index image, const std::string& type) {
+    for (const Json& texture : member(source.document, "textures"))
+        for (const ImageExtension& extension : image_extensions)
+            if (index_member(member(member(texture, "extensions"), extension.name), "source") == image &&
+                index_member(texture, "source") == no_index && type == extension.media_type)
+                return true;
+    return false;
+}
+
+/// Checks that the textures of the core material model can be decoded, or that an extension says what they are.
 /// \throws UnsupportedError  if the image format of one of them is not supported
 void check_image_types(const Asset& asset, const SourceDocument& source, const std::string& file) {
     const auto check = [&](const TextureRef& ref) {
         if (!ref) return;
         const std::string& type = source.images[ref.image].mime_type;
-        if (type.empty() || can_decode_image(type)) return;
+        if (type.empty() || can_decode_image(type) || is_extension_image(source, ref.image, type)) return;
         throw UnsupportedError(file, child_path("/images", ref.image),
                                "is " +
                                    (type == "image/ktx2" ? std::string("KTX2 (KHR_texture_basisu)") : type) +

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "asset/gltf/write/writer.hpp"
@@ -100,8 +102,12 @@ Index make_texture(GltfWriter& writer, const TextureRef& ref) {
         writer.textures.try_emplace({image, ref.wrap_u, ref.wrap_v, ref.filter}, no_index);
     if (is_new) {
         Json json = {{"sampler", make_sampler(writer, ref)}};
-        const bool webp = writer.asset.images[ref.image].mime_type == "image/webp";
-        (webp ? json["extensions"]["EXT_texture_webp"] : json)["source"] = image;
+        const std::string& type = writer.asset.images[ref.image].mime_type;
+        const auto extension =
+            std::find_if(std::begin(image_extensions), std::end(image_extensions),
+                         [&](const ImageExtension& own) { return type == own.media_type; });
+        (extension == std::end(image_extensions) ? json : json["extensions"][extension->name])["source"] =
+            image;
         entry->second = append(writer, "textures", std::move(json));
     }
     return entry->second;

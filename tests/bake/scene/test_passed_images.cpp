@@ -1,0 +1,74 @@
+// Images that are not decoded, but passed through.
+
+#include <algorithm>
+
+#include "faqem/bake_levels.hpp"
+#include "faqem/error.hpp"
+#include "support/catch.hpp"
+#include "support/gltf_builder.hpp"
+
+using namespace faqem;
+using namespace faqem::testing;
+
+namespace {
+
+const std::string ktx2_bytes = "\xabKTX 20\xbb\r\n\x1a\n and more";
+const std::string avif_bytes = std::string("\0\0\0\x1c", 4) + "ftypavif and more";
+
+/// The square with a base colour texture of an extension.
+GltfBuilder passed_square(const std::string& bytes, const char* extension, const char* media_type) {
+    GltfBuilder builder = square_gltf();
+    const auto uvs = builder.accessor<Vec2f>({{0, 0}, {1, 0}, {0, 1}, {1, 1}}, f32, "VEC2");
+    builder.add("images", {{"bufferView", builder.view(std::vector<char>(bytes.begin(), bytes.end()))},
+                           {"mimeType", media_type}});
+    builder.add("textures", {{"extensions", {{extension, {{"source", 0}}}}}});
+    builder.json["materials"] = Json::parse(R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])");
+    Json& primitive = builder.json["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["attributes"]["TEXCOORD_0"] = uvs;
+    builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {extension};
+    return builder;
+}
+
+bool has_warning(const Report& report) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& text) {
+        return text.find("KTX2 or AVIF") != std::string::npos;
+    });
+}
+
+}  // namespace
+
+TEST_CASE("KTX2 and AVIF images are passed through, with their extensions") {
+    const bool is_ktx2 = GENERATE(true, false);
+    const char* extension = is_ktx2 ? "KHR_texture_basisu" : "EXT_texture_avif";
+    const std::string& bytes = is_ktx2 ? ktx2_bytes : avif_bytes;
+    const Asset asset = load_glb(passed_square(bytes, extension, is_ktx2 ? "image/ktx2" : "image/avif"));
+    REQUIRE(asset.images.size() == 1);
+    CHECK(asset.images[0].mime_type == (is_ktx2 ? "image/ktx2" : "image/avif"));
+    const auto check = [&](const Asset& out) {
+        const Json json = json_of(saved(out));
+        CHECK(json["extensionsRequired"] == Json({extension}));
+        CHECK(json["textures"][0]["extensions"][extension]["source"] == 0);
+        CHECK_FALSE(json["textures"][0].contains("source"));
+        const Image image = load_glb(saved(out)).images.at(0);
+        CHECK(std::string(image.encoded.begin(), image.encoded.end()) == bytes);
+    };
+    check(asset);
+    for (const Bake kind : {Bake::automatic, Bake::atlas, Bake::vertex, Bake::keep}) {
+        Options options;
+        options.target = ratio(0.5);
+        options.bake.kind = kind;
+        const SimplifiedAsset result = simplify(asset, options);
+        check(result.asset);
+        CHECK(result.asset.parts[0].uvs.size() == 1);
+        CHECK(has_warning(result.report) == (kind != Bake::keep));
+        options.target = {};
+        const auto levels = simplify_levels(asset, {ratio(0.5)}, options);
+        REQUIRE(levels.size() == 1);
+        check(levels[0].result.asset);
+    }
+    Options options;
+    options.bake.kind = Bake::none;
+    CHECK(simplify(asset, options).asset.images.empty());
+    CHECK_THROWS_AS(decode(asset.images[0]), UnsupportedError);
+}
