@@ -8,6 +8,7 @@
 
 #include "bake/atlas/point2.hpp"
 #include "bake/atlas/triangle_pairs.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -35,7 +36,15 @@ struct Chart {
     double texels = 0;  ///< wanted number of texels: sum of area times density squared
 };
 
+/// Normal of a triangle by its winding, with twice the area as length.
+inline engine::Vector3 area_vector(const PageTriangle& t) {
+    return engine::area_vector(engine::to_eigen(t.corners[0]), engine::to_eigen(t.corners[1]),
+                               engine::to_eigen(t.corners[2]));
+}
+
 /// Wanted number of texels of a face: its area times its density squared.
-double wanted_texels(const PageTriangle& face);
+inline double wanted_texels(const PageTriangle& face) {
+    return area_vector(face).norm() / 2 * face.density * face.density;
+}
 
 }  // namespace faqem::detail

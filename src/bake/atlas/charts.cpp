@@ -225,13 +225,6 @@ private:
 
 }  // namespace
 
-double wanted_texels(const PageTriangle& face) {
-    return engine::area_vector(engine::to_eigen(face.corners[0]), engine::to_eigen(face.corners[1]),
-                               engine::to_eigen(face.corners[2]))
-               .norm() /
-           2 * face.density * face.density;
-}
-
 Charts make_charts(std::span<const PageTriangle> faces, Workers workers) {
     const std::vector<std::vector<Index>> regions = cluster_faces(faces, workers.check_cancelled);
     double texels = 0;

@@ -131,8 +131,7 @@ public:
         double weight = 0, density = 0;
         for (std::size_t i = 0; i < size(); ++i) {
             const PageTriangle& face = all_[faces_[i]];
-            normal += engine::area_vector(to_eigen(face.corners[0]), to_eigen(face.corners[1]),
-                                          to_eigen(face.corners[2]));
+            normal += area_vector(face);
             weight += locals_[i].area;
             density += locals_[i].area * face.density;
         }

@@ -85,6 +85,20 @@ struct Box2 {
     constexpr double size() const { return std::max(width(), height()); }
 };
 
+/// Least and largest x at which the edges of a triangle cross the line at `y`; infinity and -infinity if none does.
+/// \tparam Point  has coordinates x and y
+template <class Point>
+std::array<double, 2> crossing_range(const std::array<Point, 3>& t, double y) {
+    std::array<double, 2> range = {HUGE_VAL, -HUGE_VAL};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Point &p = t[k], &q = t[(k + 1) % 3];
+        if ((p.y <= y) == (q.y <= y)) continue;
+        const double x = p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x);
+        range = {std::min(range[0], x), std::max(range[1], x)};
+    }
+    return range;
+}
+
 /// Bounding box of at least one point.
 inline Box2 bounding_box(std::span<const Point2> points) {
     const auto [left, right] = std::minmax_element(

@@ -194,11 +194,10 @@ void for_each_neighbour(std::span<const PageTriangle> all, std::span<const Index
     }
 }
 
-// Indices into `faces` in breadth-first order from `start`.
+// Indices into `faces` of those that are connected to `start`, breadth-first. Marks them as seen; none of them is yet.
 std::vector<std::size_t> breadth_first(std::span<const PageTriangle> all, std::span<const Index> faces,
-                                       std::size_t start) {
+                                       std::size_t start, std::vector<bool>& seen) {
     std::vector<std::size_t> order = {start};
-    std::vector<bool> seen(faces.size(), false);
     seen[start] = true;
     for (std::size_t k = 0; k < order.size(); ++k) {
         for_each_neighbour(all, faces, order[k], [&](std::size_t j) {
@@ -223,28 +222,19 @@ std::vector<std::vector<Index>> connected_subsets(std::span<const PageTriangle> 
                                                   std::span<const Index> faces) {
     std::vector<std::vector<Index>> result;
     std::vector<bool> seen(faces.size(), false);
-    std::vector<std::size_t> order;
     for (std::size_t i = 0; i < faces.size(); ++i) {
         if (seen[i]) continue;
-        seen[i] = true;
-        order.assign(1, i);
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            for_each_neighbour(all, faces, order[k], [&](std::size_t j) {
-                if (seen[j]) return;
-                seen[j] = true;
-                order.push_back(j);
-            });
-        }
         std::vector<Index>& group = result.emplace_back();
-        for (std::size_t k : order) group.push_back(faces[k]);
+        for (const std::size_t k : breadth_first(all, faces, i, seen)) group.push_back(faces[k]);
         std::sort(group.begin(), group.end());
     }
     return result;
 }
 
 std::array<std::vector<Index>, 2> bisect(std::span<const PageTriangle> all, std::span<const Index> faces) {
-    const std::size_t one = breadth_first(all, faces, 0).back();
-    const std::size_t other = breadth_first(all, faces, one).back();
+    std::vector<bool> seen(faces.size(), false), seen_again = seen;
+    const std::size_t one = breadth_first(all, faces, 0, seen).back();
+    const std::size_t other = breadth_first(all, faces, one, seen_again).back();
     std::vector<std::uint8_t> side(faces.size(), 2);
     std::array<std::vector<std::size_t>, 2> order = {{{one}, {other}}};
     std::array<std::size_t, 2> next = {0, 0};

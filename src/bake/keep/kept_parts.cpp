@@ -53,14 +53,14 @@ private:
 Part part_with_kept_faces(const Part& source, const std::vector<Index>& kept) {
     Part part = source;
     if (kept.size() == source.triangles.size()) return part;
-    for (std::size_t f = 0; f < kept.size(); ++f) {
-        part.triangles[f] = source.triangles[kept[f]];
-        if (!part.face_material.empty()) part.face_material[f] = source.face_material[kept[f]];
-        if (!part.face_object.empty()) part.face_object[f] = source.face_object[kept[f]];
-    }
-    part.triangles.resize(kept.size());
-    if (!part.face_material.empty()) part.face_material.resize(kept.size());
-    if (!part.face_object.empty()) part.face_object.resize(kept.size());
+    const auto select = [&](auto& values, const auto& of_source) {
+        if (values.empty()) return;
+        values.resize(kept.size());
+        for (std::size_t f = 0; f < kept.size(); ++f) values[f] = of_source[kept[f]];
+    };
+    select(part.triangles, source.triangles);
+    select(part.face_material, source.face_material);
+    select(part.face_object, source.face_object);
     return part;
 }
 

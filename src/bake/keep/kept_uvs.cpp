@@ -14,12 +14,11 @@
 #include "bake/transfer/material_groups.hpp"
 #include "bake/transfer/output_part.hpp"
 #include "bake/transfer/source_sampler.hpp"
+#include "bake/transfer/vector_conversion.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 
 namespace faqem::detail {
 namespace {
-
-using engine::to_eigen;
 
 // By how many dB pictures with kept UVs may have a lower PSNR: in the mean of small and large ones, and each. Unlit
 // and lit pictures are judged apart: a better surface does not make up for torn colours.
@@ -88,12 +87,7 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
             const Index group =
                 groups.group_of(face_material(*part.source, part.simplified->history.kept_faces[f]));
             faces[group].push_back({part.index, f});
-            const Triangle& t = mesh.triangles[f];
-            const double own =
-                engine::area_vector(to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]),
-                                    to_eigen(mesh.positions[t[2]]))
-                    .norm() /
-                2;
+            const double own = area_vector(mesh.positions, mesh.triangles[f]).norm() / 2;
             constexpr double third = 1.0 / 3;
             const double density =
                 sampler.texel_density(part.index, part.map->map(f, {third, third, third}).face);
@@ -183,20 +177,12 @@ std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart
     return result;
 }
 
-std::vector<std::uint8_t> parts_outside(std::span<const PartSet> sets, std::size_t parts) {
-    std::vector<std::uint8_t> result(parts, 1);
-    for (const PartSet& set : sets)
-        for (const Index p : set) result[p] = 0;
-    return result;
-}
-
 ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
                         const PartsWithUvs& candidates, DecodedImages& decoded, const Workers& workers) {
     const std::vector<PartSet>& sets = candidates.sets;
     const Channels seen{.base = true, .normal = true};
     const SourceSampler sampler(source, seen, workers, kept_flags(parts), &decoded);
-    const SourceSampler kept_sampler(candidates.asset, seen, workers, parts_outside(sets, parts.size()),
-                                     &decoded);
+    const SourceSampler kept_sampler(candidates.asset, seen, workers, {}, &decoded);
     const ExpectedPages pages = expected_pages(source, bake, parts, sampler, workers);
     const ComparedScenes scenes{
         source, parts, sampler, candidates.asset, kept_sampler, pages.texels, pages.has_normal_map};

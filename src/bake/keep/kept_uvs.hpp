@@ -2,8 +2,6 @@
 /// \file
 /// Parts that keep the UVs of the source because their pictures are as good as with new images.
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -42,10 +40,6 @@ struct ComparedUvs {
 /// Complexity: O(faces).
 std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart> parts,
                                    const SimplifiedParts& simplified);
-
-/// By part: 1 if it is in no set.
-/// \param parts  number of parts
-std::vector<std::uint8_t> parts_outside(std::span<const PartSet> sets, std::size_t parts);
 
 /// Compares pictures of parts that keep their UVs with those of perfect new images. A set is good if pictures of it have
 /// a PSNR at most 0.8 dB lower, and 0.25 dB in the mean of small and large ones (unlit and lit pictures each), 2 dB

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "bake/atlas/point2.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -56,15 +58,7 @@ void draw_face(Drawing& drawing, Index mesh, Index face, const std::array<Pictur
     const auto [low, high] = std::minmax({p[0].y, p[1].y, p[2].y});
     const auto [top, bottom] = pixels_between(low, high, drawing.size);
     for (std::int64_t y = top; y <= bottom; ++y) {
-        const double center = static_cast<double>(y) + 0.5;
-        double from = std::numeric_limits<double>::infinity(), to = -from;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const PicturePoint &a = p[k], &b = p[(k + 1) % 3];
-            if ((a.y <= center) == (b.y <= center)) continue;
-            const double x = a.x + (center - a.y) / (b.y - a.y) * (b.x - a.x);
-            from = std::min(from, x);
-            to = std::max(to, x);
-        }
+        const auto [from, to] = crossing_range(p, static_cast<double>(y) + 0.5);
         const auto [left, right] = pixels_between(from, to, drawing.size);
         for (std::int64_t x = left; x <= right; ++x) draw_pixel(drawing, mesh, face, p, area, x, y);
     }

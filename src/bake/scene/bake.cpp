@@ -61,8 +61,10 @@ PartsWithUvs make_parts_with_uvs(const Asset& source, const SimplifiedParts& sim
     result.sets = sets_with_uvs(source, parts, simplified);
     if (result.sets.empty()) return result;
     bake.kind = Bake::keep;
-    const std::vector<BakePart> with_uvs =
-        map_parts(source, simplified.kept, parts_outside(result.sets, parts.size()), bake, progress);
+    std::vector<std::uint8_t> is_left_out(parts.size(), 1);
+    for (const PartSet& set : result.sets)
+        for (const Index p : set) is_left_out[p] = 0;
+    const std::vector<BakePart> with_uvs = map_parts(source, simplified.kept, is_left_out, bake, progress);
     UnencodedResult baked;
     bake_keep({source, bake, with_uvs, progress}, baked);
     result.asset = std::move(baked.asset.asset);
@@ -90,42 +92,16 @@ bool bake_textures(const BakeJob& job, DecodedImages decoded, UnencodedResult& o
     return true;
 }
 
-// Bakes all parts that are not kept.
-// \return false as bake_textures()
-bool bake_by_kind(const BakeJob& job, DecodedImages decoded, UnencodedResult& out) {
-    switch (job.options.kind) {
-        case Bake::automatic:
-        case Bake::atlas:
-        case Bake::per_triangle:
-            return bake_textures(job, std::move(decoded), out);
-        case Bake::vertex:
-            bake_vertex(job, out);
-            break;
-        case Bake::keep:
-            bake_keep(job, out);
-            break;
-        case Bake::none:
-            bake_none(job, out);
-            break;
-    }
-    return true;
-}
-
-// A part that lost faces has no order of its own that a file should preserve.
-void set_file_orders(std::span<const BakePart> parts, std::span<const std::uint8_t> untouched,
-                     Asset& result) {
+// Sets what files record of the parts: the objects that the faces belong to, which are those of the source faces, and the
+// order of vertices and faces. A part that lost faces has no order of its own that a file should preserve.
+void keep_file_records(std::span<const BakePart> parts, std::span<const std::uint8_t> untouched,
+                       Asset& result) {
     for (const BakePart& part : parts) {
         if (untouched[part.index]) continue;
-        const bool lost_faces = part.faces() < part.source->triangles.size();
-        result.parts[part.index].file_order = lost_faces ? FileOrder::for_gpu : part.source->file_order;
-    }
-}
-
-// The faces of the result belong to the objects of the faces that they were.
-void keep_objects(std::span<const BakePart> parts, std::span<const std::uint8_t> untouched, Asset& result) {
-    for (const BakePart& part : parts) {
-        if (untouched[part.index] || part.source->face_object.empty()) continue;
         Part& to = result.parts[part.index];
+        const bool lost_faces = part.faces() < part.source->triangles.size();
+        to.file_order = lost_faces ? FileOrder::for_gpu : part.source->file_order;
+        if (part.source->face_object.empty()) continue;
         to.object_names = part.source->object_names;
         to.face_object.clear();
         for (const Index f : part.simplified->history.kept_faces)
@@ -152,7 +128,7 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
     keep_uvs(source, simplified, compared.good, parts, report);
 
     const BakeJob job{source, bake, parts, progress};
-    const bool is_late = !bake_by_kind(job, std::move(decoded), out);
+    const bool is_late = makes_atlas(bake.kind) && !bake_textures(job, std::move(decoded), out);
     if (is_late) {
         if (bake.correspondence == Recording::on)
             throw TimeLimitError(
@@ -160,16 +136,17 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
         report.warnings.push_back(
             "max_seconds was over before new textures were complete: the images are those of the source");
         for (const PartSet& set : with_uvs.sets) keep_uvs(source, simplified, set, parts, report);
-        bake_keep(job, out);
     }
-    const bool has_materials = is_late || bake.kind == Bake::keep;
+    const bool keeps_images = is_late || bake.kind == Bake::keep;
+    if (keeps_images) bake_keep(job, out);
+    if (bake.kind == Bake::vertex) bake_vertex(job, out);
+    if (bake.kind == Bake::none) bake_none(job, out);
     const std::vector<KeptPart> kept =
-        add_kept_parts(source, parts, untouched, std::move(with_uvs.asset), has_materials, out.asset);
+        add_kept_parts(source, parts, untouched, std::move(with_uvs.asset), keeps_images, out.asset);
     if (!is_late) add_kept_images(source, bake, kept, progress.workers(), out);
     for (PendingImage& image : out.pending)
         image.quality_change = quality_change(compared.pictures, image.content);
-    set_file_orders(parts, untouched, out.asset.asset);
-    keep_objects(parts, untouched, out.asset.asset);
+    keep_file_records(parts, untouched, out.asset.asset);
     progress.report(Phase::bake, 1);
 }
 

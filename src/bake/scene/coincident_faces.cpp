@@ -22,8 +22,7 @@ bool is_wound_against_normals(const Part& part, const Triangle& t) {
     if (part.normals.empty()) return false;
     engine::Vector3 normal = engine::Vector3::Zero();
     for (const Index v : t) normal += to_vector(part.normals[v]);
-    const auto at = [&](std::size_t c) { return engine::to_eigen(part.positions[t[c]]); };
-    return normal.dot(engine::area_vector(at(0), at(1), at(2))) < 0;
+    return normal.dot(area_vector(part.positions, t)) < 0;
 }
 
 std::vector<FaceAppearance> face_appearances(const Part& part) {

@@ -130,9 +130,8 @@ void bake_vertex(const BakeJob& job, UnencodedResult& out) {
             if (m == group.materials.front()) asset.materials.push_back(std::move(material));
         }
     }
-    double done = 0;
     for (const BakePart& part : job.parts) {
-        job.progress.report(Phase::bake, done++ / static_cast<double>(job.parts.size()));
+        job.progress.report(Phase::bake, part.index / static_cast<double>(job.parts.size()));
         Part& to = asset.parts.emplace_back();
         if (part.is_kept) continue;
         CornerValues values;

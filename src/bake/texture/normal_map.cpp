@@ -25,23 +25,18 @@ struct Deviation {
 };
 
 Deviation face_deviation(const BakePart& part, Index face) {
-    constexpr double third = 1.0 / 3, far = 2.0 / 3, near = 1.0 / 6;
     const TriangleMesh& mesh = part.simplified->mesh;
-    const Triangle& t = mesh.triangles[face];
     const Vector3 face_normal = oriented_face_normal(part, face);
-    const Vector3 twice = engine::area_vector(to_eigen(mesh.positions[t[0]]), to_eigen(mesh.positions[t[1]]),
-                                              to_eigen(mesh.positions[t[2]]));
     const std::vector<Vec3f>& normals = part.normals.normals;
     double sum = 0;
-    for (const Vec3& w :
-         {Vec3{third, third, third}, Vec3{far, near, near}, Vec3{near, far, near}, Vec3{near, near, far}}) {
+    for (const Vec3& w : quarter_points) {
         Vector3 own = Vector3::Zero();
         for (std::size_t i = 0; i < 3; ++i) own += w[i] * to_vector(normals[std::size_t{3} * face + i]);
         Vector3 other = interpolated_normal(*part.source, part.map->map(face, w));
         if (other.dot(face_normal) < 0) other = -other;
         sum += std::atan2(own.cross(other).norm(), own.dot(other));
     }
-    const double area = twice.norm();
+    const double area = area_vector(mesh.positions, mesh.triangles[face]).norm();
     return {std::isfinite(area) ? sum / 4 * area : 0, std::isfinite(area) ? area : 0};
 }
 

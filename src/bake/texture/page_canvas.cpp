@@ -27,6 +27,10 @@ void write_normal(const Vector3& sum, std::uint8_t* to) {
     for (Eigen::Index k = 0; k < 3; ++k) to[k] = linear_byte((n[k] + 1) / 2);
 }
 
+void write_rgb(const Vec3f& values, std::uint8_t (*encode)(double), std::size_t at, Pixels& image) {
+    for (std::size_t k = 0; k < 3 && !image.rgba.empty(); ++k) image.rgba[4 * at + k] = encode(values[k]);
+}
+
 void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float share, std::uint8_t* to) {
     if (layer.is_normal_map()) return write_normal(Vector3(sum[0], sum[1], sum[2]), to);
     const bool is_color = layer.encoding() == TexelEncoding::color_and_data_alpha;
@@ -64,14 +68,8 @@ void PageCanvas::write(std::uint32_t x, std::uint32_t y, const TexelSums& texel)
     closest_samples_[at] = texel.steps[static_cast<std::size_t>(MapStep::closest)];
     if (!images_.origins.empty()) images_.origins[at] = texel.origin;
     if (page_.channels.base) write_base(at, texel);
-    if (!images_.occlusion_roughness_metallic.rgba.empty()) {
-        std::uint8_t* p = &images_.occlusion_roughness_metallic.rgba[4 * at];
-        for (std::size_t k = 0; k < 3; ++k) p[k] = linear_byte(texel.orm[k]);
-    }
-    if (page_.channels.emissive) {
-        std::uint8_t* p = &images_.emissive.rgba[4 * at];
-        for (std::size_t k = 0; k < 3; ++k) p[k] = srgb_byte(texel.emissive[k]);
-    }
+    write_rgb(texel.orm, linear_byte, at, images_.occlusion_roughness_metallic);
+    write_rgb(texel.emissive, srgb_byte, at, images_.emissive);
     if (page_.channels.normal) write_normal(texel.normal, &images_.normal.rgba[4 * at]);
     if (texel.layer_samples == 0) return;
     has_layer_samples_[at] = 1;

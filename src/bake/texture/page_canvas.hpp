@@ -34,7 +34,7 @@ struct TexelSums {
     explicit TexelSums(std::size_t layer_count) : layers(layer_count) {}
 
     LinearColor base{};
-    std::array<float, 3> orm{};  ///< occlusion, roughness, metalness
+    Vec3f orm{};  ///< occlusion, roughness, metalness
     Vec3f emissive{};
     engine::Vector3 normal = engine::Vector3::Zero();  ///< in tangent space
     /// Of the page's own material; normals in tangent space in RGB.

@@ -68,20 +68,12 @@ void connect_triangles(std::span<const BakePart> parts, PageMesh& page) {
 
 // Source texels per unit of length at a simplified face: root mean square over four points.
 double density_at(const BakePart& part, const SourceSampler& sampler, Index face) {
-    constexpr double third = 1.0 / 3, far = 2.0 / 3, near = 1.0 / 6;
     double sum = 0;
-    for (const Vec3& w :
-         {Vec3{third, third, third}, Vec3{far, near, near}, Vec3{near, far, near}, Vec3{near, near, far}}) {
+    for (const Vec3& w : quarter_points) {
         const double d = sampler.texel_density(part.index, part.map->map(face, w).face);
         sum += d * d;
     }
     return std::sqrt(sum / 4);
-}
-
-double area_of(const PageTriangle& t) {
-    return engine::area_vector(to_eigen(t.corners[0]), to_eigen(t.corners[1]), to_eigen(t.corners[2]))
-               .norm() /
-           2;
 }
 
 // Clamps the densities of the triangles of one part to within a factor of 4 of their area-weighted median.
@@ -92,7 +84,7 @@ void clamp_densities(std::span<PageTriangle> triangles) {
     std::vector<Weighted> sorted;
     double total = 0;
     for (const PageTriangle& t : triangles) {
-        sorted.push_back({t.density, area_of(t)});
+        sorted.push_back({t.density, area_vector(t).norm() / 2});
         total += sorted.back().area;
     }
     std::sort(sorted.begin(), sorted.end(), [](const Weighted& a, const Weighted& b) {
@@ -110,8 +102,7 @@ void clamp_densities(std::span<PageTriangle> triangles) {
 double small_page_factor(std::span<const PageTriangle> triangles) {
     double texels = 0;
     for (const PageTriangle& t : triangles) {
-        const double area = area_of(t);
-        if (std::isfinite(area)) texels += area * t.density * t.density;
+        if (std::isfinite(area_vector(t).norm())) texels += wanted_texels(t);
     }
     return std::clamp(std::sqrt(small_page_texels / texels), 1.0, std::numbers::sqrt2);
 }
@@ -165,16 +156,15 @@ double relative_density(std::span<const BakePart> parts, const PageMesh& mesh, c
                         const Atlas& atlas, const Workers& workers) {
     std::vector<double> densities(mesh.faces.size());  // of the source at the middle of the triangle
     parallel_blocks(densities.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
-        constexpr double third = 1.0 / 3;
         for (std::size_t i = begin; i < end; ++i) {
             const PageFace& at = mesh.faces[i];
-            const SurfacePoint point = parts[at.part].map->map(at.face, {third, third, third});
+            const SurfacePoint point = parts[at.part].map->map(at.face, quarter_points[0]);
             densities[i] = sampler.texel_density(at.part, point.face);
         }
     });
     double own = 0, wanted = 0;
     for (std::size_t i = 0; i < densities.size(); ++i) {
-        const double texels = area_of(mesh.triangles[i]) * densities[i] * densities[i];
+        const double texels = area_vector(mesh.triangles[i]).norm() / 2 * densities[i] * densities[i];
         if (!std::isfinite(texels)) continue;
         const Triangle2& uv = atlas.placements[i].uv;
         own += std::abs(twice_signed_area(uv[0], uv[1], uv[2])) / 2;

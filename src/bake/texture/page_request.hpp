@@ -31,8 +31,6 @@ struct PageRequest {
     std::uint32_t samples = 1;                    ///< of each texel along each axis
     bool records_origins = false;                 ///< whether PageImages::origins is wanted
 
-    /// The part that a face is in.
-    const BakePart& part_of(const PageFace& face) const { return parts[face.part]; }
     /// Number of texels.
     std::size_t texels() const { return std::size_t{layout.atlas.width} * layout.atlas.height; }
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace faqem::detail {
 namespace {
@@ -14,15 +13,7 @@ std::uint32_t texel_at(double coordinate, std::uint32_t size) {
 
 // Marks the texels of a row whose centres are between the edges of a triangle.
 void mark_row(const Triangle2& t, std::uint32_t y, std::uint32_t width, std::uint8_t* row) {
-    const double center = y + 0.5;
-    double left = std::numeric_limits<double>::infinity(), right = -left;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Point2 &p = t[k], &q = t[(k + 1) % 3];
-        if ((p.y <= center) == (q.y <= center)) continue;
-        const double x = p.x + (center - p.y) / (q.y - p.y) * (q.x - p.x);
-        left = std::min(left, x);
-        right = std::max(right, x);
-    }
+    const auto [left, right] = crossing_range(t, y + 0.5);
     if (!(left <= right)) return;
     const double first = std::max(std::ceil(left - 0.5), 0.0);
     const double last = std::min(std::floor(right - 0.5), width - 1.0);

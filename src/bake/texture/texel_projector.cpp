@@ -36,7 +36,7 @@ TexelProjector::TexelProjector(const PageRequest& page, Index triangle)
       placement_(page.layout.atlas.placements[triangle]),
       frame_(placement_),
       right_angle_corner_(right_angle_corner(placement_)),
-      part_(page.part_of(face_)),
+      part_(page.parts[face_.part]),
       triangle_(page.mesh.triangles[triangle]),
       texel_length_(texel_length()),
       spacing_(texel_length_ / page.samples),
@@ -58,8 +58,8 @@ TexelProjector::TexelProjector(const PageRequest& page, Index triangle)
 
 // Length of the longer side of a texel on the simplified surface.
 double TexelProjector::texel_length() const {
+    if (is_single_texel()) return std::sqrt(area_vector(triangle_).norm() / 2);
     const auto at = [&](std::size_t i) { return to_eigen(triangle_.corners[i]); };
-    if (is_single_texel()) return std::sqrt(engine::area_vector(at(0), at(1), at(2)).norm() / 2);
     const auto side_length = [&](double x, double y) {
         const Point2& a = placement_.uv[0];
         const Vec3 w = frame_.at(a.x + x, a.y + y);

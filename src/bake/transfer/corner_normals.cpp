@@ -75,9 +75,7 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
 double normal_winding_agreement(const Part& part, std::size_t face) {
     Vector3 normals = Vector3::Zero();
     for (std::size_t c = 0; c < 3; ++c) normals += corner_normal(part, face, c);
-    const Triangle& t = part.triangles[face];
-    const Vector3 area = engine::area_vector(to_eigen(part.positions[t[0]]), to_eigen(part.positions[t[1]]),
-                                             to_eigen(part.positions[t[2]]));
+    const Vector3 area = area_vector(part.positions, part.triangles[face]);
     const double result = normals.dot(area);
     return result > 0 ? area.norm() : result < 0 ? -area.norm() : 0;
 }

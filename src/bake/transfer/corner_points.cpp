@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bake/transfer/source_normals.hpp"
+#include "bake/transfer/vector_conversion.hpp"
 #include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
@@ -140,10 +141,7 @@ private:
         const std::vector<Index>& groups = history_.face_groups;
         if (!groups.empty() && groups[candidate] != groups[history_.kept_faces[q.face]]) return false;
         if (q.normal.isZero(0)) return true;
-        const Triangle& t = history_.triangles[candidate];
-        const Vector3 area =
-            engine::area_vector(to_eigen(history_.positions[t[0]]), to_eigen(history_.positions[t[1]]),
-                                to_eigen(history_.positions[t[2]]));
+        const Vector3 area = area_vector(history_.positions, history_.triangles[candidate]);
         return area.dot(q.normal) >= min_facing_cosine * area.norm();
     }
 

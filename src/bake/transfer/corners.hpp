@@ -2,6 +2,7 @@
 /// \file
 /// Welds the corners of a simplified mesh with equal attributes to vertices of an output part.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -55,6 +56,12 @@ VertexCorners vertex_corners(const TriangleMesh& mesh);
 /// Barycentric coordinates of a point near a corner, at the fraction `inset` of the way from the corner to
 /// the midpoint of the opposite edge.
 Vec3 barycentrics_near_corner(std::size_t corner, double inset);
+
+/// Barycentric coordinates of four points of a triangle, each of which stands for a quarter of it.
+inline constexpr std::array<Vec3, 4> quarter_points = {{{1.0 / 3, 1.0 / 3, 1.0 / 3},
+                                                        {2.0 / 3, 1.0 / 6, 1.0 / 6},
+                                                        {1.0 / 6, 2.0 / 3, 1.0 / 6},
+                                                        {1.0 / 6, 1.0 / 6, 2.0 / 3}}};
 
 /// Attributes by corner of the simplified mesh. Empty ones are not written.
 struct CornerValues {

@@ -73,8 +73,7 @@ TangentFrame blend_frames(const std::array<FrameCorner, 3>& corners, const Vec3&
 }
 
 Vector3 winding_normal(const std::vector<Vec3>& positions, const Triangle& t) {
-    return unit_or_zero(
-        engine::area_vector(to_eigen(positions[t[0]]), to_eigen(positions[t[1]]), to_eigen(positions[t[2]])));
+    return unit_or_zero(area_vector(positions, t));
 }
 
 Vector3 interpolated_normal(const Part& part, const SurfacePoint& point) {

@@ -10,22 +10,18 @@
 #include <vector>
 
 #include "asset/image/image.hpp"
+#include "bake/transfer/vector_conversion.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
 
-using engine::to_eigen;
 using engine::Vector3;
 
 namespace {
 
 double face_area(const Part& part, std::size_t f) {
-    const Triangle& t = part.triangles[f];
-    return engine::area_vector(to_eigen(part.positions[t[0]]), to_eigen(part.positions[t[1]]),
-                               to_eigen(part.positions[t[2]]))
-               .norm() /
-           2;
+    return area_vector(part.positions, part.triangles[f]).norm() / 2;
 }
 
 double uv_area(const std::vector<Vec2f>& uvs, const Triangle& t) {

@@ -1,8 +1,9 @@
 #pragma once
 /// \file
-/// Conversions between the float arrays of assets and Eigen vectors.
+/// Conversions between the arrays of assets and Eigen vectors.
 
 #include <cmath>
+#include <span>
 
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
@@ -13,6 +14,12 @@ inline engine::Vector3 to_vector(const Vec3f& v) { return {v[0], v[1], v[2]}; }
 
 inline Vec3f to_vec3f(const engine::Vector3& v) {
     return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+/// Normal of a triangle by its winding, with twice the area as length.
+inline engine::Vector3 area_vector(std::span<const Vec3> positions, const Triangle& t) {
+    return engine::area_vector(engine::to_eigen(positions[t[0]]), engine::to_eigen(positions[t[1]]),
+                               engine::to_eigen(positions[t[2]]));
 }
 
 /// The normalized vector; zero if its length is zero or not finite.
