@@ -10,24 +10,10 @@
 
 #include "bake/texture/page_request.hpp"
 #include "bake/transfer/source_sampler.hpp"
-#include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
-
-/// The images of a page. Channels that were not requested have no pixels.
-struct PageImages {
-    Pixels base, occlusion_roughness_metallic, emissive, normal;
-    std::vector<Pixels> layers;                 ///< by PageRequest::layers
-    std::array<std::uint64_t, 3> samples = {};  ///< number of samples by MapStep
-    std::uint64_t uncertain_texels = 0;         ///< texels with a sample not found by MapStep::history
-    std::uint64_t texels = 0;                   ///< texels that show a triangle
-    std::vector<std::uint8_t> known;  ///< by texel: nonzero if a triangle shows it, see shown_texels()
-    /// By texel: nonzero if `layers` are known. Empty without layers.
-    std::vector<std::uint8_t> known_layers;
-    std::vector<TexelOrigin> origins;  ///< by texel; empty unless PageRequest::records_origins
-};
 
 /// Sums over the samples of one texel.
 struct TexelSums {

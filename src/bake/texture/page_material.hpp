@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "bake/texture/page_canvas.hpp"
+#include "bake/texture/page_request.hpp"
 #include "bake/texture/pending_images.hpp"
 #include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/material_groups.hpp"

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Input of the texel loop.
+/// Input and output of the texel loop.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,6 +13,8 @@
 #include "bake/transfer/corners.hpp"
 #include "bake/transfer/extension_layers.hpp"
 #include "bake/transfer/source_sampler.hpp"
+#include "faqem/asset.hpp"
+#include "faqem/bake.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -33,6 +36,19 @@ struct PageRequest {
 
     /// Number of texels.
     std::size_t texels() const { return std::size_t{layout.atlas.width} * layout.atlas.height; }
+};
+
+/// The images of a page. Channels that were not requested have no pixels.
+struct PageImages {
+    Pixels base, occlusion_roughness_metallic, emissive, normal;
+    std::vector<Pixels> layers;                 ///< by PageRequest::layers
+    std::array<std::uint64_t, 3> samples = {};  ///< number of samples by MapStep
+    std::uint64_t uncertain_texels = 0;         ///< texels with a sample not found by MapStep::history
+    std::uint64_t texels = 0;                   ///< texels that show a triangle
+    std::vector<std::uint8_t> known;  ///< by texel: nonzero if a triangle shows it, see shown_texels()
+    /// By texel: nonzero if `layers` are known. Empty without layers.
+    std::vector<std::uint8_t> known_layers;
+    std::vector<TexelOrigin> origins;  ///< by texel; empty unless PageRequest::records_origins
 };
 
 }  // namespace faqem::detail
