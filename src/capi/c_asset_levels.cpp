@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bake/scene/level_coverage.hpp"
-#include "bake/scene/parts_from_histories.hpp"
+#include "bake/simplify/level_coverage.hpp"
+#include "bake/simplify/parts_from_histories.hpp"
 #include "capi/c_asset.hpp"
 #include "capi/c_history.hpp"
 #include "capi/c_levels.hpp"

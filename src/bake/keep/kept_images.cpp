@@ -11,9 +11,9 @@
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "bake/keep/uv_texels.hpp"
+#include "bake/source/material_groups.hpp"
+#include "bake/source/texture_sampling.hpp"
 #include "bake/texture/image_choice.hpp"
-#include "bake/transfer/material_groups.hpp"
-#include "bake/transfer/texture_sampling.hpp"
 
 namespace faqem::detail {
 namespace {

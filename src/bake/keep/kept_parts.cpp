@@ -6,7 +6,7 @@
 
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
-#include "bake/transfer/material_groups.hpp"
+#include "bake/source/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {

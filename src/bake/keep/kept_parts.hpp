@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bake/keep/kept_images.hpp"
-#include "bake/transfer/corners.hpp"
+#include "bake/parts/corners.hpp"
 #include "faqem/bake.hpp"
 
 namespace faqem::detail {

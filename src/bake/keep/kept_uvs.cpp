@@ -9,12 +9,12 @@
 #include "asset/scene/messages.hpp"
 #include "bake/keep/part_reports.hpp"
 #include "bake/keep/picture_loss.hpp"
-#include "bake/texture/normal_map.hpp"
-#include "bake/texture/page_mesh.hpp"
-#include "bake/transfer/material_groups.hpp"
-#include "bake/transfer/output_part.hpp"
-#include "bake/transfer/source_sampler.hpp"
-#include "bake/transfer/vector_conversion.hpp"
+#include "bake/page/normal_map.hpp"
+#include "bake/page/page_mesh.hpp"
+#include "bake/parts/output_part.hpp"
+#include "bake/source/material_groups.hpp"
+#include "bake/source/source_sampler.hpp"
+#include "bake/source/vector_conversion.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 
 namespace faqem::detail {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "bake/parts/corners.hpp"
+#include "bake/source/texture_sampling.hpp"
 #include "bake/texture/image_choice.hpp"
-#include "bake/transfer/corners.hpp"
-#include "bake/transfer/texture_sampling.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
 

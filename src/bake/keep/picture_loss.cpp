@@ -8,9 +8,9 @@
 
 #include "asset/image/srgb.hpp"
 #include "bake/keep/seen_points.hpp"
-#include "bake/transfer/corner_normals.hpp"
-#include "bake/transfer/source_normals.hpp"
-#include "bake/transfer/vector_conversion.hpp"
+#include "bake/parts/corner_normals.hpp"
+#include "bake/source/source_normals.hpp"
+#include "bake/source/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {

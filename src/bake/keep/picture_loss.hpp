@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "bake/transfer/corners.hpp"
-#include "bake/transfer/source_sampler.hpp"
+#include "bake/parts/corners.hpp"
+#include "bake/source/source_sampler.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {

@@ -7,7 +7,7 @@
 
 #include "asset/image/srgb.hpp"
 #include "asset/scene/flatten.hpp"
-#include "bake/transfer/source_sampler.hpp"
+#include "bake/source/source_sampler.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"
 

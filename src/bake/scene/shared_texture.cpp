@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "bake/scene/simplify_parts.hpp"
-#include "bake/scene/step_progress.hpp"
+#include "bake/simplify/simplify_parts.hpp"
+#include "bake/simplify/step_progress.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "bake/scene/parts_error_bound_search.hpp"
+#include "bake/simplify/parts_error_bound_search.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
 

@@ -1,11 +1,11 @@
 #include <utility>
 
-#include "bake/scene/check_asset.hpp"
-#include "bake/scene/parts_error_bound_search.hpp"
 #include "bake/scene/shared_texture.hpp"
-#include "bake/scene/simplify_parts.hpp"
-#include "bake/scene/step_progress.hpp"
-#include "bake/scene/welded_source.hpp"
+#include "bake/simplify/check_asset.hpp"
+#include "bake/simplify/parts_error_bound_search.hpp"
+#include "bake/simplify/simplify_parts.hpp"
+#include "bake/simplify/step_progress.hpp"
+#include "bake/simplify/welded_source.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
 

@@ -7,8 +7,8 @@
 #include "asset/image/image.hpp"
 #include "asset/image/image_size.hpp"
 #include "asset/scene/material_textures.hpp"
-#include "bake/transfer/extension_layers.hpp"
-#include "bake/transfer/material_groups.hpp"
+#include "bake/source/extension_layers.hpp"
+#include "bake/source/material_groups.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <span>
 
-#include "bake/texture/bake_progress.hpp"
+#include "bake/parts/bake_progress.hpp"
+#include "bake/parts/corners.hpp"
+#include "bake/source/texture_sampling.hpp"
 #include "bake/texture/pending_images.hpp"
-#include "bake/transfer/corners.hpp"
-#include "bake/transfer/texture_sampling.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/options.hpp"
 

@@ -8,15 +8,15 @@
 
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
+#include "bake/page/normal_map.hpp"
+#include "bake/page/page_baker.hpp"
+#include "bake/page/page_layout.hpp"
+#include "bake/page/page_mesh.hpp"
+#include "bake/parts/output_part.hpp"
+#include "bake/source/extension_layers.hpp"
+#include "bake/source/material_groups.hpp"
 #include "bake/texture/bake_job.hpp"
-#include "bake/texture/normal_map.hpp"
-#include "bake/texture/page_baker.hpp"
-#include "bake/texture/page_layout.hpp"
 #include "bake/texture/page_material.hpp"
-#include "bake/texture/page_mesh.hpp"
-#include "bake/transfer/extension_layers.hpp"
-#include "bake/transfer/material_groups.hpp"
-#include "bake/transfer/output_part.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "asset/scene/messages.hpp"
+#include "bake/page/normal_map.hpp"
+#include "bake/parts/corner_transfer.hpp"
+#include "bake/parts/output_part.hpp"
+#include "bake/parts/vertex_attributes.hpp"
+#include "bake/source/extension_layers.hpp"
+#include "bake/source/material_groups.hpp"
+#include "bake/source/source_sampler.hpp"
+#include "bake/source/texture_sampling.hpp"
 #include "bake/texture/bake_job.hpp"
-#include "bake/texture/normal_map.hpp"
-#include "bake/transfer/corner_transfer.hpp"
-#include "bake/transfer/extension_layers.hpp"
-#include "bake/transfer/material_groups.hpp"
-#include "bake/transfer/output_part.hpp"
-#include "bake/transfer/source_sampler.hpp"
-#include "bake/transfer/texture_sampling.hpp"
-#include "bake/transfer/vertex_attributes.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -4,10 +4,10 @@
 
 #include <span>
 
-#include "bake/texture/page_request.hpp"
+#include "bake/page/page_request.hpp"
+#include "bake/source/extension_layers.hpp"
+#include "bake/source/material_groups.hpp"
 #include "bake/texture/pending_images.hpp"
-#include "bake/transfer/extension_layers.hpp"
-#include "bake/transfer/material_groups.hpp"
 
 namespace faqem::detail {
 

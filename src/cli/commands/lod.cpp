@@ -5,9 +5,9 @@
 #include <string>
 
 #include "asset/file_format.hpp"
-#include "bake/scene/level_coverage.hpp"
-#include "bake/scene/scene_size.hpp"
-#include "bake/scene/step_progress.hpp"
+#include "bake/simplify/level_coverage.hpp"
+#include "bake/simplify/scene_size.hpp"
+#include "bake/simplify/step_progress.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/lod_level.hpp"
 #include "cli/commands/lod_manifest.hpp"

@@ -7,7 +7,7 @@
 
 #include "asset/file_format.hpp"
 #include "asset/io/recovery.hpp"
-#include "bake/scene/parts_from_histories.hpp"
+#include "bake/simplify/parts_from_histories.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"

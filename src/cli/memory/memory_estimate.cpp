@@ -11,7 +11,7 @@
 #include "asset/image/image_size.hpp"
 #include "asset/model_files.hpp"
 #include "asset/scene/measured_instances.hpp"
-#include "bake/transfer/material_groups.hpp"
+#include "bake/source/material_groups.hpp"
 #include "cli/file_stamp.hpp"
 #include "cli/memory/gltf_json_memory.hpp"
 #include "cli/memory/gltf_memory.hpp"

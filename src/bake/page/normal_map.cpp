@@ -1,0 +1,92 @@
+#include "bake/page/normal_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "asset/scene/material_textures.hpp"
+#include "bake/parts/corner_normals.hpp"
+#include "bake/source/source_normals.hpp"
+#include "bake/source/tangents.hpp"
+#include "bake/source/vector_conversion.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::to_eigen;
+using engine::Vector3;
+
+// Smallest mean normal deviation, in degrees, for which a normal map is made from geometry. Below it the
+// visible difference does not justify the size of the image.
+constexpr double min_deviation = 5;
+
+struct Deviation {
+    double sum = 0, area = 0;
+};
+
+Deviation face_deviation(const BakePart& part, Index face) {
+    const TriangleMesh& mesh = part.simplified->mesh;
+    const Vector3 face_normal = oriented_face_normal(part, face);
+    const std::vector<Vec3f>& normals = part.normals.normals;
+    double sum = 0;
+    for (const Vec3& w : quarter_points) {
+        Vector3 own = Vector3::Zero();
+        for (std::size_t i = 0; i < 3; ++i) own += w[i] * to_vector(normals[std::size_t{3} * face + i]);
+        Vector3 other = interpolated_normal(*part.source, part.map->map(face, w));
+        if (other.dot(face_normal) < 0) other = -other;
+        sum += std::atan2(own.cross(other).norm(), own.dot(other));
+    }
+    const double area = area_vector(mesh.positions, mesh.triangles[face]).norm();
+    return {std::isfinite(area) ? sum / 4 * area : 0, std::isfinite(area) ? area : 0};
+}
+
+}  // namespace
+
+double normal_deviation(std::span<const BakePart> parts, std::span<const PageFace> faces,
+                        const Workers& workers) {
+    std::vector<Deviation> each(faces.size());
+    parallel_blocks(faces.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            each[i] = face_deviation(parts[faces[i].part], faces[i].face);
+    });
+    Deviation all;
+    for (const Deviation& d : each) {
+        all.sum += d.sum;
+        all.area += d.area;
+    }
+    return all.area > 0 ? all.sum / all.area * 180 / std::numbers::pi : 0;
+}
+
+bool wants_normal_map(NormalMap choice, const Asset& source, const MaterialGroup& group,
+                      std::span<const BakePart> parts, std::span<const PageFace> faces,
+                      const Workers& workers) {
+    if (choice == NormalMap::off || group.material.unlit || faces.empty()) return false;
+    if (choice == NormalMap::on) return true;
+    const auto has_any = [&](bool (*has)(const Material&)) {
+        return std::any_of(group.materials.begin(), group.materials.end(),
+                           [&](Index m) { return has(material_or_default(source, m)); });
+    };
+    if (has_any([](const Material& m) { return bool(m.normal_texture); })) return true;
+    return has_any(has_textures) && normal_deviation(parts, faces, workers) > min_deviation;
+}
+
+void set_tangents(const BakePart& part, std::span<const Index> faces, std::span<const Vec2f> uvs,
+                  std::vector<Vec4f>& tangents) {
+    const TriangleMesh& mesh = part.simplified->mesh;
+    std::vector<TangentCorner> corners;
+    corners.reserve(3 * faces.size());
+    for (const Index f : faces) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t c = std::size_t{3} * f + i;
+            corners.push_back(
+                {to_vec3f(to_eigen(mesh.positions[mesh.triangles[f][i]])), part.normals.normals[c], uvs[c]});
+        }
+    }
+    tangents.resize(3 * part.faces(), Vec4f{});
+    const std::vector<Vec4f> made = mikk_tangents(corners);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        tangents[std::size_t{3} * faces[i / 3] + i % 3] = made[i];
+    }
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,152 @@
+#include "bake/page/page_canvas.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "bake/page/push_pull.hpp"
+#include "bake/page/shown_texels.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::Vector3;
+
+// Texels with a lower alpha take their colour from the texels around them, if their material has visible ones.
+constexpr float min_visible_alpha = 1.0f / 512;
+
+Pixels blank(const PageRequest& page, bool wanted, bool has_alpha) {
+    if (!wanted) return {};
+    const Atlas& atlas = page.layout.atlas;
+    return {atlas.width, atlas.height, std::vector<std::uint8_t>(4 * page.texels(), 255), has_alpha};
+}
+
+// Encodes the direction of `sum` in three bytes; (0, 0, 1) if its length is zero.
+void write_normal(const Vector3& sum, std::uint8_t* to) {
+    const double length = sum.norm();
+    const Vector3 n = length > 1e-6 ? Vector3(sum / length) : Vector3(0, 0, 1);
+    for (Eigen::Index k = 0; k < 3; ++k) to[k] = linear_byte((n[k] + 1) / 2);
+}
+
+void write_rgb(const Vec3f& values, std::uint8_t (*encode)(double), std::size_t at, Pixels& image) {
+    for (std::size_t k = 0; k < 3 && !image.rgba.empty(); ++k) image.rgba[4 * at + k] = encode(values[k]);
+}
+
+void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float share, std::uint8_t* to) {
+    if (layer.is_normal_map()) return write_normal(Vector3(sum[0], sum[1], sum[2]), to);
+    const bool is_color = layer.encoding() == TexelEncoding::color_and_data_alpha;
+    for (std::size_t k = 0; k < 3 && layer.has_color(); ++k)
+        to[k] = is_color ? srgb_byte(sum[k] * share) : linear_byte(sum[k] * share);
+    if (layer.has_alpha()) to[3] = linear_byte(sum[3] * share);
+}
+
+}  // namespace
+
+PageCanvas::PageCanvas(const PageRequest& page) : page_(page) {
+    const Channels& channels = page.channels;
+    images_.base = blank(page, channels.base, page.alpha_mode != AlphaMode::opaque);
+    images_.occlusion_roughness_metallic =
+        blank(page, channels.occlusion || channels.metallic_roughness, false);
+    images_.emissive = blank(page, channels.emissive, false);
+    images_.normal = blank(page, channels.normal, false);
+    for (const ExtensionLayer& layer : page.layers)
+        images_.layers.push_back(blank(page, true, layer.has_alpha()));
+    is_covered_.assign(page.texels(), 0);
+    approximate_samples_.assign(page.texels(), 0);
+    closest_samples_.assign(page.texels(), 0);
+    if (page.records_origins) images_.origins.resize(page.texels());
+    if (images_.base.has_alpha) {
+        has_color_.assign(page.texels(), 0);
+        material_.resize(page.texels());
+    }
+    if (!page.layers.empty()) has_layer_samples_.assign(page.texels(), 0);
+}
+
+void PageCanvas::write(std::uint32_t x, std::uint32_t y, const TexelSums& texel) {
+    const std::size_t at = std::size_t{y} * page_.layout.atlas.width + x;
+    is_covered_[at] = 1;
+    approximate_samples_[at] = texel.steps[static_cast<std::size_t>(MapStep::approximate)];
+    closest_samples_[at] = texel.steps[static_cast<std::size_t>(MapStep::closest)];
+    if (!images_.origins.empty()) images_.origins[at] = texel.origin;
+    if (page_.channels.base) write_base(at, texel);
+    write_rgb(texel.orm, linear_byte, at, images_.occlusion_roughness_metallic);
+    write_rgb(texel.emissive, srgb_byte, at, images_.emissive);
+    if (page_.channels.normal) write_normal(texel.normal, &images_.normal.rgba[4 * at]);
+    if (texel.layer_samples == 0) return;
+    has_layer_samples_[at] = 1;
+    for (std::size_t i = 0; i < page_.layers.size(); ++i)
+        write_layer(page_.layers[i], texel.layers[i], 1.0f / static_cast<float>(texel.layer_samples),
+                    &images_.layers[i].rgba[4 * at]);
+}
+
+void PageCanvas::write_base(std::size_t at, const TexelSums& texel) {
+    const auto& [part, point] = texel.origin;
+    const float alpha = texel.base[3];
+    const bool is_visible = alpha > min_visible_alpha;
+    std::uint8_t* p = &images_.base.rgba[4 * at];
+    if (is_visible) {
+        for (std::size_t k = 0; k < 3; ++k) p[k] = srgb_byte(texel.base[k] / alpha);
+    } else {
+        const Vec3f stored = page_.sampler.stored_base_color(part, point);
+        for (std::size_t k = 0; k < 3; ++k) p[k] = srgb_byte(stored[k]);
+    }
+    p[3] = linear_byte(alpha);
+    if (has_color_.empty()) return;
+    has_color_[at] = is_visible;
+    material_[at] = page_.sampler.material(part, point);
+}
+
+// The texels of a material without any visible texel keep the colours that were stored under its alpha.
+void PageCanvas::keep_colors_of_hidden_materials() {
+    std::vector<std::uint8_t> is_visible;  // the default material first
+    const auto slot = [](Index material) { return material == no_index ? 0 : std::size_t{material} + 1; };
+    for (std::size_t i = 0; i < has_color_.size(); ++i) {
+        if (!is_covered_[i]) continue;
+        is_visible.resize(std::max(is_visible.size(), slot(material_[i]) + 1), 0);
+        if (has_color_[i]) is_visible[slot(material_[i])] = 1;
+    }
+    for (std::size_t i = 0; i < has_color_.size(); ++i)
+        if (is_covered_[i] && !is_visible[slot(material_[i])]) has_color_[i] = 1;
+}
+
+void PageCanvas::fill(const Workers& workers) {
+    struct Filled {
+        Pixels& image;
+        const std::vector<std::uint8_t>&known, &known_alpha;
+    };
+    std::vector<Filled> all = {{images_.base, images_.base.has_alpha ? has_color_ : is_covered_, is_covered_},
+                               {images_.occlusion_roughness_metallic, is_covered_, is_covered_},
+                               {images_.emissive, is_covered_, is_covered_},
+                               {images_.normal, is_covered_, is_covered_}};
+    for (Pixels& layer : images_.layers) all.push_back({layer, has_layer_samples_, has_layer_samples_});
+    parallel_blocks(all.size(), 1, workers, [&](std::size_t i, std::size_t) {
+        auto& [image, known, known_alpha] = all[i];
+        if (image.rgba.empty()) return;
+        push_pull(image, known, {0, 3});
+        if (image.has_alpha) push_pull(image, known_alpha, {3, 4});
+    });
+}
+
+void PageCanvas::count_samples() {
+    const std::uint64_t samples = std::uint64_t{page_.samples} * page_.samples;
+    auto& [history, approximate, closest] = images_.samples;
+    for (std::size_t i = 0; i < is_covered_.size(); ++i) {
+        images_.texels += is_covered_[i];
+        history += is_covered_[i] * (samples - approximate_samples_[i] - closest_samples_[i]);
+        approximate += approximate_samples_[i];
+        closest += closest_samples_[i];
+        images_.uncertain_texels += approximate_samples_[i] + closest_samples_[i] > 0;
+    }
+}
+
+PageImages PageCanvas::finish(const Workers& workers) && {
+    count_samples();
+    keep_colors_of_hidden_materials();
+    fill(workers);
+    images_.known = shown_texels(page_.layout.atlas);
+    images_.known_layers = std::move(has_layer_samples_);
+    for (std::size_t i = 0; i < images_.known_layers.size(); ++i)
+        images_.known_layers[i] = images_.known_layers[i] && images_.known[i];
+    return std::move(images_);
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,99 @@
+#include "bake/page/page_layout.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "bake/atlas/charts.hpp"
+#include "bake/atlas/triangle_pairs.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::to_eigen;
+
+// With fewer faces, charts have more gutter than the cells of a per-triangle atlas.
+constexpr std::size_t min_mean_faces_per_chart = 3;
+
+std::uint8_t opposite_longest_edge(const PairTriangle& triangle) {
+    const auto longest = std::max_element(triangle.edges.begin(), triangle.edges.end());
+    return static_cast<std::uint8_t>(longest - triangle.edges.begin());
+}
+
+PairTriangle pair_triangle(const PageTriangle& triangle) {
+    PairTriangle result{{}, triangle.adjacent};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const auto &p = triangle.corners[(c + 1) % 3], &q = triangle.corners[(c + 2) % 3];
+        result.edges[c] = triangle.density * (to_eigen(p) - to_eigen(q)).norm();
+    }
+    return result;
+}
+
+std::optional<PageLayout> layout_triangles(const PageMesh& mesh, std::uint32_t texture_size,
+                                           const Workers& workers) {
+    std::vector<PairTriangle> shapes(mesh.triangles.size());
+    std::transform(mesh.triangles.begin(), mesh.triangles.end(), shapes.begin(), pair_triangle);
+    const std::vector<std::uint8_t> corner = pair_triangles(shapes);
+    std::vector<AtlasTriangle> triangles(shapes.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        AtlasTriangle& t = triangles[i];
+        t.right_angle_corner = corner[i] < 3 ? corner[i] : opposite_longest_edge(shapes[i]);
+        t.legs = {shapes[i].edges[(t.right_angle_corner + 2) % 3],
+                  shapes[i].edges[(t.right_angle_corner + 1) % 3]};
+        t.order = mesh.order[i];
+        if (corner[i] < 3) t.partner = shapes[i].adjacent[corner[i]].triangle;
+    }
+    std::optional<Atlas> atlas = pack_triangles(triangles, texture_size, workers.check_cancelled);
+    if (!atlas) return std::nullopt;
+    PageLayout result{*std::move(atlas), {}, {}, {}};
+    result.summary.kind = Bake::per_triangle;
+    result.summary.charts = result.atlas.cells.size();
+    return result;
+}
+
+// Mean stretch of charts, weighted by their texels.
+double mean_stretch(std::span<const Chart> charts) {
+    double stretch = 0, texels = 0;
+    for (const Chart& chart : charts) {
+        stretch += chart.stretch * chart.texels;
+        texels += chart.texels;
+    }
+    return texels > 0 ? stretch / texels : BakedPage{}.stretch;
+}
+
+std::optional<PageLayout> layout_charts(const PageMesh& mesh, const Charts& charts,
+                                        std::uint32_t texture_size, const Workers& workers) {
+    std::optional<ChartPage> page = pack_charts(charts.charts, mesh.triangles.size(), texture_size, workers);
+    if (!page) return std::nullopt;
+    PageLayout result{std::move(page->atlas), std::move(page->charts), {}, {}};
+    result.tiles = split_into_tiles(result.charts);
+    result.summary.kind = Bake::atlas;
+    result.summary.charts = charts.charts.size();
+    result.summary.faces_outside_charts = charts.faces_over_work_limit;
+    result.summary.stretch = mean_stretch(charts.charts);
+    return result;
+}
+
+std::optional<PageLayout> layout_by_kind(const PageMesh& mesh, Bake kind, std::uint32_t texture_size,
+                                         const Workers& workers) {
+    if (kind == Bake::per_triangle) return layout_triangles(mesh, texture_size, workers);
+    const Charts charts = make_charts(mesh.triangles, workers);
+    const bool has_small_charts = min_mean_faces_per_chart * charts.charts.size() > mesh.triangles.size();
+    return kind == Bake::automatic && has_small_charts ? layout_triangles(mesh, texture_size, workers)
+                                                       : layout_charts(mesh, charts, texture_size, workers);
+}
+
+}  // namespace
+
+std::optional<PageLayout> layout_page(const PageMesh& mesh, Bake kind, std::uint32_t texture_size,
+                                      const Workers& workers) {
+    std::optional<PageLayout> result = layout_by_kind(mesh, kind, texture_size, workers);
+    if (!result) return std::nullopt;
+    result->summary.width = result->atlas.width;
+    result->summary.height = result->atlas.height;
+    result->summary.faces = mesh.triangles.size();
+    return result;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,176 @@
+#include "bake/page/page_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "bake/parts/corner_normals.hpp"
+#include "faqem/detail/base/morton.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::to_eigen;
+using engine::Vector3;
+
+// Pages with fewer texels get up to twice as many.
+constexpr double small_page_texels = 1 << 18;
+
+// A half-edge of a face.
+struct FaceEdge {
+    Index part, low, high;  // vertices
+    std::uint64_t corner;   // 3 * triangle + corner opposite the edge
+    bool up;                // directed from low to high
+
+    bool same_edge(const FaceEdge& o) const { return part == o.part && low == o.low && high == o.high; }
+};
+
+// The half-edges of all faces; those of one edge are consecutive.
+std::vector<FaceEdge> sorted_edges(std::span<const BakePart> parts, std::span<const PageFace> faces) {
+    std::vector<FaceEdge> edges;
+    edges.reserve(3 * faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Triangle& t = parts[faces[i].part].simplified->mesh.triangles[faces[i].face];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Index a = t[(c + 1) % 3], b = t[(c + 2) % 3];
+            edges.push_back({faces[i].part, std::min(a, b), std::max(a, b), 3 * i + c, a < b});
+        }
+    }
+    std::sort(edges.begin(), edges.end(), [](const FaceEdge& a, const FaceEdge& b) {
+        if (a.part != b.part) return a.part < b.part;
+        if (a.low != b.low) return a.low < b.low;
+        return a.high != b.high ? a.high < b.high : a.corner < b.corner;
+    });
+    return edges;
+}
+
+// Sets PageTriangle::adjacent and crease.
+void connect_triangles(std::span<const BakePart> parts, PageMesh& page) {
+    const auto connect = [&](std::uint64_t from, std::uint64_t to) {
+        const PageFace &own = page.faces[from / 3], &other = page.faces[to / 3];
+        PageTriangle& triangle = page.triangles[from / 3];
+        triangle.adjacent[from % 3] = {static_cast<Index>(to / 3), static_cast<std::uint8_t>(to % 3)};
+        triangle.crease[from % 3] =
+            is_crease(parts[own.part].normals, own.face, from % 3, other.face, to % 3);
+    };
+    const std::vector<FaceEdge> edges = sorted_edges(parts, page.faces);
+    for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
+        for (end = begin + 1; end < edges.size() && edges[end].same_edge(edges[begin]);) ++end;
+        const FaceEdge &a = edges[begin], &b = edges[end - 1];
+        if (end - begin != 2 || a.up == b.up || a.corner / 3 == b.corner / 3) continue;
+        connect(a.corner, b.corner);
+        connect(b.corner, a.corner);
+    }
+}
+
+// Source texels per unit of length at a simplified face: root mean square over four points.
+double density_at(const BakePart& part, const SourceSampler& sampler, Index face) {
+    double sum = 0;
+    for (const Vec3& w : quarter_points) {
+        const double d = sampler.texel_density(part.index, part.map->map(face, w).face);
+        sum += d * d;
+    }
+    return std::sqrt(sum / 4);
+}
+
+// Clamps the densities of the triangles of one part to within a factor of 4 of their area-weighted median.
+void clamp_densities(std::span<PageTriangle> triangles) {
+    struct Weighted {
+        double density, area;
+    };
+    std::vector<Weighted> sorted;
+    double total = 0;
+    for (const PageTriangle& t : triangles) {
+        sorted.push_back({t.density, area_vector(t).norm() / 2});
+        total += sorted.back().area;
+    }
+    std::sort(sorted.begin(), sorted.end(), [](const Weighted& a, const Weighted& b) {
+        return a.density != b.density ? a.density < b.density : a.area < b.area;
+    });
+    double sum = 0, median = 0;
+    for (const Weighted& w : sorted) {
+        median = w.density;
+        if ((sum += w.area) >= total / 2) break;
+    }
+    for (PageTriangle& t : triangles) t.density = std::clamp(t.density, median / 4, median * 4);
+}
+
+// The factor by which the lengths of a page are larger than the densities say.
+double small_page_factor(std::span<const PageTriangle> triangles) {
+    double texels = 0;
+    for (const PageTriangle& t : triangles) {
+        if (std::isfinite(area_vector(t).norm())) texels += wanted_texels(t);
+    }
+    return std::clamp(std::sqrt(small_page_texels / texels), 1.0, std::numbers::sqrt2);
+}
+
+// Sets the places of the triangles of one part, along a curve over the bounding box of the part.
+void set_order(const BakePart& part, std::span<const PageTriangle> triangles,
+               std::span<std::uint64_t> order) {
+    Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Vec3& p : part.simplified->mesh.positions) {
+        low = low.cwiseMin(to_eigen(p));
+        high = high.cwiseMax(to_eigen(p));
+    }
+    const double size = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const auto& p = triangles[i].corners;
+        const Vector3 middle = (to_eigen(p[0]) + to_eigen(p[1]) + to_eigen(p[2])) / 3;
+        order[i] = (std::uint64_t{part.index & 0xffff} << 48) | morton<16>((middle - low) / size);
+    }
+}
+
+}  // namespace
+
+PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> faces,
+                        const SourceSampler& sampler, const std::optional<double>& density,
+                        const Workers& workers) {
+    const std::size_t count = faces.size();
+    PageMesh page{std::move(faces), std::vector<PageTriangle>(count), std::vector<std::uint64_t>(count)};
+    parallel_blocks(count, 256, workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PageFace& at = page.faces[i];
+            const TriangleMesh& mesh = parts[at.part].simplified->mesh;
+            for (std::size_t c = 0; c < 3; ++c)
+                page.triangles[i].corners[c] = mesh.positions[mesh.triangles[at.face][c]];
+            page.triangles[i].density = density_at(parts[at.part], sampler, at.face);
+        }
+    });
+    connect_triangles(parts, page);
+    for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+        const Index part = page.faces[begin].part;
+        while (end < count && page.faces[end].part == part) ++end;
+        const auto of_part = std::span(page.triangles).subspan(begin, end - begin);
+        clamp_densities(of_part);
+        set_order(parts[part], of_part, std::span(page.order).subspan(begin, end - begin));
+    }
+    const double factor = density ? *density : small_page_factor(page.triangles);
+    for (PageTriangle& t : page.triangles) t.density *= factor;
+    return page;
+}
+
+double relative_density(std::span<const BakePart> parts, const PageMesh& mesh, const SourceSampler& sampler,
+                        const Atlas& atlas, const Workers& workers) {
+    std::vector<double> densities(mesh.faces.size());  // of the source at the middle of the triangle
+    parallel_blocks(densities.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PageFace& at = mesh.faces[i];
+            const SurfacePoint point = parts[at.part].map->map(at.face, quarter_points[0]);
+            densities[i] = sampler.texel_density(at.part, point.face);
+        }
+    });
+    double own = 0, wanted = 0;
+    for (std::size_t i = 0; i < densities.size(); ++i) {
+        const double texels = area_vector(mesh.triangles[i]).norm() / 2 * densities[i] * densities[i];
+        if (!std::isfinite(texels)) continue;
+        const Triangle2& uv = atlas.placements[i].uv;
+        own += std::abs(twice_signed_area(uv[0], uv[1], uv[2])) / 2;
+        wanted += texels;
+    }
+    return wanted > 0 ? std::sqrt(own / wanted) : 0;
+}
+
+}  // namespace faqem::detail

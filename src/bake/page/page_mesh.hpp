@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// The faces of a page, flattened from the parts that they are in.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bake/atlas/chart.hpp"
+#include "bake/atlas/per_triangle.hpp"
+#include "bake/parts/corners.hpp"
+#include "bake/source/source_sampler.hpp"
+#include "faqem/detail/base/parallel.hpp"
+
+namespace faqem::detail {
+
+/// A face of a simplified mesh.
+struct PageFace {
+    Index part = 0, face = 0;
+};
+
+/// The triangles of a page as the layout and the texel loop need them. All vectors are by triangle.
+struct PageMesh {
+    std::vector<PageFace> faces;  ///< where the triangles are from; those of one part are consecutive
+    /// Corners, neighbours across edges with exactly two faces of consistent winding, creases, and the wanted texel
+    /// densities.
+    std::vector<PageTriangle> triangles;
+    /// Place of the triangle along a Morton curve through its part. Triangles with close values look alike.
+    std::vector<std::uint64_t> order;
+};
+
+/// Makes the mesh of a page. Texel densities are those of the source, between a quarter and four times the median of
+/// the part; small pages have up to twice as many texels.
+/// \param parts    the parts, with maps and normals
+/// \param faces    the faces of the page; those of one part must be consecutive
+/// \param density  factor of the texel densities, instead of that for small pages
+/// Complexity: O(n log n).
+PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> faces,
+                        const SourceSampler& sampler, const std::optional<double>& density,
+                        const Workers& workers);
+
+/// Texel density of a page divided by that of the source, both root mean squares over the simplified surface.
+/// \param atlas  of the triangles
+/// Complexity: O(n) map queries.
+double relative_density(std::span<const BakePart> parts, const PageMesh& mesh, const SourceSampler& sampler,
+                        const Atlas& atlas, const Workers& workers);
+
+}  // namespace faqem::detail

@@ -1,0 +1,119 @@
+#pragma once
+/// \file
+/// Maps samples of texels to points of the simplified mesh and of the source.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bake/atlas/chart.hpp"
+#include "bake/atlas/per_triangle.hpp"
+#include "bake/atlas/point2.hpp"
+#include "bake/page/page_request.hpp"
+#include "bake/page/warm_start_cache.hpp"
+#include "bake/parts/corner_normals.hpp"
+#include "bake/source/source_normals.hpp"
+#include "faqem/detail/mapping/local_map.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+
+/// A sample of a texel as a point on a face of the simplified mesh.
+struct TexelSample {
+    Index face = 0;
+    Vec3 weights = {};            ///< barycentric coordinates
+    std::size_t cache_index = 0;  ///< 0 on the projector's triangle, c + 1 across its edge opposite corner c
+    double x = 0, y = 0;          ///< position on the page, in texels
+};
+
+/// Projects samples of one triangle of the atlas to the source. Not thread-safe, since it keeps warm starts and the
+/// source's faces near the last samples.
+class TexelProjector {
+public:
+    /// \param page      must outlive this
+    /// \param triangle  index into the mesh of the page
+    TexelProjector(const PageRequest& page, Index triangle);
+
+    /// The sample at position (s, t), from 0 to 1, in texel (x, y): on the triangle, or across an edge (the
+    /// gutter) on its neighbour, unfolded into the triangle's plane.
+    TexelSample point(std::uint32_t x, std::uint32_t y, double s, double t) const;
+
+    /// The point of the source that corresponds to a sample in texel (x, y). Samples must be passed row by row from
+    /// the top, each row from the left.
+    SurfacePoint project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y);
+
+    /// Normal of the simplified face at a sample, see oriented_face_normal().
+    engine::Vector3 face_normal(const TexelSample& at) const { return oriented_face_normal(part_, at.face); }
+
+    /// Transforms a normal of the source to the tangent space of the simplified mesh. For a sample on a
+    /// neighbour the normal is rotated with the neighbour into this triangle's plane; otherwise it would be
+    /// off by the dihedral angle.
+    engine::Vector3 to_tangent_space(const TexelSample& at, const engine::Vector3& normal) const;
+
+    /// Barycentric coordinate of the right-angle corner at a point of the page. The partner with the larger
+    /// value is closer to the point.
+    double right_angle_weight(double x, double y) const { return frame_.at(x, y)[right_angle_corner_]; }
+
+    /// Index of the part that the triangle belongs to.
+    Index part() const { return face_.part; }
+    /// Distance between samples on the simplified surface, in the part's units.
+    double spacing() const { return spacing_; }
+
+private:
+    // Conversion of barycentric coordinates of this face to those of the neighbour across an edge, which is
+    // unfolded into this face's plane.
+    struct UnfoldedNeighbour {
+        Index face = no_index;            // of the simplified mesh
+        std::size_t corner = 0;           // corner of the neighbour opposite the edge
+        double height_ratio = 0;          // height above the edge: of this face divided by the neighbour's
+        double foot = 0, other_foot = 0;  // projections of the opposite corners to the edge, 0 to 1 along it
+    };
+
+    // The samples of one face in a square block of texels.
+    struct Block {
+        std::uint32_t column = 0, row = 0;  // of the block on the page
+        std::uint32_t samples = 0;          // number of samples so far
+        LocalMap map;                       // prepared when there are enough samples
+
+        // Makes this the block at another place.
+        void move_to(std::uint32_t to_column, std::uint32_t to_row) {
+            if (column == to_column && row == to_row) return;
+            column = to_column, row = to_row, samples = 0;
+        }
+    };
+    // A ball around the samples of a block.
+    struct Ball {
+        Vec3 centre = {};   // barycentric coordinates
+        double radius = 0;  // in the part's units
+    };
+
+    bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }
+    double texel_length() const;
+    Vec3 weights_beyond(std::size_t c, const Vec3& w) const;
+    SurfacePoint map_near(const TexelSample& at, std::uint32_t x, std::uint32_t y, const SurfacePoint& near);
+    Block& block_of(const TexelSample& at, std::uint32_t x, std::uint32_t y);
+    Ball ball_around(const Block& block, std::uint32_t size, std::size_t cache_index) const;
+    void prepare(Block& block, const TexelSample& at, const SurfacePoint& near);
+    UnfoldedNeighbour unfold(std::size_t c, const PageMesh& mesh) const;
+    Vec3 own_weights(const TexelSample& at) const;
+
+    const PageFace face_;
+    const TrianglePlacement& placement_;
+    const BarycentricFrame frame_;
+    const std::size_t right_angle_corner_;
+    const BakePart& part_;
+    const PageTriangle& triangle_;
+    const double texel_length_;
+    const double spacing_;
+    const std::uint32_t block_size_;                  // texels along each axis
+    const Box2 box_;                                  // of the triangle on the page, in texels
+    const std::uint32_t first_column_, last_column_;  // of blocks
+    std::array<UnfoldedNeighbour, 3> unfolded_;       // by corner opposite the edge
+    std::array<FrameCorner, 3> frames_;               // set if the page has a normal map
+    std::array<WarmStartCache, 4> warm_starts_;       // by TexelSample::cache_index
+    // By TexelSample::cache_index and column of the block within the triangle: the last block there.
+    std::array<std::vector<Block>, 4> blocks_;
+    std::vector<Block> large_blocks_;  // of samples on the triangle, by column
+};
+
+}  // namespace faqem::detail

@@ -1,0 +1,199 @@
+#include "bake/parts/corner_transfer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <span>
+
+#include "bake/source/material_groups.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::to_eigen;
+using engine::Vector3;
+
+// Attributes are read close to a corner, but on the face.
+constexpr double end_inset = 1e-3;
+
+// Largest number of different values at a vertex that are compared with a corner. It bounds the work.
+constexpr std::size_t max_versions = 64;
+
+using Uv = std::array<double, 2>;
+
+double uv_distance(const Uv& a, const Uv& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+Uv uv_at(const Part& part, std::size_t set, const SurfacePoint& point) {
+    Uv result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec2f& uv = part.uvs[set][part.triangles[point.face][i]];
+        for (std::size_t k = 0; k < 2; ++k) result[k] += point.barycentric[i] * uv[k];
+    }
+    return result;
+}
+
+Vec4f color_at(const Part& part, const SurfacePoint& point) {
+    Vec4f result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec4f& color = part.colors[part.triangles[point.face][i]];
+        for (std::size_t k = 0; k < 4; ++k) result[k] += static_cast<float>(point.barycentric[i]) * color[k];
+    }
+    return result;
+}
+
+// Largest ratio of an edge in UV space to the edge of a face.
+double uv_stretch(const Part& part, std::size_t set, Index face) {
+    double result = 0;
+    const Triangle& t = part.triangles[face];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Index a = t[i], b = t[(i + 1) % 3];
+        const double length = (to_eigen(part.positions[a]) - to_eigen(part.positions[b])).norm();
+        const Vec2f &from = part.uvs[set][a], &to = part.uvs[set][b];
+        if (length > 0) result = std::max(result, uv_distance({from[0], from[1]}, {to[0], to[1]}) / length);
+    }
+    return result;
+}
+
+// Transfers the corners of one part, face by face.
+class CornerTransfer {
+public:
+    CornerTransfer(const BakePart& part, TransferredCorners& to)
+        : source_(*part.source), mesh_(part.simplified->mesh), map_(*part.map), to_(to) {
+        width_ = 2 * source_.uvs.size() + (source_.colors.empty() ? 0 : 4);
+        to_.values.resize(3 * mesh_.triangles.size() * width_);
+        to_.faces.resize(mesh_.triangles.size());
+    }
+
+    // Returns false if the face crosses a border.
+    bool transfer(Index face) {
+        const SurfacePoint centre = map_.map(face, {1.0 / 3, 1.0 / 3, 1.0 / 3});
+        to_.faces[face] = centre.face;
+        bool is_inside = true;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const SurfacePoint end = map_.map(face, barycentrics_near_corner(corner, end_inset));
+            float* out = &to_.values[(3 * std::size_t{face} + corner) * width_];
+            for (std::size_t set = 0; set < source_.uvs.size(); ++set) {
+                const Way way = {face,
+                                 corner,
+                                 set,
+                                 centre.face,
+                                 uv_at(source_, set, centre),
+                                 max_growth * uv_stretch(source_, set, centre.face) * radius(face, corner)};
+                Uv uv = uv_at(source_, set, end);
+                if (!is_in_chart(way, end, 1)) {
+                    is_inside = false;
+                    uv = last_in_chart(way);
+                }
+                for (const double x : uv) *out++ = static_cast<float>(x);
+            }
+            if (!source_.colors.empty()) std::ranges::copy(color_at(source_, end), out);
+        }
+        return is_inside;
+    }
+
+    // Gives corners of a vertex the same values where they differ only because they were read at different places.
+    void merge_versions() {
+        const VertexCorners at = vertex_corners(mesh_);
+        std::vector<std::uint64_t> versions;
+        for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
+            versions.clear();
+            for (const std::uint64_t corner : at.at(v)) {
+                const auto same = std::find_if(versions.begin(), versions.end(), [&](std::uint64_t version) {
+                    return is_close(version, corner);
+                });
+                if (same != versions.end())
+                    std::ranges::copy(values(*same), values(corner).begin());
+                else if (versions.size() < max_versions)
+                    versions.push_back(corner);
+            }
+        }
+    }
+
+private:
+    // The way from the centre of a face to a corner, and what is compared with its points.
+    struct Way {
+        Index face;
+        std::size_t corner, set;
+        Index centre_face;
+        Uv centre;
+        double limit;  // on the distance of the corner from the centre in UV space
+    };
+
+    // \param share  of the way, in (0, 1]
+    bool is_in_chart(const Way& way, const SurfacePoint& point, double share) const {
+        return face_material(source_, point.face) == face_material(source_, way.centre_face) &&
+               uv_distance(uv_at(source_, way.set, point), way.centre) <= way.limit * share;
+    }
+
+    // The UV where the way leaves the chart, by bisection.
+    Uv last_in_chart(const Way& way) const {
+        Uv uv = way.centre;
+        double inside = 0;
+        for (double step = 0.5; step > 0.01; step /= 2) {
+            const double share = inside + step;
+            const SurfacePoint point =
+                map_.map(way.face, barycentrics_near_corner(way.corner, (1 - share) * 2 / 3));
+            if (!is_in_chart(way, point, share)) continue;
+            inside = share;
+            uv = uv_at(source_, way.set, point);
+        }
+        return uv;
+    }
+
+    // A point at most this many times farther away in UV space than the face at the centre suggests is in the same
+    // chart.
+    static constexpr double max_growth = 2;
+    static constexpr double max_difference = 0.01;  // of UVs at a vertex, relative to an edge of the face
+
+    double radius(Index face, std::size_t corner) const {
+        const Triangle& t = mesh_.triangles[face];
+        const Vector3 a = to_eigen(mesh_.positions[t[0]]), b = to_eigen(mesh_.positions[t[1]]),
+                      c = to_eigen(mesh_.positions[t[2]]);
+        return (to_eigen(mesh_.positions[t[corner]]) - (a + b + c) / 3).norm();
+    }
+
+    std::span<float> values(std::uint64_t corner) { return {&to_.values[corner * width_], width_}; }
+
+    Uv uv(std::uint64_t corner, std::size_t set) const {
+        const float* at = &to_.values[corner * width_ + 2 * set];
+        return {at[0], at[1]};
+    }
+
+    bool is_close(std::uint64_t a, std::uint64_t b) const {
+        const auto next = [](std::uint64_t corner) { return corner - corner % 3 + (corner + 1) % 3; };
+        for (std::size_t set = 0; set < source_.uvs.size(); ++set) {
+            const double edge = std::max(uv_distance(uv(a, set), uv(next(a), set)),
+                                         uv_distance(uv(b, set), uv(next(b), set)));
+            if (!(uv_distance(uv(a, set), uv(b, set)) <= max_difference * edge)) return false;
+        }
+        for (std::size_t k = 2 * source_.uvs.size(); k < width_; ++k) {
+            const double difference = to_.values[a * width_ + k] - to_.values[b * width_ + k];
+            if (!(std::abs(difference) <= max_difference)) return false;
+        }
+        return true;
+    }
+
+    const Part& source_;
+    const TriangleMesh& mesh_;
+    const SurfaceMap& map_;
+    TransferredCorners& to_;
+    std::size_t width_ = 0;
+};
+
+}  // namespace
+
+TransferredCorners transfer_corners(const BakePart& part, Workers workers) {
+    TransferredCorners result;
+    CornerTransfer transfer(part, result);
+    std::atomic<std::uint64_t> crossing{0};
+    parallel_blocks(part.faces(), 256, workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) crossing += !transfer.transfer(static_cast<Index>(f));
+    });
+    result.crossing_faces = crossing;
+    if (!result.values.empty()) transfer.merge_versions();
+    return result;
+}
+
+}  // namespace faqem::detail

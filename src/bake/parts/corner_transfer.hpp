@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// UVs and vertex colours of the source at the corners of a mesh that was simplified without regard to them.
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/parts/corners.hpp"
+#include "faqem/detail/base/parallel.hpp"
+
+namespace faqem::detail {
+
+/// Attributes at the corners of a simplified mesh.
+struct TransferredCorners {
+    /// By corner: UVs of all sets, then the colour if the source has vertex colours.
+    std::vector<float> values;
+    std::vector<Index> faces;  ///< by face: the face of the source at its centre
+    /// Faces that cross a border of a UV chart. Images are distorted there.
+    std::uint64_t crossing_faces = 0;
+};
+
+/// Reads the attributes from the source through the map of the part. A face that crosses a border of a UV chart shows
+/// the chart at its centre up to the border, stretched over the whole face.
+/// \pre part.map is not null
+/// \throws whatever `workers.check_cancelled` throws
+/// Complexity: 4 queries of the map per face, and 6 more for each corner beyond a border.
+TransferredCorners transfer_corners(const BakePart& part, Workers workers);
+
+}  // namespace faqem::detail

@@ -1,0 +1,162 @@
+#include "bake/parts/vertex_attributes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::to_eigen;
+
+struct Influence {
+    std::uint16_t joint;
+    double weight;
+};
+
+void blend_skin(const Part& from, const SurfacePoint& point, Part& to) {
+    const Triangle& t = from.triangles[point.face];
+    std::array<Influence, 12> all{};  // those that are not used have weight 0
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double weight = point.barycentric[i] * from.weights[t[i]][k];
+            if (!(weight > 0)) continue;
+            const std::uint16_t joint = from.joints[t[i]][k];
+            const auto end = all.begin() + static_cast<std::ptrdiff_t>(count);
+            const auto found =
+                std::find_if(all.begin(), end, [&](const Influence& x) { return x.joint == joint; });
+            if (found == end) {
+                all[count++] = {joint, weight};
+            } else {
+                found->weight += weight;
+            }
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const Influence& a, const Influence& b) {
+        return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
+    });
+    count = std::min<std::size_t>(count, 4);
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += all[k].weight;
+    std::array<std::uint16_t, 4> joints{};
+    Vec4f weights{};
+    for (std::size_t k = 0; k < count; ++k) {
+        joints[k] = all[k].joint;
+        weights[k] = static_cast<float>(all[k].weight / sum);
+    }
+    to.joints.push_back(joints);
+    to.weights.push_back(weights);
+}
+
+Vec3f blend(const std::vector<Vec3f>& values, const Triangle& t, const Vec3& w) {
+    Vec3f result;
+    for (std::size_t k = 0; k < 3; ++k) {
+        result[k] =
+            static_cast<float>(w[0] * values[t[0]][k] + w[1] * values[t[1]][k] + w[2] * values[t[2]][k]);
+    }
+    return result;
+}
+
+double shortest_edge(const TriangleMesh& mesh, std::size_t face) {
+    const Triangle& t = mesh.triangles[face];
+    double least = (to_eigen(mesh.positions[t[0]]) - to_eigen(mesh.positions[t[2]])).norm();
+    for (std::size_t i = 0; i < 2; ++i) {
+        least = std::min(least, (to_eigen(mesh.positions[t[i]]) - to_eigen(mesh.positions[t[i + 1]])).norm());
+    }
+    return least;
+}
+
+// Sum of premultiplied colours, so that transparent corners do not tint the others. Corners with an alpha of 0
+// have straight colours, which are used if there are no others.
+struct ColorSum {
+    LinearColor premultiplied{}, hidden{};
+    float count = 0;
+
+    void add(const LinearColor& c) {
+        LinearColor& sum = c[3] > 0 ? premultiplied : hidden;
+        for (std::size_t k = 0; k < 4; ++k) sum[k] += c[k];
+        ++count;
+    }
+    Vec4f straight() const {
+        const float alpha = premultiplied[3];
+        const LinearColor& sum = alpha > 0 ? premultiplied : hidden;
+        const float weight = alpha > 0 ? alpha : count;
+        Vec4f result{0, 0, 0, std::clamp(alpha / count, 0.0f, 1.0f)};
+        for (std::size_t k = 0; k < 3; ++k) result[k] = std::clamp(sum[k] / weight, 0.0f, 1.0f);
+        return result;
+    }
+};
+
+}  // namespace
+
+void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
+                              engine::CancellationCheck check_cancelled) {
+    const Part& from = *bake_part.source;
+    Part& to = welded.part;
+    const bool skin = !from.joints.empty() && !from.weights.empty();
+    if ((!skin && from.morph_targets.empty()) || !bake_part.map) return;
+    const TriangleMesh& mesh = bake_part.simplified->mesh;
+    const VertexCorners at = vertex_corners(mesh);
+    to.morph_targets.resize(from.morph_targets.size());
+    for (std::uint64_t corner : welded.corner) {
+        check_cancelled(map_query_cost);
+        const std::uint64_t shared = at.at(mesh.triangles[corner / 3][corner % 3]).front();
+        const SurfacePoint point =
+            bake_part.map->map(static_cast<Index>(shared / 3), barycentrics_near_corner(shared % 3, 0));
+        if (skin) blend_skin(from, point, to);
+        for (std::size_t m = 0; m < from.morph_targets.size(); ++m) {
+            const MorphTarget& target = from.morph_targets[m];
+            if (!target.positions.empty()) {
+                to.morph_targets[m].positions.push_back(
+                    blend(target.positions, from.triangles[point.face], point.barycentric));
+            }
+            if (target.normals.empty() || to.normals.empty()) continue;
+            const SurfacePoint own = bake_part.map->map(static_cast<Index>(corner / 3),
+                                                        barycentrics_near_corner(corner % 3, 0.02));
+            to.morph_targets[m].normals.push_back(
+                blend(target.normals, from.triangles[own.face], own.barycentric));
+        }
+    }
+}
+
+std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler, Workers workers) {
+    const TriangleMesh& mesh = part.simplified->mesh;
+    std::vector<LinearColor> raw(3 * mesh.triangles.size());
+    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+            const Index face = static_cast<Index>(c / 3);
+            // A vertex represents the surface around it: a quarter of an edge on each side.
+            const double spacing = shortest_edge(mesh, face) / 4;
+            const SurfacePoint point = part.map->map(face, barycentrics_near_corner(c % 3, 1e-3));
+            raw[c] = sampler.sample(part.index, point, spacing).base;
+            if (raw[c][3] > 0) continue;
+            const Vec3f stored = sampler.stored_base_color(part.index, point);
+            raw[c] = {stored[0], stored[1], stored[2], 0};
+        }
+    });
+    const auto group = [&](std::uint64_t c) {
+        return mesh.face_groups.empty() ? 0 : mesh.face_groups[c / 3];
+    };
+    const VertexCorners at = vertex_corners(mesh);
+    std::vector<Vec4f> result(raw.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        std::vector<std::uint64_t> corners(at.at(v).begin(), at.at(v).end());
+        const auto key = [&](std::uint64_t c) { return std::pair(part.normals.clusters[c], group(c)); };
+        std::sort(corners.begin(), corners.end(), [&](std::uint64_t a, std::uint64_t b) {
+            return key(a) != key(b) ? key(a) < key(b) : a < b;
+        });
+        for (std::size_t i = 0, end; i < corners.size(); i = end) {
+            ColorSum sum;
+            for (end = i; end < corners.size() && key(corners[end]) == key(corners[i]); ++end) {
+                sum.add(raw[corners[end]]);
+            }
+            for (std::size_t j = i; j < end; ++j) result[corners[j]] = sum.straight();
+        }
+    }
+    return result;
+}
+
+}  // namespace faqem::detail

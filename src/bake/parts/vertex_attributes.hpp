@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// Vertex attributes, transferred from the source through the surface map.
+
+#include "bake/parts/corners.hpp"
+#include "bake/source/source_sampler.hpp"
+
+namespace faqem::detail {
+
+/// Transfers the skin weights and morph targets of the source, if there are any, to an output part.
+/// All output vertices of one vertex of the simplified mesh get the same weights and displacements, so that
+/// no crack opens when they move. Weights are interpolated; the four largest are kept and scaled to a sum of
+/// 1.
+/// \throws whatever `check_cancelled` throws
+void transfer_skin_and_morphs(const BakePart& part, WeldedPart& welded,
+                              engine::CancellationCheck check_cancelled = {});
+
+/// Colours at the corners of the simplified mesh (FA-QEM: "encoded as per-vertex color attributes"): the base
+/// colour of the source, averaged over the corners of a vertex with the same cluster and face group.
+/// \return 3 * faces colours, linear, not premultiplied, in [0, 1]
+/// \throws whatever `workers.check_cancelled` throws
+std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler, Workers workers);
+
+}  // namespace faqem::detail

@@ -1,0 +1,220 @@
+#include "bake/source/tangents.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace faqem::detail {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr std::uint32_t absent = std::numeric_limits<std::uint32_t>::max();
+
+Vector3f to_vector3f(const Vec3f& v) { return {v[0], v[1], v[2]}; }
+
+bool is_not_zero(float x) { return std::abs(x) > std::numeric_limits<float>::min(); }
+
+Vector3f unit(const Vector3f& v) {
+    const float length = v.norm();
+    return is_not_zero(length) && std::isfinite(length) ? Vector3f(v / length) : Vector3f::Zero();
+}
+
+Vector3f project_and_normalize(const Vector3f& v, const Vector3f& normal) {
+    return unit(v - normal.dot(v) * normal);
+}
+
+Vec4f any_tangent(const Vector3f& normal) {
+    const Vector3f axis = std::abs(normal.x()) < 0.7f ? Vector3f::UnitX() : Vector3f::UnitY();
+    Vector3f tangent = project_and_normalize(axis, normal);
+    if (tangent.isZero(0)) tangent = axis;
+    return {tangent.x(), tangent.y(), tangent.z(), 1};
+}
+
+// By corner: index of the first equal corner. -0 and 0 are equal.
+std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners) {
+    std::vector<std::uint32_t> order(corners.size()), result(corners.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](std::uint32_t c) {
+        return std::tie(corners[c].position, corners[c].normal, corners[c].uv);
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        if (key(a) < key(b)) return true;
+        return !(key(b) < key(a)) && a < b;
+    });
+    for (std::size_t i = 0, first = 0; i < order.size(); ++i) {
+        if (key(order[first]) != key(order[i])) first = i;
+        result[order[i]] = order[first];
+    }
+    return result;
+}
+
+class Tangents {
+public:
+    explicit Tangents(std::span<const TangentCorner> corners)
+        : corners_(corners),
+          vertex_(weld(corners)),
+          faces_(corners.size() / 3),
+          adjacent_face_(corners.size(), absent),
+          group_(corners.size(), absent) {
+        for (std::size_t f = 0; f < faces_.size(); ++f) measure(f);
+        find_neighbours();
+    }
+
+    std::vector<Vec4f> operator()() {
+        for (std::uint32_t c = 0; c < group_.size(); ++c) {
+            const Face& face = faces_[c / 3];
+            if (face.is_degenerate || !face.has_tangent || group_[c] != absent) continue;
+            grow_group(c);
+        }
+        std::vector<Vec4f> result(corners_.size());
+        for (std::size_t c = 0; c < result.size(); ++c) {
+            result[c] = group_[c] == absent ? any_tangent(normal(c)) : tangents_[group_[c]];
+        }
+        copy_to_degenerate_faces(result);
+        return result;
+    }
+
+private:
+    struct Face {
+        Vector3f along_u = Vector3f::Zero();     // unit vector
+        bool is_orientation_preserving = false;  // the UVs have the winding of the corners, with v down
+        bool has_tangent = false;                // the area in the UVs is not zero
+        bool is_degenerate = false;              // two corners have equal positions
+    };
+
+    Vector3f position(std::size_t c) const { return to_vector3f(corners_[c].position); }
+    Vector3f normal(std::size_t c) const { return to_vector3f(corners_[c].normal); }
+    static std::size_t next(std::size_t c) { return c % 3 == 2 ? c - 2 : c + 1; }
+    static std::size_t previous(std::size_t c) { return c % 3 == 0 ? c + 2 : c - 1; }
+
+    void measure(std::size_t f) {
+        const std::size_t c = 3 * f;
+        Face& face = faces_[f];
+        const Vec3f &p0 = corners_[c].position, &p1 = corners_[c + 1].position,
+                    &p2 = corners_[c + 2].position;
+        face.is_degenerate = p0 == p1 || p0 == p2 || p1 == p2;
+        const Vec2f &a = corners_[c].uv, &b = corners_[c + 1].uv, &d = corners_[c + 2].uv;
+        const float u1 = b[0] - a[0], v1 = b[1] - a[1], u2 = d[0] - a[0], v2 = d[1] - a[1];
+        const Vector3f e1 = position(c + 1) - position(c), e2 = position(c + 2) - position(c);
+        const float area = u1 * v2 - v1 * u2;
+        face.is_orientation_preserving = area > 0;
+        if (!is_not_zero(area)) return;
+        const Vector3f along_u = e1 * v2 - e2 * v1, along_v = e2 * u1 - e1 * u2;
+        const float length = along_u.norm();
+        face.along_u = (face.is_orientation_preserving ? 1.0f : -1.0f) * unit(along_u);
+        face.has_tangent = is_not_zero(length / std::abs(area)) &&
+                           is_not_zero(along_v.norm() / std::abs(area)) && std::isfinite(length);
+    }
+
+    // Pairs faces across edges. A face has at most one neighbour per edge: the first one with consistent
+    // winding that has no neighbour yet.
+    void find_neighbours() {
+        struct Edge {
+            std::uint32_t low, high, corner;  // the edge from the corner to the next
+        };
+        std::vector<Edge> edges;
+        edges.reserve(corners_.size());
+        for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+            if (faces_[c / 3].is_degenerate) continue;
+            const auto [low, high] = std::minmax(vertex_[c], vertex_[next(c)]);
+            edges.push_back({low, high, c});
+        }
+        std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+            return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
+        });
+        std::vector<std::uint32_t> waiting;
+        for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
+            // All waiting half-edges have the same direction.
+            waiting.clear();
+            std::size_t first = 0;
+            for (end = begin; end < edges.size() && edges[end].low == edges[begin].low &&
+                              edges[end].high == edges[begin].high;
+                 ++end) {
+                const std::uint32_t c = edges[end].corner;
+                if (first < waiting.size() && vertex_[waiting[first]] != vertex_[c]) {
+                    adjacent_face_[c] = waiting[first] / 3;
+                    adjacent_face_[waiting[first]] = c / 3;
+                    ++first;
+                } else {
+                    waiting.push_back(c);
+                }
+            }
+        }
+    }
+
+    // Makes a group of the corners around a vertex that share a tangent with the corner `seed`.
+    void grow_group(std::uint32_t seed) {
+        const bool is_orientation_preserving = faces_[seed / 3].is_orientation_preserving;
+        const auto number = static_cast<std::uint32_t>(tangents_.size());
+        const std::uint32_t vertex = vertex_[seed];
+        Vector3f sum = Vector3f::Zero();
+        std::vector<std::uint32_t> stack = {seed / 3};
+        while (!stack.empty()) {
+            const std::uint32_t f = stack.back();
+            stack.pop_back();
+            std::size_t c = 3 * std::size_t{f};
+            while (vertex_[c] != vertex) ++c;
+            if (group_[c] != absent) continue;
+            Face& face = faces_[f];
+            if (!face.has_tangent && has_no_group(f))
+                face.is_orientation_preserving = is_orientation_preserving;
+            if (face.is_orientation_preserving != is_orientation_preserving) continue;
+            group_[c] = number;
+            if (face.has_tangent) sum += weighted_tangent(c);
+            // Depth-first, in the order of the reference implementation: the order decides which group faces
+            // without a tangent join.
+            for (const std::uint32_t other : {adjacent_face_[previous(c)], adjacent_face_[c]}) {
+                if (other != absent) stack.push_back(other);
+            }
+        }
+        const Vector3f tangent = unit(sum);
+        // v points down in glTF and up in MikkTSpace: UVs with the winding of the corners are mirrored.
+        tangents_.push_back(tangent.isZero(0) ? any_tangent(normal(seed))
+                                              : Vec4f{tangent.x(), tangent.y(), tangent.z(),
+                                                      is_orientation_preserving ? -1.0f : 1.0f});
+    }
+
+    bool has_no_group(std::size_t f) const {
+        return group_[3 * f] == absent && group_[3 * f + 1] == absent && group_[3 * f + 2] == absent;
+    }
+
+    // The direction of u on the face of corner c, in the tangent plane of the corner's normal, weighted by
+    // the angle of the corner in this plane.
+    Vector3f weighted_tangent(std::size_t c) const {
+        const Vector3f n = normal(c);
+        const Vector3f a = project_and_normalize(position(previous(c)) - position(c), n);
+        const Vector3f b = project_and_normalize(position(next(c)) - position(c), n);
+        return std::acos(std::clamp(a.dot(b), -1.0f, 1.0f)) * project_and_normalize(faces_[c / 3].along_u, n);
+    }
+
+    // Degenerate triangles get the tangents of other triangles at the same vertices.
+    void copy_to_degenerate_faces(std::vector<Vec4f>& result) const {
+        std::vector<std::uint32_t> donor(corners_.size(), absent);
+        for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+            if (!faces_[c / 3].is_degenerate && donor[vertex_[c]] == absent) donor[vertex_[c]] = c;
+        }
+        for (std::size_t c = 0; c < corners_.size(); ++c) {
+            if (faces_[c / 3].is_degenerate && donor[vertex_[c]] != absent)
+                result[c] = result[donor[vertex_[c]]];
+        }
+    }
+
+    std::span<const TangentCorner> corners_;
+    std::vector<std::uint32_t> vertex_;  // by corner
+    std::vector<Face> faces_;
+    std::vector<std::uint32_t> adjacent_face_;  // by corner: across the edge from the corner to the next one
+    std::vector<std::uint32_t> group_;          // by corner
+    std::vector<Vec4f> tangents_;               // by group
+};
+
+}  // namespace
+
+std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners) { return Tangents(corners)(); }
+
+}  // namespace faqem::detail

@@ -1,0 +1,131 @@
+#include "bake/parts/corner_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bake/parts/corner_normals.hpp"
+#include "faqem/simplify.hpp"
+#include "support/catch.hpp"
+#include "support/meshes.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+// A mesh and its simplified mesh, as input of make_normals().
+struct Simplified {
+    Simplified(const TriangleMesh& mesh, double share) {
+        part.positions = mesh.positions;
+        part.triangles = mesh.triangles;
+        Options options;
+        options.target = ratio(share);
+        options.history = Recording::on;
+        result = simplify(mesh.view(), options);
+    }
+
+    detail::CornerNormals normals(bool with_map, std::uint32_t threads = 1) const {
+        detail::BakePart bake_part{0, &part, &result, nullptr};
+        if (with_map) bake_part.map = std::make_unique<const SurfaceMap>(result.history, Mapping::projection);
+        return detail::make_normals(bake_part, {}, threads);
+    }
+
+    Part part;
+    SimplifyResult result;
+};
+
+// Mean angle in degrees between the normals with and without a map, over the corners.
+double mean_angle(const Simplified& simplified) {
+    const auto exact = simplified.normals(true).normals, fast = simplified.normals(false).normals;
+    REQUIRE(exact.size() == 3 * simplified.result.mesh.triangles.size());
+    REQUIRE(fast.size() == exact.size());
+    double sum = 0;
+    for (std::size_t c = 0; c < exact.size(); ++c) {
+        double cosine = 0;
+        for (std::size_t k = 0; k < 3; ++k) cosine += double(exact[c][k]) * fast[c][k];
+        sum += std::acos(std::clamp(cosine, -1.0, 1.0));
+    }
+    return sum / static_cast<double>(exact.size()) * 180 / std::numbers::pi;
+}
+
+// The cube [0, 1]^3 with n x n squares of two triangles on each side.
+TriangleMesh fine_cube(Index n) {
+    TriangleMesh mesh;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const double side : {0.0, 1.0}) {
+            const auto first = static_cast<Index>(mesh.positions.size());
+            for (Index j = 0; j <= n; ++j) {
+                for (Index i = 0; i <= n; ++i) {
+                    Vec3 p;
+                    p[axis] = side;
+                    p[(axis + 1) % 3] = i / double(n);
+                    p[(axis + 2) % 3] = j / double(n);
+                    mesh.positions.push_back(p);
+                }
+            }
+            for (Index j = 0; j < n; ++j) {
+                for (Index i = 0; i < n; ++i) {
+                    const Index a = first + j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
+                    if (side > 0)
+                        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+                    else
+                        mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, d, c}});
+                }
+            }
+        }
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("corner points: normals differ little from those of the map") {
+    for (const double share : {0.5, 0.1, 0.02}) {
+        CHECK(mean_angle({lump(5), share}) < 0.5);
+        CHECK(mean_angle({icosphere(5), share}) < 0.5);
+    }
+}
+
+TEST_CASE("corner points: creases are kept") {
+    const Simplified cube(fine_cube(12), 0.05);
+    REQUIRE(cube.result.mesh.triangles.size() < 100);
+    for (const Vec3f& n : cube.normals(false).normals) {
+        const float largest = std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])});
+        CHECK(largest == Approx(1));
+    }
+}
+
+TEST_CASE("corner points: a thin wall has the normals of each side") {
+    TriangleMesh wall = fine_cube(12);
+    for (Vec3& p : wall.positions) p[2] *= 1e-3;
+    const Simplified thin(wall, 0.1);
+    const TriangleMesh& mesh = thin.result.mesh;
+    const auto normals = thin.normals(false).normals;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        const Triangle& t = mesh.triangles[f];
+        for (const double z : {0.0, 1e-3}) {
+            if (std::any_of(t.begin(), t.end(), [&](Index v) { return mesh.positions[v][2] != z; })) continue;
+            for (std::size_t c = 0; c < 3; ++c) CHECK(normals[3 * f + c][2] == Approx(z > 0 ? 1 : -1));
+        }
+    }
+}
+
+TEST_CASE("corner points: normals are the same for every number of threads") {
+    const Simplified simplified(lump(4), 0.2);
+    CHECK(simplified.normals(false, 1).normals == simplified.normals(false, 5).normals);
+}
+
+TEST_CASE("corner points: the normals around a vertex of many faces are found by a tree") {
+    // A flat cone with its tip in the middle of n faces.
+    constexpr Index n = 3000;
+    TriangleMesh cone;
+    cone.positions.push_back({0, 0, 0.1});
+    for (Index i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * i / n;
+        cone.positions.push_back({std::cos(angle), std::sin(angle), 0});
+        cone.triangles.push_back({0, i + 1, (i + 1) % n + 1});
+    }
+    const Simplified simplified(cone, 0.5);
+    CHECK(mean_angle(simplified) < 0.5);
+}
