@@ -1,6 +1,7 @@
 #pragma once
 // Builds small glTF documents in memory, valid or invalid.
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -130,6 +131,28 @@ inline std::string saved(const Asset& asset) {
     const TemporaryFolder folder;
     save(asset, folder / "out.glb");
     return get(folder / "out.glb");
+}
+
+/// A .glb file that save() has written.
+struct WrittenGltf {
+    std::string glb;
+    Json json;
+    std::vector<std::string> warnings;
+
+    bool warns(const std::string& text) const {
+        return std::any_of(warnings.begin(), warnings.end(),
+                           [&](const std::string& w) { return w.find(text) != std::string::npos; });
+    }
+    const Json& primitive() const { return json["meshes"][0]["primitives"][0]; }
+};
+
+inline WrittenGltf write_gltf_of(const Asset& asset) {
+    const TemporaryFolder folder;
+    WrittenGltf written;
+    written.warnings = save(asset, folder / "out.glb");
+    written.glb = get(folder / "out.glb");
+    written.json = json_of(written.glb);
+    return written;
 }
 
 /// An opaque PNG of 2 x 2 pixels.

@@ -115,6 +115,22 @@ std::uint32_t element_size(std::uint64_t component_type, const std::string& type
     return columns * ((columns * component + 3) / 4 * 4);
 }
 
+double integer_step(const Json& accessor) {
+    const bool is_normalized = member(accessor, "normalized") == true;
+    switch (static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0))) {
+        case ComponentType::i8:
+            return is_normalized ? 1.0 / 127 : 1;
+        case ComponentType::u8:
+            return is_normalized ? 1.0 / 255 : 1;
+        case ComponentType::i16:
+            return is_normalized ? 1.0 / 32767 : 1;
+        case ComponentType::u16:
+            return is_normalized ? 1.0 / 65535 : 1;
+        default:
+            return 0;
+    }
+}
+
 std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index index) {
     const Json& accessor = accessor_at(source, index);
     const std::uint64_t size =

@@ -18,6 +18,8 @@ using Json = nlohmann::json;
 
 /// Names of the extensions that compress geometry.
 inline constexpr const char* meshopt_name = "EXT_meshopt_compression";
+inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
+
 /// Extensions of textures whose images have other media types than PNG and JPEG, with these types.
 struct ImageExtension {
     const char *name, *media_type;
@@ -25,8 +27,6 @@ struct ImageExtension {
 inline constexpr ImageExtension image_extensions[] = {{"EXT_texture_webp", "image/webp"},
                                                       {"KHR_texture_basisu", "image/ktx2"},
                                                       {"EXT_texture_avif", "image/avif"}};
-
-inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
 
 /// object[key], or null if `object` is not an object or has no such key.
 FAQEM_EXPORT const Json& member(const Json& object, const char* key);

@@ -11,6 +11,16 @@ Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p) {
     return q;
 }
 
+double transformed_bound(const std::array<double, 16>& m, double largest) {
+    double bound = 0;
+    for (std::size_t r = 0; r < 3; ++r) {
+        const double row =
+            (std::abs(m[r]) + std::abs(m[4 + r]) + std::abs(m[8 + r])) * largest + std::abs(m[12 + r]);
+        if (!(row <= bound)) bound = row;
+    }
+    return bound;
+}
+
 NormalTransform::NormalTransform(const std::array<double, 16>& m) {
     const auto at = [&](std::size_t r, std::size_t col) { return m[4 * (col % 3) + r % 3]; };
     for (std::size_t r = 0; r < 3; ++r)

@@ -13,6 +13,10 @@ inline constexpr std::array<double, 16> identity_transform = {1, 0, 0, 0, 0, 1, 
 
 Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p);
 
+/// A bound of the absolute coordinates of transformed points; NaN or infinity if they may be outside the range of double.
+/// \param largest  largest absolute coordinate of the points
+double transformed_bound(const std::array<double, 16>& m, double largest);
+
 /// Transforms normals by the inverse transpose of the linear part, and normalises them. Those of mirroring transforms
 /// point to the same side as the face normals of faces whose winding is reversed. Defined for singular transforms too.
 class NormalTransform {

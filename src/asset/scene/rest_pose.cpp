@@ -55,17 +55,6 @@ void reverse_mirrored_faces(const std::vector<std::uint8_t>& is_mirrored, std::v
         if (is_mirrored[t[0]] + is_mirrored[t[1]] + is_mirrored[t[2]] >= 2) std::swap(t[1], t[2]);
 }
 
-/// The bound of the coordinates that a matrix gives, row by row.
-double transformed_bound(const JointMatrix& m, double largest) {
-    double bound = 0;
-    for (std::size_t r = 0; r < 3; ++r) {
-        const double row =
-            (std::abs(m[r]) + std::abs(m[4 + r]) + std::abs(m[8 + r])) * largest + std::abs(m[12 + r]);
-        if (!(row <= bound)) bound = row;
-    }
-    return bound;
-}
-
 }  // namespace
 
 Part posed_part(const Part& part, const PosedInstance& instance) {

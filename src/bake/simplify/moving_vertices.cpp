@@ -14,23 +14,6 @@ namespace {
 // A vertex is compared with the last ones at its position that differ from each other: many of them are rare.
 constexpr std::size_t max_compared = 64;
 
-// Step of the integers of an accessor, 0 for floats.
-double integer_step(const Json& accessor) {
-    const bool is_normalized = member(accessor, "normalized") == true;
-    switch (static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0))) {
-        case ComponentType::i8:
-            return is_normalized ? 1.0 / 127 : 1;
-        case ComponentType::u8:
-            return is_normalized ? 1.0 / 255 : 1;
-        case ComponentType::i16:
-            return is_normalized ? 1.0 / 32767 : 1;
-        case ComponentType::u16:
-            return is_normalized ? 1.0 / 65535 : 1;
-        default:
-            return 0;
-    }
-}
-
 // Largest absolute value of the components.
 template <class Vectors>
 double largest(const Vectors& vectors) {

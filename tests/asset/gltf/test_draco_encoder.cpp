@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "support/catch.hpp"
+#include "support/curved_grid.hpp"
 #include "support/gltf_builder.hpp"
 
 using namespace faqem;
@@ -14,31 +15,14 @@ using namespace faqem::testing;
 
 namespace {
 
-/// A curved sheet of 2 n^2 triangles with normals, tangents, texture coordinates and joint weights.
-Asset draco_sheet() {
-    constexpr Index n = 20;
-    Asset asset = one_part({}, {});
+/// The curved grid, with a joint for each vertex, whose number tells which it is.
+Asset numbered_grid() {
+    Asset asset = curved_grid(FileOrder::for_gpu);
     Part& part = asset.parts[0];
-    part.file_order = FileOrder::for_gpu;
-    part.uvs.resize(1);
-    for (Index i = 0; i < (n + 1) * (n + 1); ++i) {
-        const double x = static_cast<double>(i % (n + 1)) / 7, y = static_cast<double>(i / (n + 1)) / 11;
-        part.positions.push_back(
-            {static_cast<float>(x), static_cast<float>(y), static_cast<float>(std::sin(x * y))});
-        const double length = std::sqrt(1 + x * x + y * y);
-        part.normals.push_back({static_cast<float>(x / length), static_cast<float>(-y / length),
-                                static_cast<float>(1 / length)});
-        part.tangents.push_back({static_cast<float>(std::cos(x)), static_cast<float>(std::sin(x)), 0, -1});
-        part.uvs[0].push_back({static_cast<float>(x / 3), static_cast<float>(1.7 - y)});
-        part.joints.push_back({static_cast<std::uint16_t>(i), 0, 0, 0});
+    for (std::size_t v = 0; v < part.positions.size(); ++v) {
+        part.joints.push_back({static_cast<std::uint16_t>(v), 0, 0, 0});
         part.weights.push_back({1, 0, 0, 0});
     }
-    for (Index i = 0; i < n * n; ++i) {
-        const Index v = i / n * (n + 1) + i % n;
-        part.triangles.push_back({v, v + 1, v + n + 1});
-        part.triangles.push_back({v + 1, v + n + 2, v + n + 1});
-    }
-    part.face_material.assign(part.triangles.size(), no_index);
     return asset;
 }
 
@@ -72,32 +56,22 @@ Asset through_draco(Asset asset) {
     return load_glb(saved(asset));
 }
 
-template <class A, class B>
-double largest_error(const A& a, const B& b) {
-    REQUIRE(a.size() == b.size());
-    double result = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        for (std::size_t k = 0; k < a[i].size(); ++k)
-            result = std::max(result, std::abs(double{a[i][k]} - double{b[i][k]}));
-    return result;
-}
-
 }  // namespace
 
 TEST_CASE("draco data without quantisation has exact values, and the same triangles") {
     if (!detail::can_encode_draco()) return;
-    const Asset asset = draco_sheet(), read = through_draco(asset);
+    const Asset asset = numbered_grid(), read = through_draco(asset);
     CHECK(read.compression == Compression::draco);
     const Part &a = asset.parts[0], b = in_order(read.parts[0]);
     CHECK(numbered_triangles(a) == numbered_triangles(read.parts[0]));
     CHECK(a.positions == b.positions);
-    CHECK(largest_error(a.normals, b.normals) <= 1e-6);
+    CHECK(largest_difference(a.normals, b.normals) <= 1e-6);
     CHECK(a.uvs == b.uvs);
 }
 
 TEST_CASE("quantised draco data is small, within half a step, and equal when it is written again") {
     if (!detail::can_encode_draco()) return;
-    Asset asset = draco_sheet();
+    Asset asset = numbered_grid();
     const std::size_t plain = saved(asset).size();
     asset.parts[0].position_spacing = 0x1p-12;
     asset.normal_bits = 10;
@@ -107,23 +81,23 @@ TEST_CASE("quantised draco data is small, within half a step, and equal when it 
     Asset once = through_draco(asset);
     const Part &a = asset.parts[0], b = in_order(once.parts[0]);
     CHECK(numbered_triangles(a) == numbered_triangles(once.parts[0]));
-    CHECK(largest_error(a.positions, b.positions) <= 0x1p-13);
-    CHECK(largest_error(a.normals, b.normals) <= 0x1p-8);
-    CHECK(largest_error(a.tangents, b.tangents) <= 0x1p-12);
-    CHECK(largest_error(a.uvs[0], b.uvs[0]) <= 0x1p-13);
+    CHECK(largest_difference(a.positions, b.positions) <= 0x1p-13);
+    CHECK(largest_difference(a.normals, b.normals) <= 0x1p-8);
+    CHECK(largest_difference(a.tangents, b.tangents) <= 0x1p-12);
+    CHECK(largest_difference(a.uvs[0], b.uvs[0]) <= 0x1p-13);
     once.parts[0].position_spacing = 0x1p-12;
     once.normal_bits = 10;
     once.uv_bits = 12;
     const Part c = in_order(through_draco(once).parts[0]);
     CHECK(b.positions == c.positions);
     CHECK(b.uvs == c.uvs);
-    CHECK(largest_error(b.normals, c.normals) <= 1e-6);
-    CHECK(largest_error(b.tangents, c.tangents) <= 1e-6);
+    CHECK(largest_difference(b.normals, c.normals) <= 1e-6);
+    CHECK(largest_difference(b.tangents, c.tangents) <= 1e-6);
 }
 
 TEST_CASE("the extension is required, and accessors have the counts of the data and no views") {
     if (!detail::can_encode_draco()) return;
-    Asset asset = draco_sheet();
+    Asset asset = numbered_grid();
     asset.compression = Compression::draco;
     const Json json = json_of(saved(asset));
     CHECK(json["extensionsUsed"] == Json({"KHR_draco_mesh_compression"}));
@@ -133,14 +107,14 @@ TEST_CASE("the extension is required, and accessors have the counts of the data 
     CHECK(primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"].size() == 6);
     REQUIRE(json["bufferViews"].size() == 1);
     for (const Json& accessor : json["accessors"]) CHECK_FALSE(accessor.contains("bufferView"));
-    CHECK(json["accessors"][primitive["attributes"]["POSITION"].get<int>()]["count"] == 441);
-    CHECK(json["accessors"][primitive["indices"].get<int>()]["count"] == 2400);
+    CHECK(json["accessors"][primitive["attributes"]["POSITION"].get<int>()]["count"] == 625);
+    CHECK(json["accessors"][primitive["indices"].get<int>()]["count"] == 3456);
 }
 
 TEST_CASE(
     "vertices and triangles of unchanged parts keep their order in draco data, with their morph targets") {
     if (!detail::can_encode_draco()) return;
-    Asset asset = draco_sheet();
+    Asset asset = numbered_grid();
     Part& part = asset.parts[0];
     part.file_order = FileOrder::given;
     part.morph_targets.resize(1);

@@ -40,31 +40,10 @@ GltfBuilder square_with_features() {
     return builder;
 }
 
-struct WrittenScene {
-    std::string glb;
-    Json json;
-    std::vector<std::string> warnings;
-
-    bool warns(const std::string& text) const {
-        return std::any_of(warnings.begin(), warnings.end(),
-                           [&](const std::string& w) { return w.find(text) != std::string::npos; });
-    }
-    const Json& primitive() const { return json["meshes"][0]["primitives"][0]; }
-};
-
-WrittenScene write_scene_of(const Asset& asset) {
-    const TemporaryFolder folder;
-    WrittenScene written;
-    written.warnings = save(asset, folder / "out.glb");
-    written.glb = get(folder / "out.glb");
-    written.json = json_of(written.glb);
-    return written;
-}
-
 }  // namespace
 
 TEST_CASE("feature ids and their properties are kept for unchanged meshes, with remapped references") {
-    const WrittenScene written = write_scene_of(load_glb(square_with_features()));
+    const WrittenGltf written = write_gltf_of(load_glb(square_with_features()));
     CHECK(written.warnings.empty());
     const Json& ids = written.primitive()["extensions"]["EXT_mesh_features"]["featureIds"];
     REQUIRE(ids.size() == 3);
@@ -89,7 +68,7 @@ TEST_CASE("feature ids and their properties are kept for unchanged meshes, with 
 TEST_CASE("a simplified mesh loses the feature ids that are numbers of vertices") {
     Asset asset = load_glb(square_with_features());
     asset.parts[0].file_order = FileOrder::for_gpu;
-    const WrittenScene written = write_scene_of(asset);
+    const WrittenGltf written = write_gltf_of(asset);
     CHECK(written.primitive()["extensions"]["EXT_mesh_features"]["featureIds"].size() == 2);
     CHECK(written.warns("feature ids that the new vertices or texture coordinates do not have"));
     CHECK(written.json["extensions"].contains("EXT_structural_metadata"));
@@ -98,7 +77,7 @@ TEST_CASE("a simplified mesh loses the feature ids that are numbers of vertices"
 TEST_CASE("a mesh without its UVs loses the features in textures") {
     Asset asset = load_glb(square_with_features());
     asset.parts[0].uvs.clear();
-    const WrittenScene written = write_scene_of(asset);
+    const WrittenGltf written = write_gltf_of(asset);
     CHECK(written.primitive()["extensions"]["EXT_mesh_features"]["featureIds"].size() == 2);
     CHECK_FALSE(written.primitive()["extensions"].contains("EXT_structural_metadata"));
     CHECK(written.warns("EXT_structural_metadata does not fit"));
@@ -111,7 +90,7 @@ TEST_CASE("properties that refer to nothing are left out with a warning") {
     SECTION("a texture") { metadata["propertyTextures"][0]["properties"]["age"]["index"] = 2; }
     SECTION("no list") { metadata["propertyTables"] = {{"a", 1}}; }
     SECTION("no property") { metadata["propertyTables"][0]["properties"]["height"] = 3; }
-    const WrittenScene written = write_scene_of(load_glb(builder));
+    const WrittenGltf written = write_gltf_of(load_glb(builder));
     CHECK_FALSE(written.json.contains("extensions"));
     CHECK(written.warns("EXT_structural_metadata refers to buffer views or textures that do not exist"));
 }

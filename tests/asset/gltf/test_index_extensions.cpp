@@ -30,26 +30,6 @@ std::vector<Index> numbers(const std::string& glb, const Json& accessor) {
     return detail::read_indices(*asset.source, accessor.get<Index>());
 }
 
-struct Written {
-    std::string glb;
-    Json json;
-    std::vector<std::string> warnings;
-
-    bool warns(const std::string& text) const {
-        return std::any_of(warnings.begin(), warnings.end(),
-                           [&](const std::string& w) { return w.find(text) != std::string::npos; });
-    }
-};
-
-Written write(const Asset& asset) {
-    const TemporaryFolder folder;
-    Written written;
-    written.warnings = save(asset, folder / "out.glb");
-    written.glb = get(folder / "out.glb");
-    written.json = json_of(written.glb);
-    return written;
-}
-
 GltfBuilder outlined_square() {
     GltfBuilder builder = numbered_square();
     const auto outline = builder.accessor(std::vector<std::uint8_t>{1, 2, 2, 4}, u8, "SCALAR");
@@ -77,7 +57,7 @@ GltfBuilder manifold_square() {
 }  // namespace
 
 TEST_CASE("the outline of unchanged triangles gets the new numbers of the vertices") {
-    const Written written = write(load_glb(outlined_square()));
+    const WrittenGltf written = write_gltf_of(load_glb(outlined_square()));
     const Json& extensions = written.json["meshes"][0]["primitives"][0]["extensions"];
     CHECK(numbers(written.glb, extensions["CESIUM_primitive_outline"]["indices"]) ==
           std::vector<Index>{0, 1, 1, 3});
@@ -95,7 +75,7 @@ TEST_CASE("the outline of other triangles is left out with a warning") {
     }
     SECTION("moved") { asset.parts[0].positions[4][2] = 1; }
     SECTION("in the order of a simplified mesh") { asset.parts[0].file_order = FileOrder::for_gpu; }
-    const Written written = write(asset);
+    const WrittenGltf written = write_gltf_of(asset);
     CHECK_FALSE(written.json["meshes"][0]["primitives"][0].contains("extensions"));
     CHECK_FALSE(written.json.contains("extensionsUsed"));
     CHECK(written.warns("CESIUM_primitive_outline does not fit"));
@@ -105,13 +85,13 @@ TEST_CASE("the outline of other triangles is left out with a warning") {
 TEST_CASE("an outline with a vertex that no triangle uses is left out") {
     GltfBuilder builder = outlined_square();
     builder.bin[builder.bin.size() - 1] = 0;
-    const Written written = write(load_glb(builder));
+    const WrittenGltf written = write_gltf_of(load_glb(builder));
     CHECK(written.warns("CESIUM_primitive_outline does not fit"));
     CHECK(written.json["extensionsUsed"] == Json({"FB_ngon_encoding"}));
 }
 
 TEST_CASE("the manifold of an unchanged mesh is kept, with the accessors of the output") {
-    const Written written = write(load_glb(manifold_square()));
+    const WrittenGltf written = write_gltf_of(load_glb(manifold_square()));
     CHECK(written.warnings.empty());
     const Json& mesh = written.json["meshes"][0];
     const Json& manifold = mesh["extensions"]["EXT_mesh_manifold"];
@@ -133,7 +113,7 @@ TEST_CASE("a manifold that does not fit is left out with a warning") {
     SECTION("an attribute that the mesh does not have") {
         manifold["manifoldPrimitive"]["attributes"]["NORMAL"] = 0;
     }
-    const Written written = write(load_glb(builder));
+    const WrittenGltf written = write_gltf_of(load_glb(builder));
     CHECK_FALSE(written.json["meshes"][0].contains("extensions"));
     CHECK(written.warns("EXT_mesh_manifold does not fit"));
 }

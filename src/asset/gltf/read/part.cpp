@@ -207,29 +207,12 @@ std::vector<Triangle> triangles_of(const std::vector<Index>& v, int mode) {
     return triangles;
 }
 
-/// Distance of the values that the integers of an accessor stand for; 0 for floats.
-double spacing_of_integers(const Json& accessor) {
-    const bool is_normalized = member(accessor, "normalized") == true;
-    switch (static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0))) {
-        case ComponentType::i8:
-            return is_normalized ? 1.0 / 127 : 1;
-        case ComponentType::u8:
-            return is_normalized ? 1.0 / 255 : 1;
-        case ComponentType::i16:
-            return is_normalized ? 1.0 / 32767 : 1;
-        case ComponentType::u16:
-            return is_normalized ? 1.0 / 65535 : 1;
-        default:
-            return 0;
-    }
-}
-
 /// Part::position_spacing: that of the primitives, if they all have the same.
 double position_spacing(const tinygltf::Mesh& mesh, const Json& accessors) {
     std::optional<double> spacing;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
         if (!is_triangle_primitive(primitive)) continue;
-        const double own = spacing_of_integers(accessors[find_accessor(primitive.attributes, "POSITION")]);
+        const double own = integer_step(accessors[find_accessor(primitive.attributes, "POSITION")]);
         if (spacing.value_or(own) != own) return 0;
         spacing = own;
     }
@@ -329,7 +312,7 @@ void read_vertex_bits(const LoadedGltf& loaded, Asset& asset) {
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             if (!is_triangle_primitive(primitive)) continue;
             for (const auto& [name, accessor] : primitive.attributes) {
-                if (spacing_of_integers(accessors[static_cast<std::size_t>(accessor)]) == 0) continue;
+                if (integer_step(accessors[static_cast<std::size_t>(accessor)]) == 0) continue;
                 if (name == "NORMAL" || name == "TANGENT") asset.normal_bits = standard.normal_bits;
                 if (name.compare(0, 9, "TEXCOORD_") == 0) asset.uv_bits = standard.uv_bits;
             }

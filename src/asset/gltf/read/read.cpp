@@ -7,6 +7,7 @@
 #include "asset/gltf/pose.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
+#include "asset/scene/affine.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/rest_pose.hpp"
 #include "faqem/error.hpp"
@@ -65,15 +66,10 @@ void check_world_positions(const Asset& asset, const std::string& file) {
         for (const Vec3& position : asset.parts[p].positions)
             for (const double x : position) max_coordinate[p] = std::max(max_coordinate[p], std::abs(x));
     for (const Instance& instance : instances(asset)) {
-        const auto& m = instance.transform;
-        for (std::size_t r = 0; r < 3; ++r) {
-            const double max_world_coordinate = (std::abs(m[r]) + std::abs(m[4 + r]) + std::abs(m[8 + r])) *
-                                                    std::max(max_coordinate[instance.part], 1.0) +
-                                                std::abs(m[12 + r]);
-            if (!std::isfinite(max_world_coordinate))
-                throw InputError(file, child_path("/meshes", asset.parts[instance.part].source),
-                                 "a node transform moves it out of the range of double");
-        }
+        const double largest = std::max(max_coordinate[instance.part], 1.0);
+        if (!std::isfinite(transformed_bound(instance.transform, largest)))
+            throw InputError(file, child_path("/meshes", asset.parts[instance.part].source),
+                             "a node transform moves it out of the range of double");
     }
     for (const PosedInstance& instance : posed_instances(asset)) {
         const Part& part = asset.parts[instance.part];
