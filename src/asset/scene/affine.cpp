@@ -11,12 +11,14 @@ Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p) {
     return q;
 }
 
+double max_or_nan(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+
 double transformed_bound(const std::array<double, 16>& m, double largest) {
     double bound = 0;
     for (std::size_t r = 0; r < 3; ++r) {
         const double row =
             (std::abs(m[r]) + std::abs(m[4 + r]) + std::abs(m[8 + r])) * largest + std::abs(m[12 + r]);
-        if (!(row <= bound)) bound = row;
+        bound = max_or_nan(bound, row);
     }
     return bound;
 }

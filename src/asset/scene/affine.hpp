@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -13,9 +14,12 @@ inline constexpr std::array<double, 16> identity_transform = {1, 0, 0, 0, 0, 1, 
 
 Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p);
 
+/// The larger of two values, or NaN if one of them is NaN.
+double max_or_nan(double a, double b);
+
 /// A bound of the absolute coordinates of transformed points; NaN or infinity if they may be outside the range of double.
 /// \param largest  largest absolute coordinate of the points
-double transformed_bound(const std::array<double, 16>& m, double largest);
+FAQEM_EXPORT double transformed_bound(const std::array<double, 16>& m, double largest);
 
 /// Transforms normals by the inverse transpose of the linear part, and normalises them. Those of mirroring transforms
 /// point to the same side as the face normals of faces whose winding is reversed. Defined for singular transforms too.

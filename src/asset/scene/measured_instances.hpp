@@ -17,8 +17,8 @@ FAQEM_EXPORT std::uint64_t shown_faces(const Asset& asset, const std::vector<Ins
 /// Whether a scene shows more than 2^24 faces, and more than four times those that its parts have.
 FAQEM_EXPORT bool has_excessive_instances(const Asset& asset, const std::vector<Instance>& all);
 
-/// Indices of the instances for measurements that copy all faces: all, but in a scene with has_excessive_instances() only the
-/// first one of each part, and others in the order of the scene until 2^24 faces are reached.
+/// Indices of the instances for measurements that copy all faces: all, but in a scene with has_excessive_instances() only
+/// the first one of each part, and others in the order of the scene until 2^24 faces are reached.
 /// Complexity: O(instances).
 FAQEM_EXPORT std::vector<std::size_t> measured_indices(const Asset& asset, const std::vector<Instance>& all);
 

@@ -68,8 +68,7 @@ Part posed_part(const Part& part, const PosedInstance& instance) {
     posed.colors = part.colors;
     posed.face_object = part.face_object;
     posed.object_names = part.object_names;
-    static const RestPose unposed;
-    const RestPose& pose = instance.pose ? *instance.pose : unposed;
+    const RestPose& pose = *instance.pose;
     apply_morph_weights(part, pose.morph_weights, posed);
     const bool is_skinned = !pose.joints.empty() && part.joints.size() == part.positions.size() &&
                             part.weights.size() == part.positions.size();
@@ -88,8 +87,7 @@ Part posed_part(const Part& part, const PosedInstance& instance) {
 }
 
 double posed_coordinate_bound(const Part& part, double largest, const PosedInstance& instance) {
-    static const RestPose unposed;
-    const RestPose& pose = instance.pose ? *instance.pose : unposed;
+    const RestPose& pose = *instance.pose;
     for (std::size_t m = 0; m < part.morph_targets.size() && m < pose.morph_weights.size(); ++m) {
         double displacement = 0;
         for (const Vec3f& d : part.morph_targets[m].positions)
@@ -98,10 +96,7 @@ double posed_coordinate_bound(const Part& part, double largest, const PosedInsta
     }
     // Points between those of two joints are in the box of both.
     double bound = transformed_bound(instance.transform, largest);
-    for (const JointMatrix& joint : pose.joints) {
-        const double of_joint = transformed_bound(joint, largest);
-        if (!(of_joint <= bound)) bound = of_joint;
-    }
+    for (const JointMatrix& joint : pose.joints) bound = max_or_nan(bound, transformed_bound(joint, largest));
     return bound;
 }
 

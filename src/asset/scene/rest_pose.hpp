@@ -35,12 +35,14 @@ FAQEM_EXPORT std::vector<PosedInstance> posed_instances(const Asset& asset);
 /// 3.7.3.3). Normals are transformed in the same way, by the inverse transpose, and normalised. The transform of the
 /// instance places vertices without joint weights. The winding of faces whose corners are mirrored is reversed.
 /// Tangents, joints and morph targets are left out. Joints that the skin does not have are ignored.
+/// \pre instance.pose is set
 /// Complexity: O(size of the part).
 FAQEM_EXPORT Part posed_part(const Part& part, const PosedInstance& instance);
 
-/// The largest coordinate that posed_part() could give, also between its steps; infinite or NaN if that may be out of
-/// the range of double. An upper bound.
-/// \param largest  absolute coordinate of the part
+/// An upper bound of the absolute coordinates of posed_part() and of its intermediate results; infinite or NaN if they
+/// may be outside the range of double.
+/// \param largest  largest absolute coordinate of the part
+/// \pre instance.pose is set
 double posed_coordinate_bound(const Part& part, double largest, const PosedInstance& instance);
 
 }  // namespace faqem::detail

@@ -15,7 +15,7 @@
 namespace faqem::detail {
 namespace {
 
-/// Whether an image is that of an extension, which says that its media type is not one of core glTF.
+/// Whether a texture refers to an image by the extension for its media type only.
 bool is_extension_image(const SourceDocument& source, Index image, const std::string& type) {
     for (const Json& texture : member(source.document, "textures"))
         for (const ImageExtension& extension : image_extensions)
