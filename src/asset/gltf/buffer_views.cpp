@@ -1,11 +1,11 @@
 #include "asset/gltf/buffer_views.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <set>
 #include <string>
 
 #include "asset/gltf/container.hpp"
+#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/json.hpp"
 #include "asset/io/file.hpp"
 
@@ -27,9 +27,8 @@ public:
                 add(sampler, "output", "animation");
             }
         }
-        for_each_extension(document_["nodes"], [&](const std::string& name, const Json& extension) {
-            if (name == "EXT_mesh_gpu_instancing") add_all(member(extension, "attributes"), "instance ");
-        });
+        for (const Json& node : member(document, "nodes"))
+            add_all(member(member(member(node, "extensions"), instancing_name), "attributes"), "instance ");
         for (const Json& image : member(document, "images"))
             is_image_.insert(index_member(image, "bufferView"));
     }

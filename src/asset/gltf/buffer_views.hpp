@@ -13,7 +13,7 @@ namespace faqem::detail {
 /// Lists the buffer views of a file that write_gltf() has written, without those of images, in their order.
 /// \param file  a .glb, or the JSON of a .gltf; under any name
 /// \throws InputError if the file cannot be read
-/// Complexity: O(size of the JSON).
+/// Complexity: O(size of the file).
 FAQEM_EXPORT std::vector<ResultView> buffer_views(const std::filesystem::path& file);
 
 }  // namespace faqem::detail

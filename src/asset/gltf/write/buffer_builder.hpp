@@ -35,7 +35,7 @@ constexpr bool is_index(AccessorUse use) {
     return use == AccessorUse::indices || use == AccessorUse::triangles;
 }
 
-/// Bits to which compression rounds vertices; 0: those that are not seen.
+/// Bits to which compression rounds vertices; 0: the usual ones of the encoder.
 struct VertexBits {
     std::uint32_t normals = 0;  ///< of the two octahedral coordinates of AccessorUse::short_directions
     std::uint32_t uvs = 0;      ///< of texture coordinates from 0 to 1

@@ -38,7 +38,8 @@ struct DracoBytes {
 /// Whether faqem was built with Draco.
 bool can_encode_draco();
 
-/// Steps of 2^-bits for values in some range; nothing if there are too many.
+/// The rounding of values to multiples of `spacing`; nothing if it is not positive, there are no values, or a multiple
+/// exceeds 2^24 - 1.
 /// \param values      all values
 /// \param components  of each
 /// \param spacing     of the steps

@@ -16,17 +16,10 @@ constexpr const char* lod_extension = "MSFT_lod";
 
 /// Whether the mesh of a node must be moved to a child node. Otherwise the nodes of the other levels, which
 /// are not in the scene, would need copies of its transform, children, camera or animation.
-bool needs_child_node(const GltfWriter& writer, Index node) {
-    const Json& json = writer.out["nodes"][node];
+bool needs_child_node(const Json& node, bool is_animated) {
     for (const char* key : {"children", "matrix", "translation", "rotation", "scale", "camera"})
-        if (json.contains(key)) return true;
-    return is_animated(writer, node);
-}
-
-/// Moves the mesh of a node to a new child node if needs_child_node(). Returns the node that has the mesh.
-Index split_mesh_node(GltfWriter& writer, Index node) {
-    if (!needs_child_node(writer, node)) return node;
-    return move_mesh_to_child(writer, node);
+        if (node.contains(key)) return true;
+    return is_animated;
 }
 
 /// Lets the animations of the morph weights of a node move another node, too.
@@ -67,7 +60,8 @@ Json level_node(const GltfWriter& writer, const Json& mesh_node, Index mesh, std
 }  // namespace
 
 void attach_levels(GltfWriter& writer, const LeveledAsset& leveled, const std::vector<Index>& mesh) {
-    const std::size_t nodes = array_size(writer.out, "nodes");
+    const std::vector<std::uint8_t> is_animated = animated_nodes(writer.out);
+    const std::size_t nodes = is_animated.size();
     std::vector<std::size_t> part_of_mesh(array_size(writer.out, "meshes"), leveled.parts_per_level);
     for (std::size_t p = 0; p < leveled.parts_per_level; ++p)
         if (mesh[p] != no_index) part_of_mesh[mesh[p]] = p;
@@ -75,7 +69,8 @@ void attach_levels(GltfWriter& writer, const LeveledAsset& leveled, const std::v
         const Index node_mesh = index_member(writer.out["nodes"][n], "mesh");
         const std::size_t part = node_mesh == no_index ? leveled.parts_per_level : part_of_mesh[node_mesh];
         if (part == leveled.parts_per_level) continue;
-        const Index mesh_node = split_mesh_node(writer, n);
+        const bool is_split = needs_child_node(writer.out["nodes"][n], is_animated[n] != 0);
+        const Index mesh_node = is_split ? move_mesh_to_child(writer, n) : n;
         Json ids = Json::array();
         for (std::size_t level = 1; level < leveled.levels(); ++level) {
             const Index level_mesh = mesh[level * leveled.parts_per_level + part];

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -64,7 +63,8 @@ void place_grids(GltfWriter& writer);
 /// \return the child
 Index move_mesh_to_child(GltfWriter& writer, Index node);
 
-/// Whether animations change the transform of a node.
-bool is_animated(const GltfWriter& writer, Index node);
+/// By node: whether an animation targets it or one of its members.
+/// O(nodes + channels)
+std::vector<std::uint8_t> animated_nodes(const Json& document);
 
 }  // namespace faqem::detail

@@ -24,8 +24,8 @@ struct CompressedView {
 bool can_encode_meshopt();
 
 /// Encodes the elements of a view. Directions and texture coordinates are rounded to multiples of 2^-11 and 2^-15, the
-/// smallest angles and distances that are seen, or to the given bits; rounded values stay as they are. Everything else is lossless, but the
-/// corners of a triangle may be rotated.
+/// smallest angles and distances that are seen, or to the given bits; rounded values stay as they are. Everything else
+/// is lossless, but the corners of a triangle may be rotated.
 /// \param bytes   the elements: floats for AccessorUse::directions and texture_coordinates, four 16-bit integers for
 ///                short_directions
 /// \param stride  bytes of an element: a multiple of 4, of indices 2 or 4

@@ -1,17 +1,13 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
-#include <map>
-#include <set>
-#include <span>
+#include <charconv>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/instancing.hpp"
+#include "asset/gltf/pose.hpp"
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/writer.hpp"
@@ -40,6 +36,16 @@ bool is_grid_node(const GltfWriter& writer, const Json& node) {
 
 /// The beginning of JSON pointers to members of a node.
 std::string pointer_to(Index node) { return "/nodes/" + std::to_string(node) + "/"; }
+
+/// The node to whose members a JSON pointer points; no_index if there is none.
+Index pointed_node(std::string_view pointer) {
+    constexpr std::string_view nodes = "/nodes/";
+    if (!pointer.starts_with(nodes)) return no_index;
+    Index node = no_index;
+    const char* const end = pointer.data() + pointer.size();
+    const auto [last, error] = std::from_chars(pointer.data() + nodes.size(), end, node);
+    return error == std::errc() && last != end && *last == '/' ? node : no_index;
+}
 
 std::string animated_pointer(const Json& channel) {
     return string_member(member(member(member(channel, "target"), "extensions"), "KHR_animation_pointer"),
@@ -85,12 +91,12 @@ void scale_node(Json& node, const MeshGrid& grid) {
     node["scale"] = scale;
 }
 
-bool may_be_scaled(const GltfWriter& writer, Index index) {
-    const Json& node = writer.out["nodes"][index];
+/// Whether nothing but the mesh of a node that is not animated depends on its transform.
+bool may_be_scaled(const Json& node) {
     for (const auto& [key, value] : node.items())
         if (std::find(scalable_members.begin(), scalable_members.end(), key) == scalable_members.end())
             return false;
-    return !is_animated(writer, index);
+    return true;
 }
 
 template <std::size_t N>
@@ -142,22 +148,10 @@ void write_bind_matrices(GltfWriter& writer, Json& skin, const MeshGrid& grid) {
         return;
     }
     if (!grid.needs_transform()) return;
-    std::vector<std::array<float, 16>> matrices(array_size(skin, "joints"));
-    if (accessor != no_index) {
-        const std::vector<std::uint8_t> bytes = dense_bytes(writer.source, accessor);
-        matrices.resize(bytes.size() / sizeof(matrices[0]));
-        if (!matrices.empty())
-            std::memcpy(matrices.data(), bytes.data(), matrices.size() * sizeof(matrices[0]));
-    } else {
-        std::array<float, 16> identity;
-        std::copy(identity_transform.begin(), identity_transform.end(), identity.begin());
-        std::fill(matrices.begin(), matrices.end(), identity);
-    }
-    for (std::array<float, 16>& own : matrices) {
-        Matrix m;
-        std::copy(own.begin(), own.end(), m.begin());
+    std::vector<std::array<float, 16>> matrices;
+    for (const Matrix& m : inverse_binds(writer.source, skin).matrices) {
         const Matrix scaled = product(m, matrix_of(grid));
-        std::transform(scaled.begin(), scaled.end(), own.begin(),
+        std::transform(scaled.begin(), scaled.end(), matrices.emplace_back().begin(),
                        [](double x) { return static_cast<float>(x); });
     }
     skin["inverseBindMatrices"] = add_floats(writer, matrices, "MAT4", AccessorUse::matrices);
@@ -168,7 +162,6 @@ void place_skins(GltfWriter& writer) {
     if (!writer.out.contains("skins")) return;
     const std::size_t skins = writer.out["skins"].size();
     std::vector<std::vector<std::pair<MeshGrid, Index>>> copies(skins);  // by skin: grids, and skins for them
-    const Json originals = writer.out["skins"];
     for (Json& node : writer.out["nodes"]) {
         const Index skin = index_member(node, "skin"), mesh = index_member(node, "mesh");
         if (skin == no_index || mesh == no_index) continue;
@@ -179,7 +172,7 @@ void place_skins(GltfWriter& writer) {
             return copy.first.spacing == grid.spacing && copy.first.origin == grid.origin;
         });
         if (found == own.end()) {
-            const Index copy = own.empty() ? skin : append(writer, "skins", originals[skin]);
+            const Index copy = own.empty() ? skin : append(writer, "skins", Json(writer.out["skins"][skin]));
             own.push_back({grid, copy});
             found = own.end() - 1;
         }
@@ -194,13 +187,16 @@ void place_skins(GltfWriter& writer) {
 
 }  // namespace
 
-bool is_animated(const GltfWriter& writer, Index node) {
-    for (const Json& animation : member(writer.out, "animations"))
-        for (const Json& channel : member(animation, "channels"))
-            if (index_member(member(channel, "target"), "node") == node ||
-                animated_pointer(channel).compare(0, pointer_to(node).size(), pointer_to(node)) == 0)
-                return true;
-    return false;
+std::vector<std::uint8_t> animated_nodes(const Json& document) {
+    std::vector<std::uint8_t> result(array_size(document, "nodes"), 0);
+    for (const Json& animation : member(document, "animations"))
+        for (const Json& channel : member(animation, "channels")) {
+            const Index target = index_member(member(channel, "target"), "node");
+            if (target < result.size()) result[target] = 1;
+            const Index pointed = pointed_node(animated_pointer(channel));
+            if (pointed < result.size()) result[pointed] = 1;
+        }
+    return result;
 }
 
 Index move_mesh_to_child(GltfWriter& writer, Index node) {
@@ -230,7 +226,8 @@ bool any_needs_transform(const GltfWriter& writer) {
 
 void place_grids(GltfWriter& writer) {
     if (!any_needs_transform(writer)) return;
-    const std::size_t nodes = array_size(writer.out, "nodes");
+    const std::vector<std::uint8_t> is_animated = animated_nodes(writer.out);
+    const std::size_t nodes = is_animated.size();
     for (Index n = 0; n < nodes; ++n) {
         Json& node = writer.out["nodes"][n];
         if (member(member(node, "extensions"), instancing_name).contains("attributes")) {
@@ -239,7 +236,8 @@ void place_grids(GltfWriter& writer) {
         }
         if (!is_grid_node(writer, node) || node.contains("skin")) continue;
         const MeshGrid grid = writer.grids[node["mesh"].get<Index>()];
-        const Index scaled = may_be_scaled(writer, n) ? n : move_mesh_to_child(writer, n);
+        const bool is_free = !is_animated[n] && may_be_scaled(node);
+        const Index scaled = is_free ? n : move_mesh_to_child(writer, n);
         scale_node(writer.out["nodes"][scaled], grid);
     }
     place_skins(writer);

@@ -78,7 +78,6 @@ void number_draco_views(GltfWriter& writer) {
 }
 
 std::vector<std::uint8_t> glb_bytes(GltfWriter& writer, const std::string& file) {
-    number_draco_views(writer);
     for (std::size_t i = 0; i < writer.images.size(); ++i) {
         Json& json = writer.out["images"][i];
         json["bufferView"] = writer.binary.add_view(writer.images[i]->encoded);
@@ -111,7 +110,6 @@ void write_glb(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
 /// Writes the images, the buffer and then the JSON, which refers to them.
 void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
     const std::string stem = file.stem().string();
-    number_draco_views(writer);
     std::vector<FileContent> files;
     for (std::size_t i = 0; i < writer.images.size(); ++i) {
         const Image& image = *writer.images[i];
@@ -152,13 +150,19 @@ GltfWriter make_writer(const Asset& asset) {
     return writer;
 }
 
+/// What depends on all meshes and nodes. No accessor is added after place_grids().
+void finish_scene(GltfWriter& writer) {
+    place_grids(writer);
+    number_draco_views(writer);
+    remap_structural_metadata(writer);
+}
+
 void write_meshes_and_scene(GltfWriter& writer) {
     find_source_images(writer);
     std::vector<Index> new_meshes;
     write_meshes(writer, new_meshes);
     write_scene(writer, new_meshes);
-    place_grids(writer);
-    remap_structural_metadata(writer);
+    finish_scene(writer);
 }
 
 }  // namespace
@@ -220,8 +224,7 @@ std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs
     new_meshes.resize(new_meshes.size() - other_part_count);
     write_scene(writer, new_meshes);
     attach_levels(writer, leveled, mesh);
-    place_grids(writer);
-    remap_structural_metadata(writer);
+    finish_scene(writer);
     write_output(writer, file, overwrite);
     return std::move(writer.warnings);
 }
