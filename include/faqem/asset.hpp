@@ -129,8 +129,8 @@ struct Part {
     Index source = no_index;
     /// bake() copies integers and feature ids (`_BATCHID`, `_FEATURE_ID_n`) from a vertex, and interpolates floats.
     std::vector<CustomAttribute> custom_attributes;
-    /// If not 0, save() stores the positions in glTF files as integers, with KHR_mesh_quantization: rounded to multiples
-    /// of this distance, in units of the part. Finite and >= 0.
+    /// If not 0, save() rounds the positions in glTF files to multiples of this distance, in units of the part, and
+    /// stores integers (KHR_mesh_quantization), or floats with Compression::draco. Finite and >= 0.
     double position_spacing = 0;
     /// bake() sets FileOrder::for_gpu for parts that lost faces. Their arrays are in the order of the history.
     FileOrder file_order = FileOrder::given;
@@ -148,9 +148,10 @@ struct Asset {
     std::shared_ptr<const SourceDocument> source;  ///< null if the format has no scene graph
     /// Geometry compression of a glTF file: of the file that was read, and of the one that save() writes.
     Compression compression = Compression::none;
-    /// If not 0, glTF files have integers instead of floats for normals and tangents, or for texture coordinates, of all
-    /// parts. Those of parts that lost faces have this number of bits where they are compressed; in [8, 16].
-    std::uint32_t normal_bits = 0, uv_bits = 0;
+    /// 0, or in [8, 16]: glTF files have integers instead of floats for normals and tangents of all parts, but with
+    /// Compression::draco floats. Where they are compressed, those of parts that lost faces are rounded to these bits.
+    std::uint32_t normal_bits = 0;
+    std::uint32_t uv_bits = 0;          ///< the same for texture coordinates
     std::vector<std::string> warnings;  ///< what load() repaired or left out
 };
 

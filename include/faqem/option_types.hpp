@@ -165,9 +165,9 @@ enum class ImageFormat {
     /// the source has WebP images.
     automatic,
     png,
-    jpeg,    ///< with BakeOptions::jpeg_quality
-    source,  ///< JPEG if all images that a channel is baked from are JPEG, else PNG
-    webp,  ///< as automatic, with WebP for colours and where it is smaller: normals are often smaller as JPEG
+    jpeg,         ///< with BakeOptions::jpeg_quality
+    source,       ///< JPEG if all images that a channel is baked from are JPEG, else PNG
+    webp,         ///< as `automatic`, but WebP for colours, and for other data where it is smaller
     png_or_jpeg,  ///< as `automatic`, but never WebP
 };
 

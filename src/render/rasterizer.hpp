@@ -31,8 +31,8 @@ struct Scene {
     std::vector<std::string> warnings;
 };
 
-/// Transforms an asset to world space, in its pose at rest, and decodes its images. An image that cannot be decoded is drawn white,
-/// with a warning in Scene::warnings.
+/// Transforms an asset to world space, in its pose at rest, and decodes its images. An image that cannot be decoded is
+/// drawn white, with a warning in Scene::warnings.
 Scene make_scene(Asset asset);
 
 /// A perspective camera with a square field of view. `right`, `up` and `back` are orthonormal.

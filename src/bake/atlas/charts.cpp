@@ -10,7 +10,6 @@
 #include "bake/atlas/parametrization.hpp"
 #include "bake/atlas/segmentation.hpp"
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {

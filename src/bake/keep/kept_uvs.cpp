@@ -40,7 +40,7 @@ std::uint64_t lost_components(const Report& report) {
     return report.components_collapsed + report.components_deleted;
 }
 
-// By how many times as many components may be lost: which of the smallest ones are is a matter of chance.
+// By how many times as many components may be lost: which of the smallest ones are lost is a matter of chance.
 constexpr std::uint64_t allowed_component_factor = 2;
 
 // Whether a part was simplified with UVs as far as without, and lost hardly more on the way. Coincident faces of
@@ -67,11 +67,11 @@ engine::UnionFind image_sharing_parts(const Asset& asset) {
     return result;
 }
 
-// What new pages would have: ComparedScenes::page_texels and gets_normal_map.
+// What new pages would have, by part.
 struct ExpectedPages {
-    std::vector<double> texels;
-    std::vector<std::uint8_t> has_normal_map;
-    std::vector<double> share;  // of the texels of the source, at most 1
+    std::vector<double> texel_sides;           // ComparedScenes::page_texels
+    std::vector<std::uint8_t> has_normal_map;  // ComparedScenes::gets_normal_map
+    std::vector<double> share;                 // of the texels of the source, at most 1
 };
 
 ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
@@ -91,10 +91,11 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
             constexpr double third = 1.0 / 3;
             const double density =
                 sampler.texel_density(part.index, part.map->map(f, {third, third, third}).face);
-            if (!std::isfinite(own * density * density)) continue;
+            const double wanted = own * density * density;
+            if (!std::isfinite(wanted)) continue;
             area[part.index] += own;
-            texels[part.index] += own * density * density;
-            needed[group] += own * density * density;
+            texels[part.index] += wanted;
+            needed[group] += wanted;
         }
     }
     ExpectedPages result{std::vector<double>(parts.size(), 0), std::vector<std::uint8_t>(parts.size(), 0),
@@ -108,17 +109,11 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
             if (normal_map) result.has_normal_map[face.part] = 1;
             result.share[face.part] = std::min(result.share[face.part], share);
             const double spacing = std::sqrt(area[face.part] / (texels[face.part] * share));
-            if (spacing > result.texels[face.part] && std::isfinite(spacing))
-                result.texels[face.part] = spacing;
+            if (spacing > result.texel_sides[face.part] && std::isfinite(spacing))
+                result.texel_sides[face.part] = spacing;
         }
     }
     return result;
-}
-
-// By how many dB the PSNR of one picture is lower than that of another.
-double lost_psnr(double kept, double baked, std::uint64_t points) {
-    const double invisible = 3 * invisible_difference * static_cast<double>(points);
-    return 10 * std::log10((kept + invisible) / (baked + invisible));
 }
 
 double psnr(double sum, std::uint64_t points) {
@@ -126,18 +121,18 @@ double psnr(double sum, std::uint64_t points) {
 }
 
 bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses, bool is_coarse) {
+    const double allowed = is_coarse ? allowed_loss_if_coarse : allowed_loss;
     std::array<double, 2> sum{};  // unlit, lit
-    double worst = 0;
     for (const auto& [kept, baked] : losses) {
-        const std::array<double, 2> lost = {lost_psnr(kept.unlit, baked.unlit, kept.points),
-                                            lost_psnr(kept.lit, baked.lit, kept.points)};
+        const std::array<double, 2> lost = {psnr(baked.unlit, kept.points) - psnr(kept.unlit, kept.points),
+                                            psnr(baked.lit, kept.points) - psnr(kept.lit, kept.points)};
         for (std::size_t k = 0; k < sum.size(); ++k) {
+            if (!(lost[k] <= allowed)) return false;
             sum[k] += lost[k];
-            worst = std::max(worst, lost[k]);
         }
     }
     const double mean = *std::max_element(sum.begin(), sum.end()) / static_cast<double>(losses.size());
-    return is_coarse ? worst <= allowed_loss_if_coarse : mean <= allowed_mean_loss && worst <= allowed_loss;
+    return is_coarse || mean <= allowed_mean_loss;
 }
 
 // Whether a part of a set shows single texels, without filter: a new page would blur them.
@@ -185,7 +180,7 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
     const SourceSampler kept_sampler(candidates.asset, seen, workers, {}, &decoded);
     const ExpectedPages pages = expected_pages(source, bake, parts, sampler, workers);
     const ComparedScenes scenes{
-        source, parts, sampler, candidates.asset, kept_sampler, pages.texels, pages.has_normal_map};
+        source, parts, sampler, candidates.asset, kept_sampler, pages.texel_sides, pages.has_normal_map};
     const double side = view_points / std::sqrt(static_cast<double>(sets.size()));
     const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
     std::vector<Index> good;
@@ -214,6 +209,7 @@ void keep_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<
         report.kept_uvs.push_back(title);
         parts[p].simplified = &simplified.kept[p];
         parts[p].map.reset();
+        parts[p].normals = {};
         parts[p].is_kept = true;
     }
 }

@@ -44,7 +44,7 @@ std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart
 /// Compares pictures of parts that keep their UVs with those of perfect new images. A set is good if pictures of it have
 /// a PSNR at most 0.8 dB lower, and 0.25 dB in the mean of small and large ones (unlit and lit pictures each), 2 dB
 /// where new images would have less than an eighth of the resolution, or if its textures are shown without filter.
-/// \param parts       as they would be baked; those of the sets have maps
+/// \param parts       as they would be baked; those that are not kept have maps and normals
 /// \param candidates  at least one set
 /// \param decoded     images of the source that are decoded already; those that are missing are added
 /// \throws engine::Cancelled

@@ -28,14 +28,16 @@ void write_normal(const Vector3& sum, std::uint8_t* to) {
 }
 
 void write_rgb(const Vec3f& values, std::uint8_t (*encode)(double), std::size_t at, Pixels& image) {
-    for (std::size_t k = 0; k < 3 && !image.rgba.empty(); ++k) image.rgba[4 * at + k] = encode(values[k]);
+    if (image.rgba.empty()) return;
+    for (std::size_t k = 0; k < 3; ++k) image.rgba[4 * at + k] = encode(values[k]);
 }
 
 void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float share, std::uint8_t* to) {
     if (layer.is_normal_map()) return write_normal(Vector3(sum[0], sum[1], sum[2]), to);
     const bool is_color = layer.encoding() == TexelEncoding::color_and_data_alpha;
-    for (std::size_t k = 0; k < 3 && layer.has_color(); ++k)
-        to[k] = is_color ? srgb_byte(sum[k] * share) : linear_byte(sum[k] * share);
+    if (layer.has_color())
+        for (std::size_t k = 0; k < 3; ++k)
+            to[k] = is_color ? srgb_byte(sum[k] * share) : linear_byte(sum[k] * share);
     if (layer.has_alpha()) to[3] = linear_byte(sum[3] * share);
 }
 

@@ -66,14 +66,20 @@ void connect_triangles(std::span<const BakePart> parts, PageMesh& page) {
     }
 }
 
-// Source texels per unit of length at a simplified face: root mean square over four points.
-double density_at(const BakePart& part, const SourceSampler& sampler, Index face) {
+// Source texels per unit of length at a simplified face.
+struct FaceDensity {
+    double mean;    // root mean square over four points
+    double middle;  // at the middle
+};
+
+FaceDensity density_at(const BakePart& part, const SourceSampler& sampler, Index face) {
+    std::array<double, quarter_points.size()> densities{};
     double sum = 0;
-    for (const Vec3& w : quarter_points) {
-        const double d = sampler.texel_density(part.index, part.map->map(face, w).face);
-        sum += d * d;
+    for (std::size_t i = 0; i < densities.size(); ++i) {
+        densities[i] = sampler.texel_density(part.index, part.map->map(face, quarter_points[i]).face);
+        sum += densities[i] * densities[i];
     }
-    return std::sqrt(sum / 4);
+    return {std::sqrt(sum / 4), densities[0]};
 }
 
 // Clamps the densities of the triangles of one part to within a factor of 4 of their area-weighted median.
@@ -129,14 +135,17 @@ PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> f
                         const SourceSampler& sampler, const std::optional<double>& density,
                         const Workers& workers) {
     const std::size_t count = faces.size();
-    PageMesh page{std::move(faces), std::vector<PageTriangle>(count), std::vector<std::uint64_t>(count)};
+    PageMesh page{std::move(faces), std::vector<PageTriangle>(count), std::vector<std::uint64_t>(count),
+                  std::vector<double>(count)};
     parallel_blocks(count, 256, workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const PageFace& at = page.faces[i];
             const TriangleMesh& mesh = parts[at.part].simplified->mesh;
             for (std::size_t c = 0; c < 3; ++c)
                 page.triangles[i].corners[c] = mesh.positions[mesh.triangles[at.face][c]];
-            page.triangles[i].density = density_at(parts[at.part], sampler, at.face);
+            const FaceDensity density_of_face = density_at(parts[at.part], sampler, at.face);
+            page.triangles[i].density = density_of_face.mean;
+            page.source_density[i] = density_of_face.middle;
         }
     });
     connect_triangles(parts, page);
@@ -152,19 +161,11 @@ PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> f
     return page;
 }
 
-double relative_density(std::span<const BakePart> parts, const PageMesh& mesh, const SourceSampler& sampler,
-                        const Atlas& atlas, const Workers& workers) {
-    std::vector<double> densities(mesh.faces.size());  // of the source at the middle of the triangle
-    parallel_blocks(densities.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PageFace& at = mesh.faces[i];
-            const SurfacePoint point = parts[at.part].map->map(at.face, quarter_points[0]);
-            densities[i] = sampler.texel_density(at.part, point.face);
-        }
-    });
+double relative_density(const PageMesh& mesh, const Atlas& atlas) {
     double own = 0, wanted = 0;
-    for (std::size_t i = 0; i < densities.size(); ++i) {
-        const double texels = area_vector(mesh.triangles[i]).norm() / 2 * densities[i] * densities[i];
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const double density = mesh.source_density[i];
+        const double texels = area_vector(mesh.triangles[i]).norm() / 2 * density * density;
         if (!std::isfinite(texels)) continue;
         const Triangle2& uv = atlas.placements[i].uv;
         own += std::abs(twice_signed_area(uv[0], uv[1], uv[2])) / 2;

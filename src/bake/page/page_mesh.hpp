@@ -28,6 +28,8 @@ struct PageMesh {
     std::vector<PageTriangle> triangles;
     /// Place of the triangle along a Morton curve through its part. Triangles with close values look alike.
     std::vector<std::uint64_t> order;
+    std::vector<double>
+        source_density;  ///< texels of the source per unit of length at the middle of the triangle
 };
 
 /// Makes the mesh of a page. Texel densities are those of the source, between a quarter and four times the median of
@@ -42,8 +44,7 @@ PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> f
 
 /// Texel density of a page divided by that of the source, both root mean squares over the simplified surface.
 /// \param atlas  of the triangles
-/// Complexity: O(n) map queries.
-double relative_density(std::span<const BakePart> parts, const PageMesh& mesh, const SourceSampler& sampler,
-                        const Atlas& atlas, const Workers& workers);
+/// Complexity: O(n).
+double relative_density(const PageMesh& mesh, const Atlas& atlas);
 
 }  // namespace faqem::detail

@@ -14,7 +14,7 @@
 
 namespace faqem::detail {
 
-/// Calls the progress callback. On the thread that constructs it only.
+/// Calls the progress callback, only on the thread that constructs it.
 class BakeProgress {
 public:
     /// \param options  threads, progress callback and time limit; must outlive this

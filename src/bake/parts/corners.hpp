@@ -28,7 +28,7 @@ struct BakePart {
     Index index = 0;  ///< index into Asset::parts
     const Part* source = nullptr;
     const SimplifyResult* simplified = nullptr;
-    /// Null if the simplified mesh has no faces, or at most normals are transferred from the source.
+    /// Null if the simplified mesh has no faces, if the part is kept, or if at most normals are transferred from the source.
     std::unique_ptr<const SurfaceMap> map;
     CornerNormals normals = {};  ///< empty without faces, if it is kept, and with Normals::none
     /// Whether baking leaves it empty in the result, because it is added later with its own vertices or UVs.

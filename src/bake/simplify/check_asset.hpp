@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Validation of assets, which need not come from a file reader.
+/// Validation of assets, which need not come from a file reader, and of options for them.
 
 #include "faqem/asset.hpp"
 #include "faqem/options.hpp"

@@ -82,7 +82,7 @@ void set_quantization(const Asset& source, const Options& options, Asset& result
     const PositionGrids grids = position_grids(source, options);
     if (grids.is_left_out)
         report.warnings.push_back(
-            "the grids of the source are coarse for max_error: the positions are floats");
+            "the grids of positions are coarse for max_error: the positions are floats");
     const bool is_new = uses_new_grid(source, options);
     if (options.quantize.kind != Quantize::off) {
         result.normal_bits = is_new || source.normal_bits > 0 ? options.quantize.normal_bits : 0;

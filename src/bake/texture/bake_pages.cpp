@@ -152,13 +152,13 @@ PartUvs uvs_of_pages(std::span<const BakePart> parts, const std::vector<Page>& p
 // tiled texture that does not fit on a page, and many textures on one page.
 constexpr double min_relative_density = 0.5;
 
-void report_page(const BakeJob& job, const SourceSampler& sampler, const Page& page, Index first_material,
-                 const PageImages& images, Report& report) {
+void report_page(const BakeJob& job, const Page& page, Index first_material, const PageImages& images,
+                 Report& report) {
     const Atlas& atlas = page.layout->atlas;
     BakedPage baked = page.layout->summary;
     baked.material = material_or_default(job.source, first_material).name;
     baked.fill = static_cast<double>(images.texels) / (static_cast<double>(atlas.width) * atlas.height);
-    baked.density = relative_density(job.parts, page.mesh, sampler, atlas, job.progress.workers());
+    baked.density = relative_density(page.mesh, atlas);
     baked.samples = images.samples;
     baked.uncertain_texels = images.uncertain_texels;
     if (baked.density > 0 && baked.density < min_relative_density * job.options.texel_density.value_or(1)) {
@@ -194,7 +194,7 @@ void bake_images(const BakeJob& job, const SourceSampler& sampler, const Materia
                                        page.channels, group.material.alpha_mode, page.layers,
                                        group.materials.front(), job.options.samples, records_origins},
                                       job.progress);
-        report_page(job, sampler, page, group.materials.front(), images, out.asset.report);
+        report_page(job, page, group.materials.front(), images, out.asset.report);
         if (records_origins) {
             const Atlas& atlas = page.layout->atlas;
             out.asset.correspondence.push_back(

@@ -181,7 +181,6 @@ Material page_material(const Asset& source, const BakeOptions& bake, const Mater
                        const Channels& channels, std::span<const ExtensionLayer> layers, PageImages images,
                        UnencodedResult& out) {
     Material result = group.material;
-    result.rebaked = true;
     result.normal_texture = result.base_color_texture = result.metallic_roughness_texture =
         result.occlusion_texture = result.emissive_texture = {};
     result.normal_scale = result.occlusion_strength = 1;
@@ -226,8 +225,7 @@ Material page_material(const Asset& source, const BakeOptions& bake, const Mater
     const bool is_unchanged = group.materials.size() == 1 && group.material.extensions.empty() &&
                               !has_textures(group.material) && !has_textures(result);
     result.rebaked = !is_unchanged;
-    add_layers(list, group.material, channels.layers ? layers : std::span<const ExtensionLayer>(), images,
-               result);
+    add_layers(list, group.material, layers, images, result);
     return result;
 }
 
