@@ -47,7 +47,7 @@ auto with_file_in_errors(const std::filesystem::path& file, Work&& work) {
 BakeOptions resolve_automatic_bake(BakeOptions requested, const Asset& source,
                                    const std::filesystem::path& out);
 
-/// Options of vertices for an output file: off in formats that have no such integers.
+/// Options of vertices for an output file: Quantize::off for formats other than glTF.
 /// \throws OptionError  Quantize::on is asked for, and the output is not glTF
 QuantizeOptions resolve_quantize(QuantizeOptions requested, const std::filesystem::path& out);
 

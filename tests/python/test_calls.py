@@ -20,12 +20,12 @@ class Interrupt(unittest.TestCase):
         self.mesh = bumpy_grid(60)
         self.before = signal.getsignal(signal.SIGINT)
 
-    def interrupted_at(self, fraction, calls):
-        """Returns a callback that sends SIGINT to this process and counts its calls."""
+    def interrupted_at(self, call, calls):
+        """Returns a callback that notes its calls, and sends SIGINT to this process at the given one."""
 
         def progress(phase, done):
             calls.append(phase)
-            if len(calls) == fraction:
+            if len(calls) == call:
                 os.kill(os.getpid(), signal.SIGINT)
 
         return progress

@@ -22,7 +22,6 @@ namespace tool_test {
 
 namespace fs = std::filesystem;
 
-
 /// A temporary folder that is removed by the destructor.
 class Folder : public faqem::cli::TemporaryFolder {
 public:

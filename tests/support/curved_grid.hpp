@@ -1,12 +1,8 @@
 #pragma once
-// A mesh with all attributes that compression rounds, and how much it rounds them.
+// A mesh with all attributes that compression rounds.
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
-#include "support/catch.hpp"
 #include "support/format_support.hpp"
 
 namespace faqem::testing {
@@ -35,17 +31,6 @@ inline Asset curved_grid(FileOrder order) {
     }
     part.face_material.assign(part.triangles.size(), no_index);
     return asset;
-}
-
-/// The largest difference between components of two lists of vectors.
-template <class A, class B>
-double largest_difference(const A& a, const B& b) {
-    REQUIRE(a.size() == b.size());
-    double result = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        for (std::size_t k = 0; k < a[i].size(); ++k)
-            result = std::max(result, std::abs(double{a[i][k]} - double{b[i][k]}));
-    return result;
 }
 
 }  // namespace faqem::testing

@@ -1,7 +1,6 @@
 #pragma once
 // Builds small glTF documents in memory, valid or invalid.
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -139,10 +138,7 @@ struct WrittenGltf {
     Json json;
     std::vector<std::string> warnings;
 
-    bool warns(const std::string& text) const {
-        return std::any_of(warnings.begin(), warnings.end(),
-                           [&](const std::string& w) { return w.find(text) != std::string::npos; });
-    }
+    bool warns(const std::string& text) const { return any_contains(warnings, text); }
     const Json& primitive() const { return json["meshes"][0]["primitives"][0]; }
 };
 

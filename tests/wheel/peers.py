@@ -12,8 +12,8 @@ def grid(n, height):
     return numpy.stack([x, y, height(x, y)], axis=1).astype(float), triangles
 
 
-def fan():
-    """Two sheets with common edges: edges of three and four faces."""
+def bridged_sheets():
+    """Two sheets that two faces at a corner join."""
     points, triangles = grid(30, lambda x, y: 2 * numpy.sin(x / 4))
     above = points + [0, 0, 5]
     return numpy.concatenate([points, above]), numpy.concatenate(
@@ -28,7 +28,7 @@ def tube():
     return bent, numpy.where(triangles >= 63 * 64, triangles - 63 * 64, triangles)
 
 
-meshes = {"waves": grid(60, lambda x, y: 3 * numpy.sin(x / 8) * numpy.cos(y / 6)), "fan": fan(), "tube": tube()}
+meshes = {"waves": grid(60, lambda x, y: 3 * numpy.sin(x / 8) * numpy.cos(y / 6)), "bridged": bridged_sheets(), "tube": tube()}
 for name, (points, triangles) in meshes.items():
     for reduction in (0.5, 0.9, 0.99):
         ours = faqem.simplify(points, triangles, reduction, return_collapses=True)

@@ -11,7 +11,7 @@ import numpy
 
 
 def write_statue():
-    """Writes a textured model of 51,200 faces: a wavy plate with vertex colours, which become a texture."""
+    """Writes a model of 51,200 faces: a wavy plate with vertex colours, which become a texture."""
     n = 161
     x, y = (axis.ravel() for axis in numpy.meshgrid(numpy.arange(n), numpy.arange(n), indexing="ij"))
     lines = [f"v {a} {b} {(a * b) % 7 * 0.1} {a / n} {b / n} 0.5" for a, b in zip(x, y)]

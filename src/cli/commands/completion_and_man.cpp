@@ -29,7 +29,8 @@ CommandInfo completion_command() {
 
 CommandInfo profiles_command() {
     const auto name = std::make_shared<std::string>();
-    OptionInfo shown = positional("NAME", *name, "Print this profile as a file for --config", "web|game");
+    OptionInfo shown = positional("NAME", *name, "Print this profile as a file for --config",
+                                  builtin_profile_option().value_name);
     shown.is_required = false;
     return {"profiles",
             "Show what the built-in profiles set",

@@ -26,6 +26,13 @@ constexpr std::array<BuiltinProfile, 2> all_profiles = {
      {"game", "files that every importer of glTF reads: PNG and JPEG images, and geometry without extensions",
       game_options}}};
 
+std::string names(std::string_view separator) {
+    std::string result;
+    for (const BuiltinProfile& profile : all_profiles)
+        result.append(result.empty() ? "" : separator).append(profile.name);
+    return result;
+}
+
 }  // namespace
 
 std::span<const BuiltinProfile> builtin_profiles() { return all_profiles; }
@@ -34,20 +41,14 @@ const BuiltinProfile& builtin_profile(std::string_view name) {
     const auto found = std::find_if(all_profiles.begin(), all_profiles.end(),
                                     [&](const BuiltinProfile& profile) { return profile.name == name; });
     if (found != all_profiles.end()) return *found;
-    std::string known;
-    for (const BuiltinProfile& profile : all_profiles)
-        known.append(known.empty() ? "" : ", ").append(profile.name);
-    throw OptionError("--profile: unknown value '" + std::string(name) + "' (known: " + known +
+    throw OptionError("--profile: unknown value '" + std::string(name) + "' (known: " + names(", ") +
                       "); --config reads a profile from a file");
 }
 
 OptionInfo builtin_profile_option() {
-    std::string names;
-    for (const BuiltinProfile& profile : all_profiles)
-        names.append(names.empty() ? "" : "|").append(profile.name);
     OptionInfo info{
         {"--profile"},
-        names,
+        names("|"),
         "Use the options of a built-in profile, which faqem profiles shows; options on the command line "
         "and of --config take precedence",
         detail::OptionKind::choice};

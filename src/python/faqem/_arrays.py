@@ -22,6 +22,11 @@ def check_shape(array: Array, width: int, name: str) -> Array:
     return array
 
 
+def check_rows(array: Array, width: int, name: str) -> Array:
+    """As check_shape(), but an empty array of any shape has no rows."""
+    return check_shape(array.reshape(0, width) if array.size == 0 else array, width, name)
+
+
 def _is_readable_in_place(array: Array) -> bool:
     """Whether the C API reads the array (n, 3) in place: rows or columns follow each other without overlap."""
     stride, step = array.strides
@@ -100,7 +105,7 @@ class MeshArrays:
     ) -> None:
         positions = _positions(vertices)
         corners = _indices(triangles, "triangles")
-        corners = check_shape(corners.reshape(0, 3) if corners.size == 0 else corners, 3, "triangles")
+        corners = check_rows(corners, 3, "triangles")
         self.kind = positions.dtype
         self.mesh = Mesh(vertex_count=len(positions), face_count=len(corners))
         self._arrays: list[Array] = []

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import check_shape, checked_array, checked_indices
+from ._arrays import check_rows, check_shape, checked_array, checked_indices
 from ._levels import History
 from ._options import checked_integer
 from ._simplify import Simplified, simplify_arrays
@@ -45,7 +45,7 @@ def triangle_rows(triangles: ArrayLike) -> NDArray[Any]:
     """Returns triangles as rows. pyvista's `faces`, a flat array with a 3 before each triangle, are accepted, too."""
     array = checked_array(triangles, "triangles")
     if array.ndim != 1 or array.size == 0:
-        return check_shape(array.reshape(0, 3) if array.size == 0 else array, 3, "triangles")
+        return check_rows(array, 3, "triangles")
     if array.size % 4 != 0 or (array[::4] != 3).any():
         raise InputError("triangles: a flat array must have a 3 before the three indices of each triangle")
     return array.reshape(-1, 4)[:, 1:]
@@ -153,7 +153,7 @@ def replay_simplification(
     positions = check_shape(checked_array(points, "points", numpy.float64), 3, "points")
     rows = checked_indices(triangle_rows(triangles), "triangles").astype(numpy.int64)
     pairs = checked_indices(collapses, "collapses")
-    pairs = check_shape(pairs.reshape(0, 2) if pairs.size == 0 else pairs, 2, "collapses").astype(numpy.int64)
+    pairs = check_rows(pairs, 2, "collapses").astype(numpy.int64)
     for name, indices in (("triangles", rows), ("collapses", pairs)):
         if indices.size and indices.max() >= len(positions):
             raise InputError(f"{name}: the index {indices.max()} is not one of the {len(positions)} points")

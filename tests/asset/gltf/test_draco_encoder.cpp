@@ -9,6 +9,7 @@
 #include "support/catch.hpp"
 #include "support/curved_grid.hpp"
 #include "support/gltf_builder.hpp"
+#include "support/largest_difference.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;

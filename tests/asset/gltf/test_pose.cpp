@@ -19,7 +19,7 @@ std::vector<float> translation_matrix(float x, float y, float z) {
     return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1};
 }
 
-// The square with normals along z. Its left side is bound to a joint at the origin, which the pose moves up by 5; the
+// The square with normals along y. Its left side is bound to a joint at the origin, which the pose moves up by 5; the
 // right side to a joint at (1, 0, 0), which the pose turns by 90 degrees about z. The node of the mesh is far away.
 GltfBuilder posed_square(const JointWeights& weights = {
                              {1, 0, 0, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}}) {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "asset/scene/affine.hpp"
 #include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
+#include "support/largest_difference.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;
@@ -14,27 +16,13 @@ namespace {
 
 constexpr double step = 0x1p-6;
 
-Vec3 transformed(const std::array<double, 16>& m, const Vec3& p) {
-    Vec3 q;
-    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
-    return q;
-}
-
 /// All positions of the scene, instance by instance.
 std::vector<Vec3> world_positions(const Asset& asset) {
     std::vector<Vec3> positions;
     for (const Instance& instance : instances(asset))
         for (const Vec3& p : asset.parts[instance.part].positions)
-            positions.push_back(transformed(instance.transform, p));
+            positions.push_back(detail::transformed_point(instance.transform, p));
     return positions;
-}
-
-double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    REQUIRE(a.size() == b.size());
-    double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, std::abs(a[i][k] - b[i][k]));
-    return largest;
 }
 
 /// The square, moved and turned a little so that no position is on the grid.
@@ -63,7 +51,7 @@ Asset rewritten(const Asset& asset) { return load_glb(saved(asset)); }
 /// The world positions before and after are within half a step, and those that are read and written again are equal.
 void check_world(const GltfBuilder& builder, double scale = 1) {
     const Asset asset = quantized(builder), once = rewritten(asset), twice = rewritten(once);
-    CHECK(largest_distance(world_positions(asset), world_positions(once)) <= scale * (step / 2 + 1e-6));
+    CHECK(largest_difference(world_positions(asset), world_positions(once)) <= scale * (step / 2 + 1e-6));
     CHECK(once.parts[0].position_spacing > 0);
     CHECK(once.parts[0].positions == twice.parts[0].positions);
     CHECK(world_positions(once) == world_positions(twice));
@@ -119,7 +107,7 @@ TEST_CASE("the transform of a node, its children, cameras and animations are not
         builder.add("nodes", {{"mesh", 0}, {"translation", {5, 0, 0}}});
         std::vector<Vec3> before = world_positions(quantized(builder));
         std::rotate(before.begin(), before.begin() + 4, before.end());  // the new child is the last
-        CHECK(largest_distance(before, world_positions(rewritten(quantized(builder)))) <= step / 2 + 1e-6);
+        CHECK(largest_difference(before, world_positions(rewritten(quantized(builder)))) <= step / 2 + 1e-6);
         const Json json = json_of(saved(quantized(builder)));
         REQUIRE(json["nodes"].size() == 3);
         CHECK_FALSE(json["nodes"][0].contains("mesh"));
@@ -172,7 +160,7 @@ TEST_CASE("instances are scaled each, since their translations must not be") {
     builder.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
     const Asset asset = quantized(builder), once = rewritten(asset);
     // Floats near 6000 have steps of 5e-4.
-    CHECK(largest_distance(world_positions(asset), world_positions(once)) <= 2 * (step / 2 + 2e-3));
+    CHECK(largest_difference(world_positions(asset), world_positions(once)) <= 2 * (step / 2 + 2e-3));
     CHECK(once.parts[0].positions == rewritten(once).parts[0].positions);
 }
 
@@ -222,8 +210,8 @@ TEST_CASE("skins restore the size of their meshes, and are copied for meshes wit
             std::array<double, 16> before, after;
             std::copy(matrices[joint].begin(), matrices[joint].end(), before.begin());
             std::copy(stored.begin(), stored.end(), after.begin());
-            const Vec3 expected = transformed(before, asset.parts[mesh].positions[v]),
-                       found = transformed(after, read.parts[mesh].positions[v]);
+            const Vec3 expected = detail::transformed_point(before, asset.parts[mesh].positions[v]),
+                       found = detail::transformed_point(after, read.parts[mesh].positions[v]);
             for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(expected[k] - found[k]) <= step + 2e-4);
         }
     }

@@ -7,6 +7,7 @@
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
+#include "support/format_support.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;
@@ -50,7 +51,7 @@ TEST_CASE("all parts and levels have the grid of the scene, a power of two") {
     }
 }
 
-TEST_CASE("floats and files without integers have no grid") {
+TEST_CASE("a source of floats has no grid by default, and none without quantisation") {
     Options options = quantized(10);
     for (const Quantize kind : {Quantize::source, Quantize::off}) {
         options.quantize.kind = kind;
@@ -72,9 +73,7 @@ TEST_CASE("the grid of the source is kept, unless it is coarse for max_error") {
     options.max_error = model_units(0x1p-9);
     const SimplifiedAsset fine = simplify(asset, options);
     CHECK(fine.asset.parts[1].position_spacing == 0);
-    CHECK(std::any_of(fine.report.warnings.begin(), fine.report.warnings.end(), [](const std::string& text) {
-        return text.find("coarse for max_error") != text.npos;
-    }));
+    CHECK(testing::any_contains(fine.report.warnings, "coarse for max_error"));
 }
 
 TEST_CASE("max_error includes the rounding of positions") {
