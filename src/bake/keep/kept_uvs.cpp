@@ -12,7 +12,7 @@
 #include "bake/page/normal_map.hpp"
 #include "bake/page/page_mesh.hpp"
 #include "bake/parts/output_part.hpp"
-#include "bake/source/material_groups.hpp"
+#include "bake/source/page_groups.hpp"
 #include "bake/source/source_sampler.hpp"
 #include "bake/source/vector_conversion.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
@@ -76,7 +76,7 @@ struct ExpectedPages {
 
 ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
                              const SourceSampler& sampler, const Workers& workers) {
-    const MaterialGroups groups = group_materials(source, bake, kept_flags(parts));
+    const MaterialGroups groups = page_groups(source, bake, kept_flags(parts));
     std::vector<std::vector<PageFace>> faces(groups.groups.size());
     std::vector<double> needed(groups.groups.size(), 0);  // texels
     std::vector<double> area(parts.size(), 0), texels(parts.size(), 0);

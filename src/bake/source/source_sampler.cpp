@@ -24,13 +24,6 @@ double face_area(const Part& part, std::size_t f) {
     return area_vector(part.positions, part.triangles[f]).norm() / 2;
 }
 
-double uv_area(const std::vector<Vec2f>& uvs, const Triangle& t) {
-    const Vec2f &a = uvs[t[0]], &b = uvs[t[1]], &c = uvs[t[2]];
-    const double x1 = double(b[0]) - a[0], y1 = double(b[1]) - a[1];
-    const double x2 = double(c[0]) - a[0], y2 = double(c[1]) - a[1];
-    return std::abs(x1 * y2 - x2 * y1) / 2;
-}
-
 template <class V>
 double blend(const std::vector<V>& values, const Triangle& t, const Vec3& w, std::size_t k) {
     return w[0] * values[t[0]][k] + w[1] * values[t[1]][k] + w[2] * values[t[2]][k];

@@ -228,6 +228,13 @@ Vec3f MipImage::stored_color(const TextureRef& texture_ref, double u, double v) 
     return {linear[p[0]], linear[p[1]], linear[p[2]]};
 }
 
+double uv_area(const std::vector<Vec2f>& uvs, const Triangle& t) {
+    const Vec2f &a = uvs[t[0]], &b = uvs[t[1]], &c = uvs[t[2]];
+    const double x1 = double{b[0]} - a[0], y1 = double{b[1]} - a[1];
+    const double x2 = double{c[0]} - a[0], y2 = double{c[1]} - a[1];
+    return std::abs(x1 * y2 - x2 * y1) / 2;
+}
+
 UvTransform uv_transform(const TextureRef& texture_ref) {
     const double c = std::cos(double(texture_ref.rotation)), s = std::sin(double(texture_ref.rotation));
     return {{c * texture_ref.scale[0], s * texture_ref.scale[1], texture_ref.offset[0]},

@@ -81,6 +81,10 @@ struct UvTransform {
 /// counter-clockwise, as seen on an image with v down.
 UvTransform uv_transform(const TextureRef& texture_ref);
 
+/// Area of a triangle in UV space.
+/// \param uvs  by vertex
+double uv_area(const std::vector<Vec2f>& uvs, const Triangle& t);
+
 /// Encodes linear light in [0, 1] as an sRGB byte. Other values are clamped; NaN gives 0.
 std::uint8_t srgb_byte(double linear);
 

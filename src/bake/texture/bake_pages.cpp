@@ -14,7 +14,7 @@
 #include "bake/page/page_mesh.hpp"
 #include "bake/parts/output_part.hpp"
 #include "bake/source/extension_layers.hpp"
-#include "bake/source/material_groups.hpp"
+#include "bake/source/page_groups.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/page_material.hpp"
 
@@ -237,7 +237,7 @@ Part textured_part(const BakePart& part, const MaterialGroups& groups, PartUvs& 
 
 bool bake_pages(const BakeJob& job, DecodedImages decoded, UnencodedResult& out) {
     const std::vector<std::uint8_t> kept = kept_flags(job.parts);
-    const MaterialGroups groups = group_materials(job.source, job.options, kept);
+    const MaterialGroups groups = page_groups(job.source, job.options, kept);
     std::vector<Page> pages = plan_pages(job, groups);
     Channels wanted;
     for (const Page& page : pages) wanted = wanted | page.channels;

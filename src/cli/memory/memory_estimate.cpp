@@ -11,7 +11,7 @@
 #include "asset/image/image_size.hpp"
 #include "asset/model_files.hpp"
 #include "asset/scene/measured_instances.hpp"
-#include "bake/source/material_groups.hpp"
+#include "bake/source/page_groups.hpp"
 #include "cli/file_stamp.hpp"
 #include "cli/memory/gltf_json_memory.hpp"
 #include "cli/memory/gltf_memory.hpp"
@@ -87,7 +87,7 @@ double page_bytes(const Asset& asset, const BakeOptions& bake) {
         page_bytes_per_texel + (bake.correspondence == Recording::on ? correspondence_bytes_per_texel : 0);
     const auto pages = detail::has_plain_materials(asset, bake)
                            ? 0.0
-                           : static_cast<double>(detail::group_materials(asset, bake).groups.size());
+                           : static_cast<double>(detail::page_groups(asset, bake).groups.size());
     std::size_t layers = 0;
     for (const Material& material : asset.materials)
         layers = std::max(layers, material.extension_textures.size());
