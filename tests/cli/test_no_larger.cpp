@@ -49,6 +49,29 @@ TEST_CASE("a textured result that would be larger than its input gives up image 
           (size_of(folder, "out.glb") > size_of(folder, "in.glb")));
 }
 
+TEST_CASE("less than 34 dB are for results that are not larger with them") {
+    const faqem::Asset asset = model_with_small_image();
+    faqem::Options options;
+    options.target = faqem::ratio(0.5);
+    options.bake.normal_map = faqem::NormalMap::off;
+    options.bake.image_quality = 24;
+    const auto least = simplify_no_larger(asset, options, {"out.glb", 0, LargerResult::allowed});
+    const std::uint64_t enough = model_bytes(least.asset, "out.glb").total();
+    options.bake.image_quality = low_image_quality;
+    const auto detailed = simplify_no_larger(asset, options, {"out.glb", 0, LargerResult::allowed});
+    REQUIRE(model_bytes(detailed.asset, "out.glb").total() > enough);
+    options.bake.image_quality.reset();
+    const auto result = simplify_no_larger(asset, options, {"out.glb", enough, LargerResult::gives_up});
+    CHECK(result.report.given_up == std::vector<std::string>{"image quality (24 dB)"});
+    CHECK(result.asset.images[0].encoded == least.asset.images[0].encoded);
+    const auto larger = simplify_no_larger(asset, options, {"out.glb", enough - 1, LargerResult::gives_up});
+    CHECK(larger.report.given_up == std::vector<std::string>{"image quality (34 dB)"});
+    CHECK(larger.asset.images[0].encoded == detailed.asset.images[0].encoded);
+    REQUIRE(larger.report.images.size() == 1);
+    CHECK(larger.report.images[0].bytes == detailed.asset.images[0].encoded.size());
+    CHECK(larger.report.warnings.back().find("bytes, more than the input with") != std::string::npos);
+}
+
 TEST_CASE("each textured level of lod that would be larger than the input gives something up") {
     const Folder folder;
     faqem::save(model_with_small_image(), folder / "in.glb");
