@@ -66,3 +66,27 @@ TEST_CASE("KTX2 and AVIF images are passed through, with their extensions") {
     CHECK(simplify(asset, options).asset.images.empty());
     CHECK_THROWS_AS(decode(asset.images[0]), UnsupportedError);
 }
+
+TEST_CASE("KTX2 and AVIF images as core sources are those of extensions that the file uses") {
+    const bool is_ktx2 = GENERATE(true, false);
+    const char* extension = is_ktx2 ? "KHR_texture_basisu" : "EXT_texture_avif";
+    const char* media_type = is_ktx2 ? "image/ktx2" : "image/avif";
+    GltfBuilder builder = passed_square(is_ktx2 ? ktx2_bytes : avif_bytes, extension, media_type);
+    builder.json["textures"][0] = {{"source", 0}, {"name", "kept"}};
+    builder.json.erase("extensionsRequired");
+    const Asset asset = load_glb(builder);
+    CHECK(asset.warnings ==
+          std::vector<std::string>{"1 texture with " + std::string(media_type) +
+                                   " as the core source: read as the source of " + extension});
+    Options options;
+    options.target = ratio(0.5);
+    for (const Asset& out : {asset, simplify(asset, options).asset}) {
+        const Json json = json_of(saved(out));
+        CHECK(json["textures"] ==
+              Json::array({{{"name", "kept"}, {"extensions", {{extension, {{"source", 0}}}}}}}));
+        CHECK(json["extensionsUsed"] == Json({extension}));
+        CHECK(json["extensionsRequired"] == Json({extension}));
+    }
+    builder.json.erase("extensionsUsed");
+    CHECK(contains(refusal<UnsupportedError>(builder), "/images/0: is "));
+}

@@ -9,6 +9,7 @@
 #include "asset/io/file.hpp"
 #include "asset/scene/affine.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "asset/scene/messages.hpp"
 #include "asset/scene/rest_pose.hpp"
 #include "faqem/error.hpp"
 
@@ -23,6 +24,37 @@ bool is_extension_image(const SourceDocument& source, Index image, const std::st
                 index_member(texture, "source") == no_index && type == extension.media_type)
                 return true;
     return false;
+}
+
+bool is_listed(const Json& document, const char* list, const char* extension) {
+    const Json& names = member(document, list);
+    return std::find(names.begin(), names.end(), extension) != names.end();
+}
+
+/// Some programs write KTX2 and AVIF images as the core source of a texture, where glTF allows PNG and JPEG only, and
+/// name the extension in `extensionsUsed` alone. Such a source becomes that of the extension, which is required then.
+void move_sources_to_extensions(SourceDocument& source, std::vector<std::string>& warnings) {
+    Json& document = source.document;
+    for (const ImageExtension& extension : image_extensions) {
+        if (!is_listed(document, "extensionsUsed", extension.name)) continue;
+        std::uint64_t moved = 0;
+        for (std::size_t t = 0; t < array_size(document, "textures"); ++t) {
+            Json& texture = document["textures"][t];
+            const Index image = index_member(texture, "source");
+            if (image == no_index || !is_passed_through(source.images[image]) ||
+                source.images[image].mime_type != extension.media_type ||
+                member(member(texture, "extensions"), extension.name).contains("source"))
+                continue;
+            texture.erase("source");
+            texture["extensions"][extension.name]["source"] = image;
+            ++moved;
+        }
+        if (moved == 0) continue;
+        if (!is_listed(document, "extensionsRequired", extension.name))
+            document["extensionsRequired"].push_back(extension.name);
+        warnings.push_back(pluralized(moved, "texture") + " with " + extension.media_type +
+                           " as the core source: read as the source of " + extension.name);
+    }
 }
 
 /// Checks that the textures of the core material model can be decoded, or that an extension says what they are.
@@ -96,6 +128,7 @@ Asset read_gltf(const std::filesystem::path& file) { return read_gltf(read_file(
 Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
     LoadedGltf loaded = load_gltf(bytes, file);
     Asset asset;
+    move_sources_to_extensions(*loaded.source, loaded.warnings);
     loaded.source->materials = read_materials(loaded);
     asset.materials = loaded.source->materials;
     check_image_types(asset, *loaded.source, loaded.file);
