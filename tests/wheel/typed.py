@@ -31,6 +31,7 @@ baked = faqem.bake(model, faces=20_000, texture_size=2048, image_format="webp")
 faqem.save(baked, "simplified.glb", overwrite=True)
 faqem.save((out.vertices, out.triangles), "simplified.ply")
 faqem.save_levels([model, *faqem.bake_levels(model, [0.5, 0.1], textures="shared")], "levels.glb")
+print(faqem.compare(baked, "simplified.glb", samples=1000)["colors"], faqem.command("info", "statue.glb").split())
 print(faqem.History.load("history").truncate(100).vertices.shape, faqem.__version__)
 
 faqem.simplify(vertices, triangles, rato=0.5)  # type: ignore[call-overload]

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ._levels import History, simplify_levels
     from ._model import Model, Part, bake, bake_levels, bake_truncated, load, save, save_levels
     from ._call import simplify
+    from ._command import command, compare
     from ._compatible import Collapses, replay_simplification
     from ._simplify import Simplified
 
@@ -39,6 +40,8 @@ __all__ = [
     "bake",
     "bake_truncated",
     "bake_levels",
+    "command",
+    "compare",
     "load",
     "replay_simplification",
     "save",
@@ -52,6 +55,7 @@ __all__ = [
 _modules = {
     **dict.fromkeys(["History", "simplify_levels"], "_levels"),
     **dict.fromkeys(["Model", "Part", "bake", "bake_levels", "bake_truncated", "load", "save", "save_levels"], "_model"),
+    **dict.fromkeys(["command", "compare"], "_command"),
     **dict.fromkeys(["Collapses", "replay_simplification"], "_compatible"),
     "Simplified": "_simplify",
     "simplify": "_call",

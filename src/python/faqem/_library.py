@@ -125,7 +125,7 @@ def _open() -> ctypes.CDLL:
 
 library = _open()
 
-_exceptions: dict[int, type[Exception]] = {
+exceptions: dict[int, type[Exception]] = {
     1: errors.InternalError,
     2: errors.OptionError,
     3: errors.InputError,
@@ -148,7 +148,7 @@ def call(function: Any, *arguments: Any) -> None:
     error = _Error()
     status = function(*arguments, ctypes.byref(error))
     if status != 0:
-        raise _exceptions.get(status, errors.InternalError)(error.message.decode(errors="replace"))
+        raise exceptions.get(status, errors.InternalError)(error.message.decode(errors="replace"))
 
 
 def create(function: Any, *arguments: Any) -> c_void_p:
