@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds the wheel on an empty Debian 12, also from the source distribution, which must give the same bytes; checks its
 # size and platform tag; installs it on empty Debian 12 and 13, with different numpy, and tries it there: the README and
-# the tests of tests/python. Also with Python 3.9, if this machine has it.
+# the tests of tests/python. The page docs/python.md is executed. Also with Python 3.9, if this machine has it.
 # Usage: tests/run.sh --suite wheel
 # The systems are those of tests/support/debian_root.sh.
 set -eu
@@ -37,6 +37,7 @@ tag_and_size() {
 peers() {
     in_root "$work/build" "env/bin/pip install -q fast-simplification trimesh pillow scipy wheels/*.whl"
     in_root "$work/build" "env/bin/python faqem/tests/wheel/peers.py; env/bin/python faqem/tests/wheel/with_trimesh.py"
+    in_root "$work/build" "env/bin/python faqem/tests/python/run_page.py faqem/docs/python.md"
 }
 
 types() {
