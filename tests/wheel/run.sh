@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds the wheel on an empty Debian 12, also from the source distribution, which must give the same bytes; checks its
 # size and platform tag; installs it on empty Debian 12 and 13, with different numpy, and tries it there: the README and
-# the tests of tests/python. The page docs/python.md is executed. Also with Python 3.9, if this machine has it.
+# the tests of tests/python. The page docs/python.md and the notebook are executed. Also with Python 3.9, if this machine has it.
 # Usage: tests/run.sh --suite wheel
 # The systems are those of tests/support/debian_root.sh.
 set -eu
@@ -38,6 +38,11 @@ peers() {
     in_root "$work/build" "env/bin/pip install -q fast-simplification trimesh pillow scipy wheels/*.whl"
     in_root "$work/build" "env/bin/python faqem/tests/wheel/peers.py; env/bin/python faqem/tests/wheel/with_trimesh.py"
     in_root "$work/build" "env/bin/python faqem/tests/python/run_page.py faqem/docs/python.md"
+}
+
+notebook() {
+    in_root "$work/build" "env/bin/pip install -q nbformat nbclient ipykernel"
+    in_root "$work/build" "env/bin/python faqem/tests/wheel/notebook.py faqem/examples/python.ipynb"
 }
 
 types() {
@@ -92,6 +97,7 @@ end
 step "the same bytes from the source distribution" from_source
 step "platform tag and size" tag_and_size
 step "with fast-simplification and trimesh" peers
+step "the notebook" notebook
 step "types of a program that uses it" types
 step "Debian 12, newest numpy" installed bookworm numpy
 step "Debian 12, numpy 1" installed bookworm "numpy<2"
