@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asset/gltf/source_document.hpp"
+#include "asset/gltf/uv_dependents.hpp"
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "bake/keep/uv_texels.hpp"
@@ -67,10 +68,17 @@ double assumed_roughness(const Material& material) {
     return material.metallic_roughness_texture ? factor / 2 : factor;
 }
 
+// The materials of the faces of a part and of its variants.
+std::vector<Index> shown_materials(const Asset& asset, const Part& part) {
+    std::vector<Index> result = materials_of(part);
+    for (const Index m : variant_materials(asset, part)) result.push_back(m);
+    return result;
+}
+
 std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> parts) {
     std::vector<ImageUse> result(asset.images.size());
     for (const KeptPart& kept : parts) {
-        for (const Index m : materials_of(asset.parts[kept.part])) {
+        for (const Index m : shown_materials(asset, asset.parts[kept.part])) {
             const Material& material = asset.materials[m];
             for_each_content(material, [&](const TextureRef& texture, const TextureContent* content) {
                 ImageUse& use = result[texture.image];
@@ -94,6 +102,17 @@ bool may_move_textures(const Asset& source) {
     const auto used = document.find("extensionsUsed");
     return used != document.end() &&
            std::find(used->begin(), used->end(), "KHR_animation_pointer") != used->end();
+}
+
+// Whether the variant of a part shows an image. Which faces show it is not known then.
+bool is_in_variant(const Asset& asset, std::span<const KeptPart> parts, Index image) {
+    return std::any_of(parts.begin(), parts.end(), [&](const KeptPart& kept) {
+        bool is_used = false;
+        for (const Index m : variant_materials(asset, asset.parts[kept.part]))
+            for_each_texture(asset.materials[m],
+                             [&](const TextureRef& texture) { is_used = is_used || texture.image == image; });
+        return is_used;
+    });
 }
 
 // By texel of an image: whether a part shows it.
@@ -162,7 +181,7 @@ PendingImage kept_image(const Asset& source, const Asset& result, std::span<cons
     if (!exceeds(pending.pixels, use, texture_size)) pending.original = image;
     while (exceeds(pending.pixels, use, texture_size)) pending.pixels = halved(pending.pixels);
     pending.known = std::make_shared<const std::vector<std::uint8_t>>(
-        may_move_textures(source)
+        may_move_textures(source) || is_in_variant(result, parts, index)
             ? std::vector<std::uint8_t>(std::size_t{pending.pixels.width} * pending.pixels.height, 1)
             : texels_of_parts(result, parts, index, pending.pixels));
     return pending;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/gltf/uv_dependents.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
 #include "bake/source/material_groups.hpp"
@@ -78,6 +79,7 @@ std::vector<KeptPart> add_kept_parts(const Asset& source, std::span<const BakePa
         to = keeps_vertices ? part_with_kept_faces(*part.source, part.simplified->history.kept_faces)
                             : std::move(with_uvs.parts[part.index]);
         for (Index& material : to.face_material) material = materials(material);
+        for (const Index material : variant_materials(source, *part.source)) materials(material);
         if (keeps_vertices) result.report.untouched_parts.push_back(part_title(source, part.index));
         kept_parts.push_back({part.index, keeps_vertices});
     }

@@ -13,7 +13,7 @@
 namespace faqem::detail {
 
 /// Replaces the empty parts that baking leaves for BakePart::is_kept, by those of the source or by those that keep their
-/// UVs. Adds their materials and images, and reports untouched parts.
+/// UVs. Adds their materials, those of their variants, and images, and reports untouched parts.
 /// \param untouched      by part: whether it is that of the source
 /// \param with_uvs       has the other kept parts
 /// \param has_materials  whether the result has all materials and images of the source

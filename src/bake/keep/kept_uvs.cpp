@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "asset/gltf/uv_dependents.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
 #include "bake/keep/part_reports.hpp"
@@ -43,10 +44,14 @@ std::uint64_t lost_components(const Report& report) {
 // By how many times as many components may be lost: which of the smallest ones are lost is a matter of chance.
 constexpr std::uint64_t allowed_component_factor = 2;
 
-// Whether a part was simplified with UVs as far as without, and lost hardly more on the way. Coincident faces of
+// By how many faces a part may have more with UVs, if the model has no more than its target.
+std::uint64_t allowed_more_faces(std::uint64_t faces) { return std::max<std::uint64_t>(2, faces / 100); }
+
+// Whether a part was simplified with UVs about as far as without, and lost hardly more on the way. Coincident faces of
 // different colour are one face where UVs are kept.
 bool is_as_complete(const SimplifyResult& kept, const SimplifyResult& free) {
-    return !kept.mesh.triangles.empty() && kept.mesh.triangles.size() <= free.mesh.triangles.size() &&
+    const std::uint64_t faces = free.mesh.triangles.size();
+    return !kept.mesh.triangles.empty() && kept.mesh.triangles.size() <= faces + allowed_more_faces(faces) &&
            kept.report.faces_dropped <= free.report.faces_dropped &&
            lost_components(kept.report) <= allowed_component_factor * lost_components(free.report);
 }
@@ -135,6 +140,25 @@ bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses, bool is_coarse) {
     return is_coarse || mean <= allowed_mean_loss;
 }
 
+// Removes sets that would bring the model above its target: those with more faces than without UVs, from the first that
+// does not fit.
+void limit_faces(const SimplifiedParts& simplified, std::vector<PartSet>& sets) {
+    std::uint64_t allowed = simplified.report.target_faces;
+    for (const SimplifyResult& part : simplified.parts)
+        allowed -= std::min<std::uint64_t>(allowed, part.mesh.triangles.size());
+    std::erase_if(sets, [&](const PartSet& set) {
+        std::uint64_t with = 0, without = 0;
+        for (const Index p : set) {
+            with += simplified.kept[p].mesh.triangles.size();
+            without += simplified.parts[p].mesh.triangles.size();
+        }
+        if (with <= without) return false;
+        if (with - without > allowed) return true;
+        allowed -= with - without;
+        return false;
+    });
+}
+
 // Whether a part of a set shows single texels, without filter: a new page would blur them.
 bool shows_single_texels(const Asset& asset, const PartSet& set) {
     return std::any_of(set.begin(), set.end(), [&](Index p) {
@@ -169,6 +193,7 @@ std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart
     for (std::size_t s = 0; s < result.size(); ++s)
         if (!is_possible[s]) result[s].clear();
     std::erase_if(result, [](const PartSet& set) { return set.empty(); });
+    limit_faces(simplified, result);
     return result;
 }
 
@@ -183,13 +208,17 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
         source, parts, sampler, candidates.asset, kept_sampler, pages.texel_sides, pages.has_normal_map};
     const double side = view_points / std::sqrt(static_cast<double>(sets.size()));
     const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
+    const std::vector<std::uint8_t> needs_uvs = parts_that_need_uvs(source);
     std::vector<Index> good;
     PictureLoss total;
     for (const PartSet& set : sets) {
+        const bool must_be_kept =
+            shows_single_texels(source, set) ||
+            std::any_of(set.begin(), set.end(), [&](Index p) { return needs_uvs[p] != 0; });
         const bool is_coarse =
             std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });
         const std::array<KeptAndBakedLoss, 2> losses = compare_pictures(scenes, set, size, workers);
-        const bool is_good = shows_single_texels(source, set) || is_as_good(losses, is_coarse);
+        const bool is_good = must_be_kept || is_as_good(losses, is_coarse);
         if (is_good) good.insert(good.end(), set.begin(), set.end());
         total += is_good ? losses.back().kept : losses.back().baked;
     }

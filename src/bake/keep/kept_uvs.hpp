@@ -33,8 +33,8 @@ struct ComparedUvs {
     PicturePsnr pictures;     ///< of the sets, as they are afterwards
 };
 
-/// The sets of parts that could keep their UVs: each part has reached the face count of its simplification without UVs,
-/// and lost no more faces and hardly more components.
+/// The sets of parts that could keep their UVs: each part has reached the face count of its simplification without UVs, up
+/// to a hundredth if the model reaches its target nevertheless, and lost no more faces and hardly more components.
 /// \param parts       from SimplifiedParts::parts; kept ones are ignored
 /// \param simplified  has as many parts in `kept` as in `parts`
 /// Complexity: O(faces).
@@ -43,7 +43,8 @@ std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart
 
 /// Compares pictures of parts that keep their UVs with those of perfect new images. A set is good if pictures of it have
 /// a PSNR at most 0.8 dB lower, and 0.25 dB in the mean of small and large ones (unlit and lit pictures each), 2 dB
-/// where new images would have less than an eighth of the resolution, or if its textures are shown without filter.
+/// where new images would have less than an eighth of the resolution. It is also good if its textures are shown without
+/// filter, or if something else refers to its UVs (parts_that_need_uvs()).
 /// \param parts       as they would be baked; those that are not kept have maps and normals
 /// \param candidates  at least one set
 /// \param decoded     images of the source that are decoded already; those that are missing are added

@@ -1,7 +1,14 @@
 // Bake::automatic keeps the UVs of parts whose pictures are as good as with new images.
 
+#include <array>
 #include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "asset/gltf/source_document.hpp"
+#include "bake/keep/kept_uvs.hpp"
 #include "faqem/bake.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
@@ -58,6 +65,53 @@ Asset shuffled_sheet() {
     return asset;
 }
 
+// A sheet whose UVs do not survive the simplification well, since they differ from smooth ones at every vertex.
+Asset distorted_sheet() {
+    Asset asset = textured_square(paint(64, 64, [](std::uint32_t x, std::uint32_t y) {
+        return (x / 8 + y / 8) % 2 ? Rgba{250, 250, 250, 255} : Rgba{10, 10, 10, 255};
+    }));
+    asset.parts = {tiled_sheet(24, 1)};
+    std::vector<Vec2f>& uvs = asset.parts[0].uvs[0];
+    for (std::size_t v = 0; v < uvs.size(); ++v) uvs[v][0] += 0.03f * static_cast<float>(v * v % 7);
+    return asset;
+}
+
+// The asset as if read from a document with the same materials, and a mesh for each part.
+Asset from_document(Asset asset, detail::Json document) {
+    SourceDocument source;
+    source.document = std::move(document);
+    asset.source = std::make_shared<const SourceDocument>(std::move(source));
+    for (Index m = 0; m < asset.materials.size(); ++m) asset.materials[m].source = m;
+    for (Index p = 0; p < asset.parts.size(); ++p) asset.parts[p].source = p;
+    return asset;
+}
+
+// Simplified meshes with given numbers of faces, without and with UVs.
+SimplifiedParts with_face_counts(const Asset& asset, const std::vector<std::array<std::size_t, 2>>& counts) {
+    SimplifiedParts result;
+    for (std::size_t p = 0; p < counts.size(); ++p) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            SimplifyResult part;
+            part.mesh.triangles.assign(asset.parts[p].triangles.begin(),
+                                       asset.parts[p].triangles.begin() + static_cast<long>(counts[p][k]));
+            (k == 0 ? result.parts : result.kept).push_back(std::move(part));
+        }
+    }
+    return result;
+}
+
+std::vector<detail::PartSet> possible_sets(const Asset& asset, SimplifiedParts simplified,
+                                           std::uint64_t target) {
+    simplified.report.target_faces = target;
+    std::vector<detail::BakePart> parts(asset.parts.size());
+    for (Index p = 0; p < parts.size(); ++p) {
+        parts[p].index = p;
+        parts[p].source = &asset.parts[p];
+        parts[p].simplified = &simplified.parts[p];
+    }
+    return detail::sets_with_uvs(asset, parts, simplified);
+}
+
 Options tenth() {
     Options options;
     options.target = ratio(0.1);
@@ -103,14 +157,66 @@ TEST_CASE("kept UVs: parts that share an image keep it together or not at all") 
 }
 
 TEST_CASE("kept UVs: textures without filter stay whole, whatever the pictures") {
-    Asset asset = textured_square(weave(64));
-    asset.parts = {tiled_sheet(24, 1)};
-    for (Vec2f& uv : asset.parts[0].uvs[0]) uv[0] = uv[0] * uv[0];  // does not survive the simplification well
+    Asset asset = distorted_sheet();
+    CHECK(simplify(asset, tenth()).report.kept_uvs.empty());
     asset.materials[0].base_color_texture.filter = Filter::nearest;
     const SimplifiedAsset result = simplify(asset, tenth());
     CHECK(result.report.kept_uvs.size() == 1);
     CHECK(result.asset.materials[0].base_color_texture.filter == Filter::nearest);
     CHECK(decode(result.asset.images.at(0)).width == 64);
+}
+
+TEST_CASE("kept UVs: a part with material variants keeps them, whatever the pictures") {
+    Asset asset = distorted_sheet();
+    asset.materials.push_back(asset.materials[0]);
+    asset.materials[1].base_color_texture.image = add_texture(asset, ramp(64));
+    asset =
+        from_document(std::move(asset), detail::Json::parse(R"({"materials":[{},{}],"meshes":[{"primitives":[
+        {"extensions":{"KHR_materials_variants":{"mappings":[{"material":1,"variants":[0]}]}}}]}]})"));
+    const SimplifiedAsset result = simplify(asset, tenth());
+    CHECK(result.report.kept_uvs.size() == 1);
+    REQUIRE(result.asset.materials.size() == 2);
+    CHECK(result.asset.materials[1].source == 1);
+    CHECK_FALSE(result.asset.materials[0].rebaked);
+    CHECK(result.asset.images.size() == 2);
+}
+
+TEST_CASE("kept UVs: a part with an animated texture transform keeps them, whatever the pictures") {
+    const auto kept_with = [](const char* pointer) {
+        detail::Json document = detail::Json::parse(R"({"materials":[{}],"meshes":[{"primitives":[{}]}],
+            "animations":[{"channels":[{"target":{"path":"pointer"}}]}]})");
+        document["animations"][0]["channels"][0]["target"]["extensions"]["KHR_animation_pointer"]["pointer"] =
+            pointer;
+        return simplify(from_document(distorted_sheet(), document), tenth()).report.kept_uvs.size();
+    };
+    const std::string texture =
+        "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset";
+    CHECK(kept_with(("/materials/0" + texture).c_str()) == 1);
+    CHECK(kept_with(("/materials/01" + texture).c_str()) == 0);
+    CHECK(kept_with("/materials/0/pbrMetallicRoughness/baseColorFactor") == 0);
+}
+
+TEST_CASE("kept UVs: parts may have a few faces more with them, if the model has no more than its target") {
+    const Asset asset = tiled_cloth();
+    CHECK(possible_sets(asset, with_face_counts(asset, {{100, 102}}), 102).size() == 1);
+    CHECK(possible_sets(asset, with_face_counts(asset, {{100, 102}}), 101).empty());
+    CHECK(possible_sets(asset, with_face_counts(asset, {{100, 103}}), 200).empty());
+    CHECK(possible_sets(asset, with_face_counts(asset, {{400, 404}}), 404).size() == 1);
+    CHECK(possible_sets(asset, with_face_counts(asset, {{100, 100}}), 50).size() == 1);
+}
+
+TEST_CASE("kept UVs: sets share the faces that the target leaves") {
+    Asset asset = tiled_cloth();
+    for (Index p = 1; p < 3; ++p) {
+        asset.parts.push_back(asset.parts[0]);
+        asset.materials.push_back(asset.materials[0]);
+        asset.materials[p].base_color_texture.image = add_texture(asset, ramp(8));
+        asset.parts[p].face_material.assign(asset.parts[p].triangles.size(), p);
+    }
+    const SimplifiedParts simplified = with_face_counts(asset, {{100, 102}, {100, 102}, {100, 99}});
+    CHECK(possible_sets(asset, simplified, 303) == std::vector<detail::PartSet>{{0}, {2}});
+    CHECK(possible_sets(asset, simplified, 304).size() == 3);
+    CHECK(possible_sets(asset, simplified, 300) == std::vector<detail::PartSet>{{2}});
 }
 
 TEST_CASE("kept UVs: none are tried when an option is about the atlas or the collapses") {
