@@ -136,6 +136,12 @@ FAQEM_API size_t faqem_asset_face_count(const faqem_asset* asset, size_t part);
 FAQEM_API const double* faqem_asset_positions(const faqem_asset* asset, size_t part);
 /** 3 * face_count vertex indices. */
 FAQEM_API const uint32_t* faqem_asset_triangles(const faqem_asset* asset, size_t part);
+/** Number of UV sets of a part. */
+FAQEM_API size_t faqem_asset_uv_set_count(const faqem_asset* asset, size_t part);
+/** 2 * vertex_count texture coordinates of a set, v pointing down as in glTF. */
+FAQEM_API const float* faqem_asset_uvs(const faqem_asset* asset, size_t part, size_t set);
+/** face_count materials, see faqem_asset_material_count(); UINT32_MAX: the default material. */
+FAQEM_API const uint32_t* faqem_asset_face_materials(const faqem_asset* asset, size_t part);
 /** Number of warnings: what was repaired, left out, or could not be saved, one sentence each. */
 FAQEM_API size_t faqem_asset_warning_count(const faqem_asset* asset);
 FAQEM_API const char* faqem_asset_warning(const faqem_asset* asset, size_t index);
@@ -144,6 +150,62 @@ FAQEM_API const char* faqem_asset_warning(const faqem_asset* asset, size_t index
 FAQEM_API faqem_status faqem_asset_report(const faqem_asset* asset, faqem_report* report);
 /** Returns the whole report as JSON (UTF-8); null if the asset is not a simplified one. */
 FAQEM_API const char* faqem_asset_report_json(const faqem_asset* asset);
+
+/* ---- Materials and images ---- */
+
+FAQEM_API size_t faqem_asset_material_count(const faqem_asset* asset);
+FAQEM_API const char* faqem_asset_material_name(const faqem_asset* asset, size_t material);
+
+/** Uses of an image by a material. */
+typedef enum faqem_texture FAQEM_ENUM {
+    FAQEM_TEXTURE_BASE_COLOR = 0,
+    FAQEM_TEXTURE_METALLIC_ROUGHNESS = 1, /**< roughness in G, metallic in B */
+    FAQEM_TEXTURE_NORMAL = 2,
+    FAQEM_TEXTURE_OCCLUSION = 3, /**< in R */
+    FAQEM_TEXTURE_EMISSIVE = 4
+} faqem_texture;
+
+/**
+ * Image that a material uses.
+ * \param uv_set  receives the UV set of its coordinates; may be null. Unchanged if there is no image
+ * \return index of the image; UINT32_MAX if there is none, or if an argument is out of range
+ */
+FAQEM_API uint32_t faqem_asset_material_image(const faqem_asset* asset, size_t material,
+                                              faqem_texture texture, uint32_t* uv_set);
+
+FAQEM_API size_t faqem_asset_image_count(const faqem_asset* asset);
+FAQEM_API const char* faqem_asset_image_name(const faqem_asset* asset, size_t image);
+/** Media type, for example "image/png"; "" if it is unknown. */
+FAQEM_API const char* faqem_asset_image_mime_type(const faqem_asset* asset, size_t image);
+/**
+ * Content of the image file.
+ * \param size  receives the number of bytes; may be null
+ */
+FAQEM_API const uint8_t* faqem_asset_image_bytes(const faqem_asset* asset, size_t image, size_t* size);
+
+/** Decoded pixels. */
+typedef struct faqem_pixels faqem_pixels;
+
+/**
+ * Decodes an image: PNG, JPEG, WebP, and what the plugin for images reads (docs/c-api.md).
+ * \param image   index below faqem_asset_image_count()
+ * \param pixels  receives a new object, which does not refer to the model
+ * \param error   may be null
+ * \return FAQEM_ERROR_OPTION if `image` is out of range, FAQEM_ERROR_UNSUPPORTED if it is of another kind,
+ *         FAQEM_ERROR_INPUT if it is damaged or larger than 16384 x 16384 pixels or 1 GiB
+ */
+FAQEM_API faqem_status faqem_asset_decode_image(const faqem_asset* asset, size_t image, faqem_pixels** pixels,
+                                                faqem_error* error);
+FAQEM_API void faqem_pixels_destroy(faqem_pixels* pixels);
+
+/* Getters of pixels. They return null or 0 if `pixels` is null. */
+
+FAQEM_API uint32_t faqem_pixels_width(const faqem_pixels* pixels);
+FAQEM_API uint32_t faqem_pixels_height(const faqem_pixels* pixels);
+/** 0 if every alpha value is 255, else 1. */
+FAQEM_API int32_t faqem_pixels_has_alpha(const faqem_pixels* pixels);
+/** 4 * width * height bytes: RGBA, top row first, colours sRGB as in the file. The caller may change them. */
+FAQEM_API uint8_t* faqem_pixels_rgba(faqem_pixels* pixels);
 
 #ifdef __cplusplus
 }

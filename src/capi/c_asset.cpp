@@ -11,10 +11,6 @@ namespace {
 
 using namespace faqem;
 
-const Part* find_part(const faqem_asset* asset, std::size_t part) {
-    return asset && part < asset->asset.parts.size() ? &asset->asset.parts[part] : nullptr;
-}
-
 Part make_part(const MeshView& mesh) {
     Part part;
     part.positions.reserve(mesh.positions.size());
@@ -90,27 +86,27 @@ void faqem_asset_destroy(faqem_asset* asset) { delete asset; }
 size_t faqem_asset_part_count(const faqem_asset* asset) { return asset ? asset->asset.parts.size() : 0; }
 
 const char* faqem_asset_part_name(const faqem_asset* asset, size_t part) {
-    const Part* p = find_part(asset, part);
+    const Part* p = capi::find_part(asset, part);
     return p ? p->name.c_str() : nullptr;
 }
 
 size_t faqem_asset_vertex_count(const faqem_asset* asset, size_t part) {
-    const Part* p = find_part(asset, part);
+    const Part* p = capi::find_part(asset, part);
     return p ? p->positions.size() : 0;
 }
 
 size_t faqem_asset_face_count(const faqem_asset* asset, size_t part) {
-    const Part* p = find_part(asset, part);
+    const Part* p = capi::find_part(asset, part);
     return p ? p->triangles.size() : 0;
 }
 
 const double* faqem_asset_positions(const faqem_asset* asset, size_t part) {
-    return faqem_asset_vertex_count(asset, part) > 0 ? find_part(asset, part)->positions.front().data()
+    return faqem_asset_vertex_count(asset, part) > 0 ? capi::find_part(asset, part)->positions.front().data()
                                                      : nullptr;
 }
 
 const uint32_t* faqem_asset_triangles(const faqem_asset* asset, size_t part) {
-    return faqem_asset_face_count(asset, part) > 0 ? find_part(asset, part)->triangles.front().data()
+    return faqem_asset_face_count(asset, part) > 0 ? capi::find_part(asset, part)->triangles.front().data()
                                                    : nullptr;
 }
 

@@ -2,6 +2,7 @@
 /// \file
 /// Definition of faqem_asset.
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -31,6 +32,11 @@ struct faqem_asset {
 };
 
 namespace faqem::capi {
+
+/// Returns a part; null if `asset` is null or has no such part.
+inline const Part* find_part(const faqem_asset* asset, std::size_t part) {
+    return asset && part < asset->asset.parts.size() ? &asset->asset.parts[part] : nullptr;
+}
 
 /// Converts to the C++ enumeration.
 /// \throws OptionError  unknown enumerator

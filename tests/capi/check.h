@@ -25,3 +25,4 @@ void test_options(void);
 void test_levels(void);
 void test_asset(void);
 void test_asset_levels(void);
+void test_asset_textures(void);

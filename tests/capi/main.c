@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
 #ifdef FAQEM_HAS_ASSET
     if (!*wanted || strcmp(wanted, "asset") == 0) ++ran, test_asset();
     if (!*wanted || strcmp(wanted, "asset_levels") == 0) ++ran, test_asset_levels();
+    if (!*wanted || strcmp(wanted, "asset_textures") == 0) ++ran, test_asset_textures();
 #endif
     CHECK(ran > 0);
     return 0;

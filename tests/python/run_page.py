@@ -26,6 +26,7 @@ CHECKS = {
     "asset.glb": 'asset.report["faces_out"] <= 20_000 and found["colors"]["psnr"] > 30',
     "light": 'sorted(file.name for file in results.iterdir()) == ["a.glb", "b.glb"] and light.report["faces_out"] <= 4_800',
     "between": 'len(between.triangles) <= 1500 and len(values) == len(between.triangles)',
+    "UVs": "colors.shape == (len(part.vertices), 3) and numpy.ptp(colors, axis=0).min() > 50",
     "before-after.png": 'pathlib.Path("before-after.png").exists() and pathlib.Path("page.html").exists()',
 }
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ._command import command, compare
     from ._compatible import Collapses, replay_simplification
     from ._simplify import Simplified
+    from ._textures import Image, Material, Texture
 
     __version__: str
 
@@ -28,12 +29,15 @@ __all__ = [
     "Collapses",
     "Error",
     "History",
+    "Image",
     "InputError",
     "InternalError",
+    "Material",
     "Model",
     "OptionError",
     "Part",
     "Simplified",
+    "Texture",
     "TimeLimitError",
     "UnsupportedError",
     "WriteError",
@@ -57,6 +61,7 @@ _modules = {
     **dict.fromkeys(["Model", "Part", "bake", "bake_levels", "bake_truncated", "load", "save", "save_levels"], "_model"),
     **dict.fromkeys(["command", "compare"], "_command"),
     **dict.fromkeys(["Collapses", "replay_simplification"], "_compatible"),
+    **dict.fromkeys(["Image", "Material", "Texture"], "_textures"),
     "Simplified": "_simplify",
     "simplify": "_call",
 }

@@ -143,6 +143,29 @@ def copy_array(pointer: Any, *shape: int) -> Array:
     return copied
 
 
+class _Memory:
+    """Memory of the library for numpy, which keeps this object, and with it the owner of the memory, alive."""
+
+    def __init__(self, pointer: Any, shape: tuple[int, ...], owner: object, writable: bool) -> None:
+        self.owner = owner
+        self.__array_interface__ = {
+            "version": 3, "shape": shape, "typestr": numpy.dtype(pointer._type_).str,
+            "data": (ctypes.addressof(pointer.contents), not writable),
+        }
+
+
+def view_array(pointer: Any, shape: tuple[int, ...], owner: object, *, writable: bool = False) -> Array:
+    """Returns the array that a getter of the C API returns, without a copy; null gives an empty array.
+
+    owner  a Python object as long as which the memory exists; the array keeps it alive
+    """
+    if not pointer:
+        return numpy.empty((0, *shape[1:]), dtype=numpy.dtype(pointer._type_))
+    memory: Any = _Memory(pointer, shape, owner, writable)
+    array: Array = numpy.asarray(memory)
+    return array
+
+
 def mesh_pointer(mesh_arrays: MeshArrays) -> Any:
     """Returns the argument for a parameter of type `const faqem_mesh*`."""
     return ctypes.byref(mesh_arrays.mesh)

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import MeshArrays, copy_array, mesh_pointer
+from ._arrays import MeshArrays, mesh_pointer, view_array
 from ._levels import History, Path, Target, handle_array, level_array
 from ._library import call, create, library
 from ._options import Options, checked_integer
+from ._textures import Image, Material, images, materials
 from .errors import InputError, OptionError
 
 if TYPE_CHECKING:
@@ -30,11 +31,14 @@ _level_textures = {"each": 0, "shared": 1}
 
 @dataclasses.dataclass(frozen=True)
 class Part:
-    """A copy of one mesh of a model, in local coordinates."""
+    """One mesh of a model, in local coordinates. Its arrays belong to the model, which they keep alive: they are not
+    copied, and cannot be changed."""
 
     name: str
     vertices: NDArray[numpy.float64]  #: (v, 3) float64; vertices are split at seams, as in the file
     triangles: NDArray[numpy.uint32]  #: (f, 3) uint32
+    uvs: list[NDArray[numpy.float32]]  #: for each UV set (v, 2) float32, v pointing down as in glTF
+    materials: NDArray[numpy.uint32]  #: (f,) uint32: index into Model.materials, 2^32 - 1 for the default material
 
 
 class Model:
@@ -52,9 +56,19 @@ class Model:
 
     @property
     def parts(self) -> list[Part]:
-        """List of Part, copied at each access."""
+        """List of Part, whose arrays are not copied."""
         count = library.faqem_asset_part_count(self._handle)
         return [self._part(part) for part in range(count)]
+
+    @property
+    def materials(self) -> list[Material]:
+        """List of Material, with the images that they use."""
+        return materials(self)
+
+    @property
+    def images(self) -> list[Image]:
+        """List of Image, which are decoded by Image.pixels()."""
+        return images(self)
 
     @property
     def warnings(self) -> list[str]:
@@ -79,8 +93,11 @@ class Model:
         f = library.faqem_asset_face_count(self._handle, part)
         return Part(
             name=library.faqem_asset_part_name(self._handle, part).decode(errors="replace"),
-            vertices=copy_array(library.faqem_asset_positions(self._handle, part), v, 3),
-            triangles=copy_array(library.faqem_asset_triangles(self._handle, part), f, 3),
+            vertices=view_array(library.faqem_asset_positions(self._handle, part), (v, 3), self),
+            triangles=view_array(library.faqem_asset_triangles(self._handle, part), (f, 3), self),
+            uvs=[view_array(library.faqem_asset_uvs(self._handle, part, uv_set), (v, 2), self)
+                 for uv_set in range(library.faqem_asset_uv_set_count(self._handle, part))],
+            materials=view_array(library.faqem_asset_face_materials(self._handle, part), (f,), self),
         )
 
 

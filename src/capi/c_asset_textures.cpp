@@ -1,0 +1,125 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capi/c_asset.hpp"
+#include "faqem/asset.hpp"
+
+struct faqem_pixels {
+    faqem::Pixels pixels;
+};
+
+namespace {
+
+using namespace faqem;
+
+static_assert(no_index == UINT32_MAX);
+
+const std::vector<Vec2f>* find_uvs(const faqem_asset* asset, std::size_t part, std::size_t set) {
+    const Part* p = capi::find_part(asset, part);
+    return p && set < p->uvs.size() && !p->uvs[set].empty() ? &p->uvs[set] : nullptr;
+}
+
+const Material* find_material(const faqem_asset* asset, std::size_t material) {
+    return asset && material < asset->asset.materials.size() ? &asset->asset.materials[material] : nullptr;
+}
+
+const Image* find_image(const faqem_asset* asset, std::size_t image) {
+    return asset && image < asset->asset.images.size() ? &asset->asset.images[image] : nullptr;
+}
+
+const TextureRef* find_texture(const Material& material, faqem_texture texture) {
+    switch (texture) {
+        case FAQEM_TEXTURE_BASE_COLOR:
+            return &material.base_color_texture;
+        case FAQEM_TEXTURE_METALLIC_ROUGHNESS:
+            return &material.metallic_roughness_texture;
+        case FAQEM_TEXTURE_NORMAL:
+            return &material.normal_texture;
+        case FAQEM_TEXTURE_OCCLUSION:
+            return &material.occlusion_texture;
+        case FAQEM_TEXTURE_EMISSIVE:
+            return &material.emissive_texture;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+size_t faqem_asset_uv_set_count(const faqem_asset* asset, size_t part) {
+    const Part* p = capi::find_part(asset, part);
+    return p ? p->uvs.size() : 0;
+}
+
+const float* faqem_asset_uvs(const faqem_asset* asset, size_t part, size_t set) {
+    const std::vector<Vec2f>* uvs = find_uvs(asset, part, set);
+    return uvs ? uvs->front().data() : nullptr;
+}
+
+const uint32_t* faqem_asset_face_materials(const faqem_asset* asset, size_t part) {
+    const Part* p = capi::find_part(asset, part);
+    return p && !p->face_material.empty() ? p->face_material.data() : nullptr;
+}
+
+size_t faqem_asset_material_count(const faqem_asset* asset) {
+    return asset ? asset->asset.materials.size() : 0;
+}
+
+const char* faqem_asset_material_name(const faqem_asset* asset, size_t material) {
+    const Material* found = find_material(asset, material);
+    return found ? found->name.c_str() : nullptr;
+}
+
+uint32_t faqem_asset_material_image(const faqem_asset* asset, size_t material, faqem_texture texture,
+                                    uint32_t* uv_set) {
+    const Material* found = find_material(asset, material);
+    const TextureRef* used = found ? find_texture(*found, texture) : nullptr;
+    if (!used || !find_image(asset, used->image)) return no_index;
+    if (uv_set) *uv_set = used->uv_set;
+    return used->image;
+}
+
+size_t faqem_asset_image_count(const faqem_asset* asset) { return asset ? asset->asset.images.size() : 0; }
+
+const char* faqem_asset_image_name(const faqem_asset* asset, size_t image) {
+    const Image* found = find_image(asset, image);
+    return found ? found->name.c_str() : nullptr;
+}
+
+const char* faqem_asset_image_mime_type(const faqem_asset* asset, size_t image) {
+    const Image* found = find_image(asset, image);
+    return found ? found->mime_type.c_str() : nullptr;
+}
+
+const uint8_t* faqem_asset_image_bytes(const faqem_asset* asset, size_t image, size_t* size) {
+    const Image* found = find_image(asset, image);
+    if (size) *size = found ? found->encoded.size() : 0;
+    return found && !found->encoded.empty() ? found->encoded.data() : nullptr;
+}
+
+faqem_status faqem_asset_decode_image(const faqem_asset* asset, size_t image, faqem_pixels** pixels,
+                                      faqem_error* error) {
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(asset, "asset");
+        capi::require_argument(pixels, "pixels");
+        const Image* found = find_image(asset, image);
+        if (!found)
+            throw OptionError("image: " + std::to_string(image) + " is not one of the " +
+                              std::to_string(asset->asset.images.size()) + " images");
+        *pixels = new faqem_pixels{decode(*found)};
+    });
+}
+
+void faqem_pixels_destroy(faqem_pixels* pixels) { delete pixels; }
+
+uint32_t faqem_pixels_width(const faqem_pixels* pixels) { return pixels ? pixels->pixels.width : 0; }
+
+uint32_t faqem_pixels_height(const faqem_pixels* pixels) { return pixels ? pixels->pixels.height : 0; }
+
+int32_t faqem_pixels_has_alpha(const faqem_pixels* pixels) {
+    return pixels && pixels->pixels.has_alpha ? 1 : 0;
+}
+
+uint8_t* faqem_pixels_rgba(faqem_pixels* pixels) {
+    return pixels && !pixels->pixels.rgba.empty() ? pixels->pixels.rgba.data() : nullptr;
+}
