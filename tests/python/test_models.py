@@ -109,8 +109,13 @@ class Models(unittest.TestCase):
         self.assertTrue(any("STL" in warning for warning in model.warnings))
 
     def test_errors_have_specific_types(self):
-        with self.assertRaisesRegex(faqem.InputError, "missing.glb"):
-            faqem.load(self.folder / "missing.glb")
+        for absent in (self.folder / "missing.glb", self.folder):
+            with self.assertRaisesRegex(faqem.ReadError, absent.name):
+                faqem.load(absent)
+        (self.folder / "damaged.glb").write_bytes(b"glTF")
+        with self.assertRaisesRegex(faqem.InputError, "damaged.glb: GLB header") as raised:
+            faqem.load(self.folder / "damaged.glb")
+        self.assertNotIsInstance(raised.exception, OSError)
         (self.folder / "a.xyz").write_text("1 2 3")
         with self.assertRaises(faqem.UnsupportedError):
             faqem.load(self.folder / "a.xyz")
@@ -121,5 +126,25 @@ class Models(unittest.TestCase):
             faqem.save(model, self.folder / "a.off")
         with self.assertRaisesRegex(faqem.OptionError, "texture_size"):
             faqem.bake(model, texture_size=100)
-        for kind in (faqem.OptionError, faqem.InputError, faqem.WriteError, faqem.InternalError):
-            self.assertTrue(issubclass(kind, faqem.Error))
+        for kind, also in ((faqem.OptionError, ValueError), (faqem.InputError, ValueError), (faqem.ReadError, OSError),
+                           (faqem.UnsupportedError, ValueError), (faqem.WriteError, OSError),
+                           (faqem.TimeLimitError, TimeoutError), (faqem.InternalError, Exception)):
+            self.assertTrue(issubclass(kind, faqem.Error) and issubclass(kind, also))
+
+    def test_a_misspelt_keyword_names_the_right_one(self):
+        model = faqem.Model.from_arrays(*flat_grid(2))
+        file = self.folder / "a.glb"
+        for wrong, right, call in (
+            ("lock", "locks", lambda **keyword: faqem.simplify(*flat_grid(2), **keyword)),
+            ("target_reducton", "target_reduction", lambda **keyword: faqem.simplify(*flat_grid(2), **keyword)),
+            ("weight", "weights", lambda **keyword: faqem.simplify_levels(*flat_grid(2), [0.5], **keyword)),
+            ("progres", "progress", lambda **keyword: faqem.bake(model, **keyword)),
+            ("texturesize", "texture_size", lambda **keyword: faqem.bake(model, **keyword)),
+            ("texture", "textures", lambda **keyword: faqem.bake_levels(model, [0.5], **keyword)),
+            ("overwrit", "overwrite", lambda **keyword: faqem.save(model, file, **keyword)),
+            ("pixel_eror", "pixel_error", lambda **keyword: faqem.save_levels([model], file, **keyword)),
+            ("sample", "samples", lambda **keyword: faqem.compare(model, model, **keyword)),
+        ):
+            with self.subTest(wrong=wrong), self.assertRaisesRegex(TypeError, f"'{wrong}'; did you mean '{right}'"):
+                call(**{wrong: 1})
+        self.assertFalse(file.exists())

@@ -11,7 +11,16 @@ from __future__ import annotations
 
 import importlib
 
-from .errors import Error, InputError, InternalError, OptionError, TimeLimitError, UnsupportedError, WriteError
+from .errors import (
+    Error,
+    InputError,
+    InternalError,
+    OptionError,
+    ReadError,
+    TimeLimitError,
+    UnsupportedError,
+    WriteError,
+)
 
 TYPE_CHECKING = False  # type checkers take it for true; the module typing would take a third of the import's time
 if TYPE_CHECKING:
@@ -36,6 +45,7 @@ __all__ = [
     "Model",
     "OptionError",
     "Part",
+    "ReadError",
     "Simplified",
     "Texture",
     "TimeLimitError",

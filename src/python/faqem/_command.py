@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from ._levels import Path
 from ._library import exceptions
 from ._model import Model, save
-from ._options import checked_integer, parse_length
+from ._options import checked_integer, names_keywords, parse_length
 from .errors import Error, InternalError, OptionError
 
 Comparable = Union[Model, "tuple[ArrayLike, ArrayLike]", Path]
@@ -53,6 +53,7 @@ def _file(model: Comparable, folder: str, name: str) -> str:
     return file
 
 
+@names_keywords
 def compare(
     a: Comparable, b: Comparable, /, *, samples: int = 200_000, seed: int = 1, tolerance: float = 0.01, threads: int = 0
 ) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from ._arrays import MeshArrays, mesh_pointer
 from ._library import Level, call, create, library
 from ._options import Options, parse_length, checked_integer
-from ._simplify import Simplified
+from ._simplify import Simplified, array_keywords
 from .errors import OptionError
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def simplify_levels(
     Returns a list of Simplified, whose `error` never decreases. Raises the exceptions of simplify().
     """
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
-    chosen = Options(**options)
+    chosen = Options(array_keywords, **options)
     wanted = level_array(levels)
     made = (ctypes.c_void_p * len(levels))()
 

@@ -17,9 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 from ._arrays import MeshArrays, mesh_pointer, view_array
 from ._levels import History, Path, Target, handle_array, level_array
 from ._library import call, create, library
-from ._options import Options, checked_integer
+from ._options import Options, checked_integer, names_keywords
 from ._textures import Image, Material, images, materials
-from .errors import InputError, OptionError
+from .errors import InputError, OptionError, ReadError, UnsupportedError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -108,12 +108,22 @@ def _path(path: Path) -> bytes:
     return encoded
 
 
+@names_keywords
 def load(path: Path) -> Model:
     """Loads a .glb, .gltf, .obj, .ply, .stl or .off file.
 
-    Returns a Model. Raises InputError, UnsupportedError, MemoryError.
+    Returns a Model. Raises InputError, ReadError if there is no such file or it cannot be read, UnsupportedError,
+    MemoryError.
     """
-    return Model(create(library.faqem_asset_load, _path(path)))
+    encoded = _path(path)
+    try:
+        return Model(create(library.faqem_asset_load, encoded))
+    except UnsupportedError:
+        raise
+    except InputError as error:
+        if os.path.isfile(encoded) and os.access(encoded, os.R_OK):
+            raise
+        raise ReadError(str(error)) from None
 
 
 def bake(model: Model, /, **options: Unpack[BakeOptions]) -> Model:
@@ -141,7 +151,7 @@ def bake_levels(
     """
     if textures not in _level_textures:
         raise OptionError(f"textures: unknown value {textures!r} (expected: each, shared)")
-    chosen = Options(**options)
+    chosen = Options(["textures"], **options)
     wanted = level_array(levels)
     made = (ctypes.c_void_p * len(levels))()
     shared = _level_textures[textures]
@@ -173,6 +183,7 @@ def bake_truncated(model: Model, history: History, faces: int, /, **options: Unp
     return chosen.run(run)
 
 
+@names_keywords
 def save_levels(
     levels: Sequence[Model],
     path: Path,
@@ -199,6 +210,7 @@ def save_levels(
     call(library.faqem_asset_save_levels, handle_array(levels), len(levels), share, _path(path), 1 if overwrite else 0)
 
 
+@names_keywords
 def save(model: Model | tuple[ArrayLike, ArrayLike], path: Path, *, overwrite: bool = False) -> None:
     """Saves a model as .glb, .gltf, .obj, .ply or .stl, by file extension. Each file is complete or absent.
 

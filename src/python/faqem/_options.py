@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import difflib
+import functools
+import inspect
 import operator
 import weakref
-from collections.abc import Callable, Sequence
-from typing import Any, TypeVar, Union
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeVar, Union, cast
 
 from ._interrupt import HeldInterrupt
 from ._library import Progress as Callback
@@ -15,6 +17,7 @@ from ._progress_line import ProgressLine
 from .errors import OptionError
 
 Result = TypeVar("Result")
+Function = TypeVar("Function", bound=Callable[..., Any])
 Progress = Union[Callable[[str, float], object], bool, None]
 
 _phases = ["load", "weld", "simplify", "map", "bake", "save"]
@@ -68,10 +71,33 @@ def _text(value: Any) -> str | None:
     return None
 
 
-class Options:
-    """Options object of the C API. The keywords are option_names(); None leaves an option at its default."""
+def unknown_keyword(keyword: str, known: Iterable[str]) -> TypeError:
+    """Returns the exception for a keyword that a function does not have. It names the closest that the function has."""
+    close = difflib.get_close_matches(keyword, sorted(known), 1)
+    return TypeError(f"unknown option {keyword!r}" + (f"; did you mean {close[0]!r}?" if close else ""))
 
-    def __init__(self, *, progress: Progress = None, **options: Any) -> None:
+
+def names_keywords(function: Function) -> Function:
+    """Decorator: a misspelt keyword is a TypeError that suggests the right one."""
+    parameters = inspect.signature(function).parameters.values()
+    known = [parameter.name for parameter in parameters if parameter.kind != parameter.POSITIONAL_ONLY]
+
+    @functools.wraps(function)
+    def checked(*arguments: Any, **keywords: Any) -> Any:
+        for keyword in keywords.keys() - set(known):
+            raise unknown_keyword(keyword, known)
+        return function(*arguments, **keywords)
+
+    return cast(Function, checked)
+
+
+class Options:
+    """Options object of the C API. The keywords are option_names(); None leaves an option at its default.
+
+    also  other keywords of the calling function, which misspelt ones may stand for
+    """
+
+    def __init__(self, also: Iterable[str] = (), /, *, progress: Progress = None, **options: Any) -> None:
         given = {keyword: value for keyword, value in options.items() if value is not None}
         if "ratio" in given and "faces" in given:
             raise OptionError("ratio and faces: only one of them can be set")
@@ -82,8 +108,7 @@ class Options:
         self._interrupt = HeldInterrupt()
         self._callback_exception: BaseException | None = None
         for keyword in options.keys() - set(option_names()):
-            close = difflib.get_close_matches(keyword, option_names(), 1)
-            raise TypeError(f"unknown option {keyword!r}" + (f"; did you mean {close[0]!r}?" if close else ""))
+            raise unknown_keyword(keyword, [*option_names(), "progress", *also])
         for keyword, value in given.items():
             self._set(keyword, bool(value) if keyword == "history" else value)
         self._set_progress(progress)

@@ -15,6 +15,13 @@ from ._library import call, create, library
 from ._options import Options, enum_value
 from .errors import InputError
 
+#: Keywords of simplify() and simplify_levels() that are arrays.
+array_keywords = ("groups", "locks", "weights", "uvs")
+#: Keywords of simplify() that are those of fast_simplification.
+compatible_keywords = (
+    "target_reduction", "target_count", "agg", "verbose", "return_collapses", "lossless", "preserve_border",
+)
+
 _mappings = ["projection", "lineage", "closest"]
 
 
@@ -85,7 +92,7 @@ def simplify_arrays(
 ) -> Simplified:
     """See simplify()."""
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
-    chosen = Options(**options)
+    chosen = Options((*array_keywords, *compatible_keywords), **options)
 
     def run() -> Simplified:
         return Simplified(create(library.faqem_simplify, mesh_pointer(arrays), chosen.object), arrays.kind)

@@ -1,4 +1,7 @@
-"""The exceptions of faqem, one class per kind of error. Out of memory is MemoryError."""
+"""The exceptions of faqem, one class per kind of error. Out of memory is MemoryError.
+
+Each is a ValueError or an OSError (a time limit: TimeoutError), but for defects.
+"""
 
 
 class Error(Exception):
@@ -17,11 +20,15 @@ class UnsupportedError(InputError):
     """The input is valid, but of a kind that is not supported."""
 
 
+class ReadError(InputError, OSError):
+    """A file does not exist or could not be opened."""
+
+
 class WriteError(Error, OSError):
     """A file could not be written. An existing file is unchanged."""
 
 
-class TimeLimitError(Error):
+class TimeLimitError(Error, TimeoutError):
     """max_seconds was over before there was a result that the options allow."""
 
 
