@@ -45,6 +45,10 @@ notebook() {
     in_root "$work/build" "env/bin/python faqem/tests/wheel/notebook.py faqem/examples/python.ipynb"
 }
 
+random_calls() {
+    in_root "$work/build" "timeout 60 env/bin/python -W error faqem/tests/python/fuzz_arrays.py"
+}
+
 types() {
     in_root "$work/build" "env/bin/pip install -q mypy"
     in_root "$work/build" "mkdir typed; cp faqem/tests/wheel/typed.py typed; cd typed; ../env/bin/mypy --strict typed.py"
@@ -98,6 +102,7 @@ step "the same bytes from the source distribution" from_source
 step "platform tag and size" tag_and_size
 step "with fast-simplification and trimesh" peers
 step "the notebook" notebook
+step "10,000 calls with random arrays" random_calls
 step "types of a program that uses it" types
 step "Debian 12, newest numpy" installed bookworm numpy
 step "Debian 12, numpy 1" installed bookworm "numpy<2"
