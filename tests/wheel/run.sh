@@ -35,8 +35,9 @@ tag_and_size() {
 }
 
 peers() {
-    in_root "$work/build" "env/bin/pip install -q fast-simplification trimesh pillow scipy wheels/*.whl"
+    in_root "$work/build" "env/bin/pip install -q fast-simplification trimesh pillow scipy pyvista wheels/*.whl"
     in_root "$work/build" "env/bin/python faqem/tests/wheel/peers.py; env/bin/python faqem/tests/wheel/with_trimesh.py"
+    in_root "$work/build" "env/bin/python faqem/tests/wheel/with_pyvista.py"
     in_root "$work/build" "env/bin/python faqem/tests/python/run_page.py faqem/docs/python.md"
 }
 
@@ -100,7 +101,7 @@ step "the wheel, from the sources alone" build
 end
 step "the same bytes from the source distribution" from_source
 step "platform tag and size" tag_and_size
-step "with fast-simplification and trimesh" peers
+step "with fast-simplification, trimesh and pyvista" peers
 step "the notebook" notebook
 step "10,000 calls with random arrays" random_calls
 step "types of a program that uses it" types
