@@ -153,6 +153,9 @@ struct Asset {
     std::uint32_t normal_bits = 0;
     std::uint32_t uv_bits = 0;          ///< the same for texture coordinates
     std::vector<std::string> warnings;  ///< what load() repaired or left out
+    /// Statements that load() ignored because they have no meaning for an asset, and extensions that it keeps without
+    /// knowing them, one line for each kind. These are no repairs: `faqem info` lists them, `--strict` accepts them.
+    std::vector<std::string> not_understood;
 };
 
 /// One occurrence of a part in the scene.

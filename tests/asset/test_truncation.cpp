@@ -123,8 +123,9 @@ TEST_CASE("material libraries truncated at any byte give an error or materials",
     for (std::size_t size = 0; size <= text.size(); ++size) {
         const std::vector<std::uint8_t> exact(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(size));
         std::vector<std::string> warnings;
+        IgnoredStatements ignored;
         try {
-            const std::size_t materials = read_mtl(exact, "a.mtl", warnings).size();
+            const std::size_t materials = read_mtl(exact, "a.mtl", warnings, ignored).size();
             CHECK(materials == (size < 6 ? 0u : 1u));
         } catch (const InputError& error) {
             CHECK(contains(error.what(), "a.mtl: line "));

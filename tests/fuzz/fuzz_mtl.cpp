@@ -5,8 +5,9 @@ using namespace faqem;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::vector<std::string> warnings;
+    detail::IgnoredStatements ignored;
     const auto materials = fuzz::refusable(
-        "a.mtl", [&] { return detail::read_mtl(fuzz::Bytes(data, size), "a.mtl", warnings); });
+        "a.mtl", [&] { return detail::read_mtl(fuzz::Bytes(data, size), "a.mtl", warnings, ignored); });
     if (!materials) return 0;
     Asset asset;
     detail::FileFinder finder("no-such-folder");

@@ -79,12 +79,13 @@ bool apply_option(std::string_view option, std::string_view argument, MtlTexture
 
 /// Reads an option with its arguments. Returns false if there is none, or, after the name, if its arguments do not
 /// fit it.
-bool read_option(Words& words, OptionPlace place, MtlTexture& texture) {
+bool read_option(Words& words, OptionPlace place, MtlTexture& texture, IgnoredStatements& ignored) {
     static constexpr std::array<std::string_view, 9> one_argument = {
         "-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-texres", "-type"};
     const auto is_done = [&] {
         return place == OptionPlace::before_name ? words.is_last() : words.rest().empty();
     };
+    static constexpr std::array<std::string_view, 5> used = {"-bm", "-clamp", "-imfchan", "-o", "-s"};
     const std::string_view option = words.peek();
     const bool takes_one = std::find(one_argument.begin(), one_argument.end(), option) != one_argument.end();
     const bool takes_pair = option == "-o" || option == "-s" || option == "-t";
@@ -107,43 +108,48 @@ bool read_option(Words& words, OptionPlace place, MtlTexture& texture) {
         words.skip();
     }
     for (int i = 0; option == "-mm" && i < 2 && !is_done(); ++i) words.skip();
+    if (std::find(used.begin(), used.end(), option) == used.end())
+        ++ignored["option " + TextScanner::quoted(option)];
     return fits || place == OptionPlace::before_name;
 }
 
 /// Removes options after the file name. A name that contains a blank and a minus is kept unless all that follows are
 /// options.
-void read_trailing_options(MtlTexture& texture) {
+void read_trailing_options(MtlTexture& texture, IgnoredStatements& ignored) {
     for (std::size_t at = 0; (at = texture.file.find(" -", at)) != std::string::npos; ++at) {
         const std::string_view name = std::string_view(texture.file).substr(0, at);
         const std::size_t end = name.find_last_not_of(" \t");
         if (end == std::string_view::npos) continue;
         MtlTexture with_options = texture;
+        IgnoredStatements ignored_options = ignored;
         Words words(std::string_view(texture.file).substr(at + 1));
         bool are_options = true;
         while (are_options && !words.rest().empty())
-            are_options = read_option(words, OptionPlace::after_name, with_options);
+            are_options = read_option(words, OptionPlace::after_name, with_options, ignored_options);
         if (!are_options) continue;
         with_options.file = name.substr(0, end + 1);
         texture = std::move(with_options);
+        ignored = std::move(ignored_options);
         return;
     }
 }
 
-MtlTexture read_texture(const std::string& statement) {
+MtlTexture read_texture(const std::string& statement, IgnoredStatements& ignored) {
     MtlTexture texture;
     Words words(statement);
-    while (read_option(words, OptionPlace::before_name, texture)) {
+    while (read_option(words, OptionPlace::before_name, texture, ignored)) {
     }
     texture.file = words.rest();
-    read_trailing_options(texture);
+    read_trailing_options(texture, ignored);
     return texture;
 }
 
 /// Parser of a material library.
 class MtlReader {
 public:
-    MtlReader(std::span<const std::uint8_t> text, const std::string& name, std::vector<std::string>& warnings)
-        : in_(text, name, Continuation::yes), warnings_(warnings) {}
+    MtlReader(std::span<const std::uint8_t> text, const std::string& name, std::vector<std::string>& warnings,
+              IgnoredStatements& ignored)
+        : in_(text, name, Continuation::yes), warnings_(warnings), ignored_(ignored) {}
 
     std::vector<MtlMaterial> run() {
         while (in_.skip_to_content()) {
@@ -170,8 +176,9 @@ private:
         } else if (materials_.empty() || !read_known_statement(key, materials_.back())) {
             static constexpr std::array<std::string_view, 7> ignored_keys = {"ka", "ks",    "ni",       "tf",
                                                                              "km", "illum", "sharpness"};
-            if (std::find(ignored_keys.begin(), ignored_keys.end(), key) == ignored_keys.end())
-                ++unused_[TextScanner::quoted(key_as_written)];
+            const bool is_ignored =
+                std::find(ignored_keys.begin(), ignored_keys.end(), key) != ignored_keys.end();
+            ++(is_ignored ? ignored_ : unused_)[TextScanner::quoted(key_as_written)];
         }
     }
 
@@ -191,7 +198,7 @@ private:
         else if (key == "pm")
             material.values.metallic = static_cast<float>(unit_number());
         else if (MtlTexture* texture = texture_of(key, material))
-            *texture = read_texture(in_.rest_of_line());
+            *texture = read_texture(in_.rest_of_line(), ignored_);
         else
             return false;
         return true;
@@ -239,6 +246,8 @@ private:
         if (material.color.file.empty() && !ambient_.file.empty()) {
             warn("material '" + material.name + "': map_Ka is read as the missing map_Kd");
             material.color = ambient_;
+        } else if (!ambient_.file.empty()) {
+            ++ignored_["'map_Ka'"];
         }
         const auto is_black = [](const Vec3& c) { return c == Vec3{0, 0, 0}; };
         if (diffuse_ && is_black(*diffuse_) && !material.color.file.empty()) {
@@ -273,6 +282,7 @@ private:
 
     TextScanner in_;
     std::vector<std::string>& warnings_;
+    IgnoredStatements& ignored_;
     std::vector<MtlMaterial> materials_;
     std::map<std::string, std::uint64_t> unused_;
     // Values of the current material.
@@ -297,8 +307,8 @@ std::vector<std::string> texture_statements(std::span<const std::uint8_t> text, 
 }
 
 std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
-                                  std::vector<std::string>& warnings) {
-    return MtlReader(text, name, warnings).run();
+                                  std::vector<std::string>& warnings, IgnoredStatements& ignored) {
+    return MtlReader(text, name, warnings, ignored).run();
 }
 
 }  // namespace faqem::detail

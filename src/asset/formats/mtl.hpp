@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "asset/image/combine.hpp"
+#include "asset/scene/messages.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
 
@@ -45,16 +46,18 @@ struct MtlMaterial {
 /// - map_Kd, map_Ke, map_d, map_Pr, map_Pm, norm, and bump or map_Bump are textures. map_Ka is ignored beside a
 ///   map_Kd, and otherwise read as one, with a warning. Of the options, -o, -s, -clamp, -bm and -imfchan are
 ///   used; the others are ignored. Options may follow the file name.
-/// - Ka, Ks, Ni, Tf, Km, illum and sharpness have no equivalent in Material and are ignored. Other
-///   statements, and statements before the first newmtl, are ignored with a counted warning.
+/// - Ka, Ks, Ni, Tf, Km, illum and sharpness have no equivalent in Material and are ignored, as are the other
+///   options. Other statements, and statements before the first newmtl, are ignored with a counted warning.
 /// - Keywords may have any letter case.
 /// \param text      borrowed
 /// \param name      path of the library, for messages
 /// \param warnings  receives the warnings
+/// \param ignored   receives the statements and options without an equivalent
 /// \return the materials in the order of the file
 /// \throws InputError  with the line, if a number is invalid
 FAQEM_EXPORT std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
-                                               std::vector<std::string>& warnings);
+                                               std::vector<std::string>& warnings,
+                                               IgnoredStatements& ignored);
 
 /// Returns the texture statements of a library without their keywords: map_* of any kind, bump, disp, decal,
 /// refl and norm, in any case, also those that read_mtl() ignores. A statement has options and a file name.

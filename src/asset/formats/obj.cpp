@@ -40,6 +40,7 @@ struct ObjStatements {
     std::vector<std::string> libraries;
     std::vector<Index> face_object;  // indices into objects; no_index before the first one
     std::vector<std::string> objects;
+    IgnoredStatements ignored;
 };
 
 /// Parser of an OBJ file.
@@ -76,7 +77,11 @@ private:
             object_ = number_of(in_.rest_of_line(), object_numbers_, out_.objects);
         else if (key == "l" || key == "p")
             ++lines_and_points_;
-        else if (key != "g" && key != "s" && unknown_++ == 0)
+        else if (key == "g")
+            ++groups_;
+        else if (key == "s")
+            ++smoothing_groups_;
+        else if (unknown_++ == 0)
             first_unknown_ = TextScanner::quoted(key) + " in line " + std::to_string(in_.line());
     }
 
@@ -189,6 +194,8 @@ private:
     }
 
     void add_warnings() {
+        if (groups_) out_.ignored["'g'"] = groups_;
+        if (smoothing_groups_) out_.ignored["'s'"] = smoothing_groups_;
         if (lines_and_points_)
             warnings_.push_back(pluralized(lines_and_points_, "line or point statement") +
                                 " ignored: only faces are supported");
@@ -211,7 +218,7 @@ private:
     Numbers material_numbers_, object_numbers_;
     Index material_ = no_index, object_ = no_index;
     std::array<ForwardReference, 3> highest_;  // largest forward reference of each kind
-    std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0;
+    std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0, groups_ = 0, smoothing_groups_ = 0;
     std::string first_unknown_;
 };
 
@@ -257,10 +264,10 @@ void add_objects(Part& part, const ObjStatements& in, const std::vector<Index>& 
 }
 
 /// Adds the used materials in the order of their first use by a face.
-void add_materials(Asset& asset, const ObjStatements& in, const std::filesystem::path& file) {
+void add_materials(Asset& asset, ObjStatements& in, const std::filesystem::path& file) {
     std::vector<Index>& of_face = asset.parts[0].face_material;
     FileFinder finder(file.parent_path());
-    const auto libraries = read_libraries(in.libraries, file, finder, asset.warnings);
+    const auto libraries = read_libraries(in.libraries, file, finder, asset.warnings, in.ignored);
     ReferencedImages images(asset, finder);
     MtlMaterials materials(asset, images);
     std::vector<Index> added(in.material_names.size(), no_index);
@@ -314,6 +321,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     add_objects(part, in, split.source_polygon, file.stem().string());
     repair_non_finite(part, file.string(), split.non_finite, asset.warnings);
     add_materials(asset, in, file);
+    asset.not_understood = ignored_messages(in.ignored);
     return asset;
 }
 

@@ -17,8 +17,9 @@ namespace fs = std::filesystem;
 /// Reads the libraries of one model.
 class LibraryReader {
 public:
-    LibraryReader(const fs::path& model, FileFinder& finder, std::vector<std::string>& warnings)
-        : model_(model), finder_(finder), warnings_(warnings) {}
+    LibraryReader(const fs::path& model, FileFinder& finder, std::vector<std::string>& warnings,
+                  IgnoredStatements& ignored)
+        : model_(model), finder_(finder), warnings_(warnings), ignored_(ignored) {}
 
     void read(const std::string& name) {
         if (!names_.insert(name).second) return;
@@ -37,7 +38,7 @@ public:
             warnings_.push_back(
                 "material library " + TextScanner::quoted(name) + " was not found; the file " +
                 TextScanner::quoted(found.file.lexically_relative(root).generic_string()) + " is read");
-        for (MtlMaterial& material : read_mtl(text, found.file.string(), warnings_)) {
+        for (MtlMaterial& material : read_mtl(text, found.file.string(), warnings_, ignored_)) {
             material.folder = found.file.parent_path().lexically_relative(root);
             materials_[material.name] = std::move(material);
         }
@@ -59,6 +60,7 @@ private:
     const fs::path& model_;
     FileFinder& finder_;
     std::vector<std::string>& warnings_;
+    IgnoredStatements& ignored_;
     std::set<std::string> names_;
     std::set<fs::path> files_;
     std::map<std::string, MtlMaterial> materials_;
@@ -91,8 +93,9 @@ std::optional<std::string> renamed_library(const fs::path& model, FileFinder& fi
 
 std::map<std::string, MtlMaterial> read_libraries(const std::vector<std::string>& statements,
                                                   const fs::path& model, FileFinder& finder,
-                                                  std::vector<std::string>& warnings) {
-    LibraryReader reader(model, finder, warnings);
+                                                  std::vector<std::string>& warnings,
+                                                  IgnoredStatements& ignored) {
+    LibraryReader reader(model, finder, warnings, ignored);
     for (const std::string& statement : statements)
         for (const std::string& name : library_names(statement, finder.folder())) reader.read(name);
     return reader.finish();

@@ -29,10 +29,12 @@ std::optional<std::string> renamed_library(const std::filesystem::path& model, F
 /// \param statements  mtllib statements without their keyword
 /// \param model       path of the OBJ file
 /// \param warnings    receives the warnings
+/// \param ignored     as for read_mtl()
 /// \return the materials by name
 /// \throws InputError  as read_mtl()
 std::map<std::string, MtlMaterial> read_libraries(const std::vector<std::string>& statements,
                                                   const std::filesystem::path& model, FileFinder& finder,
-                                                  std::vector<std::string>& warnings);
+                                                  std::vector<std::string>& warnings,
+                                                  IgnoredStatements& ignored);
 
 }  // namespace faqem::detail

@@ -93,7 +93,7 @@ public:
             else if (element.name == "tristrips")
                 read_strips(element);
             else
-                for_each_row(element, [&] { skip(element.properties); });
+                read_other(element);
         }
         if (data_.remaining_bytes())
             warnings_.push_back(pluralized(data_.remaining_bytes(), "byte") +
@@ -165,6 +165,15 @@ private:
         for (const PlyProperty& p : properties) skip(p);
     }
 
+    void add_not_understood(const PlyElement& element, const PlyProperty& property) {
+        content_.not_understood.push_back("property '" + property.name + "' of " + element.name);
+    }
+
+    void read_other(const PlyElement& element) {
+        content_.not_understood.push_back("element '" + element.name + "'");
+        for_each_row(element, [&] { skip(element.properties); });
+    }
+
     void read_vertices(const PlyElement& element) {
         std::vector<VertexProperty> slots;
         PlyRow scale = {};  // of colours to [0, 1]; 0: no such property
@@ -180,6 +189,13 @@ private:
         if (has({nx, ny, nz})) part_.normals.resize(element.count);
         if (has({red, green, blue})) part_.colors.resize(element.count);
         if (has({s, t})) part_.uvs.emplace_back(element.count);
+        for (std::size_t i = 0; i < slots.size(); ++i) {
+            const bool is_used = slots[i] <= z       ? true
+                                 : slots[i] <= nz    ? !part_.normals.empty()
+                                 : slots[i] <= alpha ? !part_.colors.empty()
+                                                     : slots[i] <= t && !part_.uvs.empty();
+            if (!is_used) add_not_understood(element, element.properties[i]);
+        }
 
         PlyRow row = {};
         std::size_t vertex = 0;
@@ -233,9 +249,13 @@ private:
 
     void read_strips(const PlyElement& element) {
         const std::size_t indices = index_list(element);
-        for (const PlyProperty& p : element.properties)
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            const PlyProperty& p = element.properties[i];
             if (p.name == "texcoord" || p.name == "red")
                 warnings_.push_back("'" + p.name + "' of " + element.name + " is ignored");
+            else if (i != indices)
+                add_not_understood(element, p);
+        }
         std::vector<double> list;
         for_each_row(element, [&] {
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -267,6 +287,9 @@ private:
             scale[slots.back()] = is_integer_type(p.type) ? 1 / ply_type_range(p.type).high : 1;
         }
         const bool has_colors = scale[red] > 0 && scale[green] > 0 && scale[blue] > 0;
+        for (std::size_t i = 0; i < properties.size(); ++i)
+            if (i != indices && i != uvs && i != texture && (slots[i] == skipped || !has_colors))
+                add_not_understood(element, properties[i]);
         std::vector<double> list, coordinates;
         double number = 0;
         for_each_row(element, [&] {

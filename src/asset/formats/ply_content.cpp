@@ -20,6 +20,7 @@ public:
     PlyConverter(PlyContent content, const std::filesystem::path& file, std::vector<std::string> warnings)
         : content_(std::move(content)), file_(file) {
         asset_.warnings = std::move(warnings);
+        asset_.not_understood = std::move(content_.not_understood);
     }
 
     Asset run(const std::vector<std::string>& texture_files) {

@@ -25,7 +25,8 @@ struct PlyFaces {
 struct PlyContent {
     Part part;  ///< positions and attributes of the vertices
     PlyFaces faces;
-    Polygons strips;  ///< triangles of strips
+    Polygons strips;                          ///< triangles of strips
+    std::vector<std::string> not_understood;  ///< as Asset::not_understood
 };
 
 /// Converts the content of a PLY file to an asset of one part.

@@ -10,6 +10,13 @@ std::string pluralized(std::uint64_t count, const std::string& noun) {
 
 std::string bytes_text(std::uint64_t count) { return std::to_string(count) + " bytes"; }
 
+std::vector<std::string> ignored_messages(const IgnoredStatements& ignored) {
+    std::vector<std::string> messages;
+    for (const auto& [name, count] : ignored)
+        messages.push_back(name + ": " + pluralized(count, "statement"));
+    return messages;
+}
+
 std::string material_title(const Asset& asset, Index material) {
     if (material == no_index) return "the default material";
     const std::string& name = asset.materials[material].name;

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
@@ -16,6 +18,12 @@ FAQEM_EXPORT std::string pluralized(std::uint64_t count, const std::string& noun
 
 /// `12 bytes`.
 std::string bytes_text(std::uint64_t count);
+
+/// How often each kind of statement was ignored, by its name in the form of a message.
+using IgnoredStatements = std::map<std::string, std::uint64_t>;
+
+/// `'Ks': 2 statements` for each kind, in the order of the names: entries of Asset::not_understood.
+std::vector<std::string> ignored_messages(const IgnoredStatements& ignored);
 
 /// `material 'red'`, or `material 3` if it has no name.
 FAQEM_EXPORT std::string material_title(const Asset& asset, Index material);

@@ -44,7 +44,7 @@ struct AssetInfo {
     std::vector<ImageInfo> images;
     std::size_t materials = 0, instances = 0;
     MeshInfo scene;  ///< all instances in world space
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings, not_understood;
 };
 
 MeshInfo info_of(const Part& part) { return info(MeshView{part.positions, part.triangles}); }
@@ -106,6 +106,7 @@ MeshInfo sum_of_instances(const Asset& asset, const std::vector<PartInfo>& parts
 AssetInfo examine(Asset asset) {
     AssetInfo result;
     result.warnings = asset.warnings;
+    result.not_understood = asset.not_understood;
     for (std::string& warning : detail::weld_rounded_positions(asset))
         result.warnings.push_back(std::move(warning));
     const std::vector<Instance> scene_instances = instances(asset);
@@ -163,7 +164,8 @@ Json as_json(const std::string& file, const AssetInfo& asset) {
             {"images", std::move(images)},
             {"instances", asset.instances},
             {"total", info_json(asset.scene)},
-            {"warnings", asset.warnings}};
+            {"warnings", asset.warnings},
+            {"not_understood", asset.not_understood}};
 }
 
 std::string point_text(const Vec3& p) {
@@ -203,6 +205,7 @@ void print_text(const std::string& file, const AssetInfo& asset) {
     out << "scene (" << asset.instances << " instances, " << asset.materials << " materials): ";
     print_mesh(out, asset.scene);
     for (const std::string& warning : asset.warnings) out << "warning: " << warning << "\n";
+    for (const std::string& what : asset.not_understood) out << "not understood: " << what << "\n";
     std::cout << out.str();
 }
 

@@ -19,7 +19,8 @@ const std::string textured_triangle = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 
 /// Reads a library with exactly one material.
 MtlMaterial one(const std::string& text, std::vector<std::string>* warnings = nullptr) {
     std::vector<std::string> own;
-    const auto materials = read_mtl(bytes_of(text), "a.mtl", warnings ? *warnings : own);
+    IgnoredStatements ignored;
+    const auto materials = read_mtl(bytes_of(text), "a.mtl", warnings ? *warnings : own, ignored);
     REQUIRE(materials.size() == 1);
     return materials[0];
 }
@@ -136,7 +137,23 @@ TEST_CASE("map_Ka is used only without a map_Kd, with a warning", "[mtl]") {
     warnings.clear();
     CHECK(one("newmtl a\nmap_Ka k.png\nmap_Kd d.png\n", &warnings).color.file == "d.png");
     CHECK(warnings.empty());
-    CHECK(read_mtl(bytes_of("newmtl a\nmap_Ka k.png\nnewmtl b\n"), "a.mtl", warnings)[1].color.file.empty());
+    IgnoredStatements ignored;
+    read_mtl(bytes_of("newmtl a\nmap_Ka k.png\nmap_Kd d.png\n"), "a.mtl", warnings, ignored);
+    CHECK(ignored_messages(ignored) == std::vector<std::string>{"'map_Ka': 1 statement"});
+    const auto two = read_mtl(bytes_of("newmtl a\nmap_Ka k.png\nnewmtl b\n"), "a.mtl", warnings, ignored);
+    CHECK(two[1].color.file.empty());
+}
+
+TEST_CASE("statements and options of MTL without an equivalent are counted", "[mtl]") {
+    std::vector<std::string> warnings;
+    IgnoredStatements ignored;
+    read_mtl(bytes_of("newmtl a\nKs 1 1 1\nNi 1\nmap_Kd -mm 0 1 -s 2 2 -blendu on a.png\n"
+                      "newmtl b\nKs 1 1 1\nmap_Kd a -cc b.png -boost 2\nmap_Ke c -boost 1.png\n"),
+             "a.mtl", warnings, ignored);
+    CHECK(warnings.empty());
+    CHECK(ignored_messages(ignored) ==
+          std::vector<std::string>{"'Ks': 2 statements", "'Ni': 1 statement", "option '-blendu': 1 statement",
+                                   "option '-boost': 1 statement", "option '-mm': 1 statement"});
 }
 
 TEST_CASE("unused statements are ignored, unknown ones counted and invalid numbers are errors", "[mtl]") {

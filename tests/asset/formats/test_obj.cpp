@@ -218,6 +218,13 @@ TEST_CASE("warnings count lines, points and unknown statements", "[obj]") {
     CHECK(any_contains(asset.warnings, "3 line or point statements"));
     CHECK(any_contains(asset.warnings, "2 unknown statements ignored, first 'curv' in line 8"));
     CHECK(any_contains(asset.warnings, "1 face with fewer than three corners"));
+    CHECK(asset.not_understood.empty());
+}
+
+TEST_CASE("groups of OBJ are counted, but are no reason for a warning", "[obj]") {
+    const Asset asset = parse_obj(square_vertices + "g a b\ns 1\nf 1 2 3\ng\nf 1 3 4\n");
+    CHECK(asset.warnings.empty());
+    CHECK(asset.not_understood == std::vector<std::string>{"'g': 2 statements", "'s': 1 statement"});
 }
 
 TEST_CASE("non-finite numbers are repaired and counted", "[obj]") {

@@ -267,6 +267,23 @@ TEST_CASE("trailing bytes of a PLY file give a warning", "[ply]") {
     CHECK(parse_ply(ascii("", indices, three_vertices + "3 0 1 2\n\n \n")).warnings.empty());
 }
 
+TEST_CASE("PLY elements and properties that are not read are named", "[ply]") {
+    const std::string edge = "element edge 1\nproperty int vertex1\nproperty int vertex2\n";
+    const Asset asset = parse_ply(ascii("property float quality\nproperty float nx\nproperty float s\n",
+                                        indices + "property uchar flags\nproperty uchar red\n" + edge,
+                                        "0 0 0 1 1 1\n1 0 0 1 1 1\n1 1 0 1 1 1\n3 0 1 2 7 9\n0 1\n"));
+    CHECK(asset.warnings.empty());
+    CHECK(asset.not_understood ==
+          std::vector<std::string>{"property 'quality' of vertex", "property 'nx' of vertex",
+                                   "property 's' of vertex", "property 'flags' of face",
+                                   "property 'red' of face", "element 'edge'"});
+    CHECK(asset.parts[0].normals.empty());
+    const std::string strips = "element tristrips 1\n" + indices + "property int flags\n";
+    const Asset strip = parse_ply("ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + strips +
+                                  "end_header\n" + three_vertices + "3 0 1 2 5\n");
+    CHECK(strip.not_understood == std::vector<std::string>{"property 'flags' of tristrips"});
+}
+
 TEST_CASE("a PLY file without faces is an error and non-finite positions are repaired", "[ply]") {
     CHECK(contains(ply_error(ascii("", indices, three_vertices, 3, 0)), "a.ply: no faces"));
     CHECK(contains(

@@ -296,6 +296,18 @@ TEST_CASE("a missing image removes its textures with a warning") {
     CHECK(any_contains(asset.warnings, "gone.png"));
 }
 
+TEST_CASE("extensions that are kept without being known are named") {
+    GltfBuilder builder = square_gltf();
+    builder.json["nodes"][0]["extensions"] = {{"OTHER_node", Json::object()},
+                                              {"EXT_instance_features", Json::object()}};
+    builder.json["extensions"]["ANY_document"] = {{"extras", {{"extensions", {{"NO_extension", 1}}}}}};
+    builder.json["materials"] =
+        Json::parse(R"([{"extensions": {"KHR_materials_new": {"extensions": {"ANY_document": {}}}}}])");
+    const Asset asset = load_glb(builder);
+    CHECK(asset.warnings.empty());
+    CHECK(asset.not_understood == std::vector<std::string>{"extension ANY_document", "extension OTHER_node"});
+}
+
 TEST_CASE("data URIs of any media type are decoded") {
     const TemporaryFolder folder;
     put(folder / "a.gltf",

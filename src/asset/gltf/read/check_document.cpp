@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 
 #include "asset/gltf/instancing.hpp"
@@ -20,9 +21,24 @@ constexpr std::array<std::string_view, 11> supported_extensions = {
     "KHR_animation_pointer", "KHR_node_visibility",   "EXT_lights_image_based", "EXT_texture_webp",
     "KHR_texture_basisu",    "EXT_texture_avif",      instancing_name};
 
+/// Other extensions that are read, or whose references are kept up to date.
+constexpr std::array<std::string_view, 9> other_known_extensions = {draco_name,
+                                                                    meshopt_name,
+                                                                    "EXT_mesh_features",
+                                                                    "EXT_structural_metadata",
+                                                                    "CESIUM_primitive_outline",
+                                                                    "EXT_mesh_manifold",
+                                                                    "FB_ngon_encoding",
+                                                                    "MSFT_lod",
+                                                                    "EXT_instance_features"};
+
 template <class List>
 bool contains(const List& list, std::string_view name) {
     return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+bool is_supported(std::string_view extension) {
+    return contains(supported_extensions, extension) || extension.starts_with("KHR_materials_");
 }
 
 void check_version(const GltfChecker& checker) {
@@ -50,7 +66,7 @@ void check_required_extensions(const GltfChecker& checker) {
             if (!can_decode(name)) checker.fail_unsupported(where, missing_decoder_message(name));
             continue;
         }
-        if (!contains(supported_extensions, name) && !name.starts_with("KHR_materials_"))
+        if (!is_supported(name))
             checker.fail_unsupported(where, "the extension " + name + " is not supported");
     }
 }
@@ -83,6 +99,14 @@ void check_image_lights(const GltfChecker& checker) {
 }
 
 }  // namespace
+
+std::vector<std::string> unknown_extensions(const Json& document) {
+    std::set<std::string> names;
+    for_each_extension(document, [&](const std::string& name, const Json&) {
+        if (!is_supported(name) && !contains(other_known_extensions, name)) names.insert(name);
+    });
+    return {names.begin(), names.end()};
+}
 
 void check_document(const GltfChecker& checker) {
     if (!checker.document.is_object()) checker.fail("", "is neither a GLB nor a JSON object");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "asset/gltf/json.hpp"
 
@@ -51,6 +52,10 @@ struct GltfChecker {
 /// Checks the types of top-level members, asset.version, extensions and extensionsRequired.
 /// \throws InputError, UnsupportedError
 void check_document(const GltfChecker& checker);
+
+/// Returns the names of the extensions in a document that are kept without being known, sorted.
+/// \pre the document was validated
+std::vector<std::string> unknown_extensions(const Json& document);
 
 /// Checks buffers, views and accessors. Byte ranges are checked in 64-bit arithmetic.
 /// \throws InputError, UnsupportedError

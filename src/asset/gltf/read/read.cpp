@@ -5,6 +5,7 @@
 
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/pose.hpp"
+#include "asset/gltf/read/checker.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/affine.hpp"
@@ -145,6 +146,8 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
     if (loaded.source->has_meshopt) asset.compression = Compression::meshopt;
     asset.source = std::move(loaded.source);
     asset.warnings = std::move(loaded.warnings);
+    for (const std::string& name : unknown_extensions(asset.source->document))
+        asset.not_understood.push_back("extension " + name);
     check_world_positions(asset, loaded.file);
     warn_of_inverse_binds(*asset.source, loaded.file, asset.warnings);
     return asset;
