@@ -150,29 +150,39 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
     progress.report(Phase::bake, 1);
 }
 
-}  // namespace
-
-UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
-                               const Options& requested) {
-    validate(requested);
-    check_asset(source);
-    const Options options = bakeable_options(source, requested);
-    check_parts_match(source, simplified);
-    if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
-        throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
+// Keeps the UVs of all parts, with pending images.
+void keep_all_parts(const Asset& source, const SimplifiedParts& simplified, const BakeOptions& bake,
+                    BakeProgress& progress, UnencodedResult& out) {
+    const Stopwatch watch;
+    const std::vector<std::uint8_t> untouched(source.parts.size(), 0);
+    const std::vector<BakePart> parts = map_parts(source, simplified.parts, untouched, bake, progress);
+    out.asset.report.seconds.map = watch.seconds();
+    bake_keep({source, bake, parts, progress}, out);
+    std::vector<KeptPart> kept;
+    for (const BakePart& part : parts) {
+        kept.push_back({part.index, false});
+        if (part.faces() > 0) out.asset.report.kept_uvs.push_back(part_title(source, part.index));
     }
+    add_kept_images(source, bake, kept, progress.workers(), out);
+    keep_file_records(parts, untouched, out.asset.asset);
+    for (Part& part : out.asset.asset.parts) part.file_order = FileOrder::for_gpu;
+    progress.report(Phase::bake, 1);
+}
+
+// Calls work(options, progress, result) for a result that has the report of the geometry stage and the data of the file.
+template <class Work>
+UnencodedResult baked(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                      const Work& work) {
+    check_parts_match(source, simplified);
     BakeProgress progress(options);
     UnencodedResult out;
     Report& report = out.asset.report = simplified.report;
-    if (options.bake.kind != requested.bake.kind)
-        report.warnings.push_back(
-            "images of KTX2 or AVIF cannot be baked: the UVs and images of the source are kept");
     out.asset.asset.source = source.source;
     out.asset.asset.warnings = source.warnings;
     if (report.stop == StopReason::cancelled) return out;
     const Stopwatch watch;
     try {
-        bake_parts(source, simplified, options.bake, progress, out);
+        work(progress, out);
         set_quantization(source, options, out.asset.asset, report);
     } catch (const engine::Cancelled&) {
         set_cancelled(out.asset);
@@ -181,6 +191,35 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
     report.seconds.bake = watch.seconds() - report.seconds.map;
     report.seconds.total += watch.seconds();
     return out;
+}
+
+}  // namespace
+
+UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
+                               const Options& requested) {
+    validate(requested);
+    check_asset(source);
+    const Options options = bakeable_options(source, requested);
+    if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
+        throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
+    }
+    return baked(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
+        if (options.bake.kind != requested.bake.kind)
+            out.asset.report.warnings.push_back(
+                "images of KTX2 or AVIF cannot be baked: the UVs and images of the source are kept");
+        bake_parts(source, simplified, options.bake, progress, out);
+    });
+}
+
+UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simplified,
+                              const Options& requested) {
+    validate(requested);
+    check_asset(source);
+    Options options = requested;
+    options.bake.kind = Bake::keep;
+    return baked(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
+        keep_all_parts(source, simplified, options.bake, progress, out);
+    });
 }
 
 }  // namespace detail

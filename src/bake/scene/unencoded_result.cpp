@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "asset/image/image.hpp"
 #include "asset/image/image_size.hpp"
@@ -54,13 +57,14 @@ bool needs_tangents(const Asset& asset, const Part& part) {
 }
 
 // Encodes the pending images. Without time for the choice of ImageFormat::automatic, they get the format of the source.
-void encode_in_time(UnencodedResult& result, const Options& options, engine::ProgressMonitor& monitor) {
+void encode_in_time(UnencodedResult& result, const Options& options, ImageEffort effort,
+                    engine::ProgressMonitor& monitor) {
     const Workers workers{options.threads, CancellationCheck(monitor)};
     std::vector<Image>& images = result.asset.asset.images;
     BakeOptions bake = options.bake;
     if (bake.image_format == ImageFormat::automatic) monitor.set_deadline(deadline_of(options));
     try {
-        return encode_pending_images(result.pending, bake, workers, images);
+        return encode_pending_images(result.pending, bake, workers, images, effort);
     } catch (const engine::Cancelled& stopped) {
         if (stopped.reason == StopReason::cancelled) throw;
     }
@@ -69,6 +73,24 @@ void encode_in_time(UnencodedResult& result, const Options& options, engine::Pro
     encode_pending_images(result.pending, bake, workers, images);
     result.asset.report.warnings.push_back(
         "max_seconds was over before the smallest images were found: they have the formats of the source");
+}
+
+bool can_be_halved(const Pixels& pixels) {
+    return pixels.width % 2 == 0 && pixels.height % 2 == 0 && std::min(pixels.width, pixels.height) > 1;
+}
+
+// A texel of the halved image is known if one of its four texels is.
+void halve(PendingImage& pending) {
+    const Pixels& from = pending.pixels;
+    const std::uint32_t width = from.width / 2, height = from.height / 2;
+    std::vector<std::uint8_t> known(std::size_t{width} * height, 0);
+    for (std::uint32_t y = 0; y < from.height; ++y)
+        for (std::uint32_t x = 0; x < from.width; ++x)
+            if ((*pending.known)[std::size_t{y} * from.width + x])
+                known[std::size_t{y / 2} * width + x / 2] = 1;
+    pending.known = std::make_shared<const std::vector<std::uint8_t>>(std::move(known));
+    pending.pixels = halved(from);
+    pending.original.reset();  // has more texels
 }
 
 }  // namespace
@@ -81,14 +103,14 @@ void set_cancelled(SimplifiedAsset& result) {
     result.report.stop = StopReason::cancelled;
 }
 
-void encode_images(UnencodedResult& result, const Options& options) {
+void encode_images(UnencodedResult& result, const Options& options, ImageEffort effort) {
     Report& report = result.asset.report;
     if (report.stop == StopReason::cancelled) return;
     const Stopwatch watch;
     engine::ProgressMonitor monitor(
         [&] { return options.progress ? options.progress(Phase::bake, 1) : Continue::yes; });
     try {
-        encode_in_time(result, options, monitor);
+        encode_in_time(result, options, effort, monitor);
         report_images(result.asset.asset, report);
     } catch (const engine::Cancelled&) {
         set_cancelled(result.asset);
@@ -111,6 +133,44 @@ bool remove_new_normal_maps(UnencodedResult& result) {
     for (Part& part : asset.parts)
         if (!needs_tangents(asset, part)) part.tangents.clear();
     return true;
+}
+
+bool limit_image_sides(UnencodedResult& result, std::uint32_t side) {
+    bool is_halved = false;
+    for (PendingImage& pending : result.pending) {
+        const auto exceeds = [&] {
+            const Pixels& at = pending.pixels;
+            return pending.may_shrink && std::max(at.width, at.height) > side && can_be_halved(at);
+        };
+        while (exceeds()) {
+            halve(pending);
+            is_halved = true;
+        }
+    }
+    return is_halved;
+}
+
+void remove_unused_materials(UnencodedResult& result) {
+    Asset& asset = result.asset.asset;
+    std::vector<Index> number(asset.materials.size(), no_index);
+    for (const Part& part : asset.parts)
+        for (const Index m : part.face_material)
+            if (m < number.size()) number[m] = 0;
+    std::vector<std::uint8_t> removed(asset.images.size(), 1);
+    Index count = 0;
+    for (std::size_t m = 0; m < number.size(); ++m) {
+        if (number[m] == no_index) continue;
+        if (count != m) asset.materials[count] = std::move(asset.materials[m]);
+        for_each_texture(asset.materials[count], [&](const TextureRef& texture) {
+            if (texture) removed[texture.image] = 0;
+        });
+        number[m] = count++;
+    }
+    asset.materials.resize(count);
+    for (Part& part : asset.parts)
+        for (Index& m : part.face_material)
+            if (m < number.size()) m = number[m];
+    remove_images(result, removed);
 }
 
 }  // namespace faqem::detail

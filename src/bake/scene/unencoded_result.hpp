@@ -12,11 +12,30 @@ namespace faqem::detail {
 FAQEM_EXPORT UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
                                             const Options& options);
 
+/// bake() of parts that were simplified with Bake::keep. All keep their UVs and, other than in bake_unencoded(), their
+/// images are pending, unless BakeOptions::image_format is ImageFormat::source. No part is untouched
+/// (BakeOptions::untouched), and all have FileOrder::for_gpu. The result has all materials and images of the source, with the same indices.
+/// \throws as bake()
+FAQEM_EXPORT UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simplified,
+                                           const Options& options);
+
 /// Encodes the pending images, which stay pending, and reports all images. Does nothing for a cancelled result.
 /// \param options  those of BakeOptions that are about the encoding, the threads, the progress callback, and
 ///     max_seconds, which counts from the call: if it is over, images that ImageFormat::automatic is about get
 ///     the format of the source
-FAQEM_EXPORT void encode_images(UnencodedResult& result, const Options& options);
+/// \param effort   ImageEffort::estimate: for the size only
+FAQEM_EXPORT void encode_images(UnencodedResult& result, const Options& options,
+                                ImageEffort effort = ImageEffort::full);
+
+/// Halves pending images that have a side of more than `side` texels, as long as their sides are even. Images that are
+/// shown without filter keep their resolution.
+/// \return whether an image was halved
+/// Complexity: O(texels).
+FAQEM_EXPORT bool limit_image_sides(UnencodedResult& result, std::uint32_t side);
+
+/// Removes the materials that no face has, and the images that no material has.
+/// Complexity: O(faces + materials + images).
+FAQEM_EXPORT void remove_unused_materials(UnencodedResult& result);
 
 /// Removes the normal maps of materials without one in the source, and the tangents for them.
 /// \return whether there were any

@@ -341,6 +341,20 @@ SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options
     return result;
 }
 
+std::vector<SimplifiedParts> detail::simplify_parts_in_steps(const Asset& source,
+                                                             std::span<const std::uint64_t> targets,
+                                                             const Options& requested) {
+    validate(requested);
+    check_asset(source);
+    const Options options = bakeable_options(source, requested);
+    const Deadline deadline = deadline_of(options);
+    const WeldedSource welded(source, options);
+    const Options own = with_time_left(options, deadline);
+    std::vector<SimplifiedParts> results = simplify_parts_to_targets(welded.asset(), targets, own);
+    for (SimplifiedParts& result : results) welded.add_to(result.report);
+    return results;
+}
+
 SimplifiedParts simplify_parts(const Asset& source, const Options& requested) {
     validate(requested);
     detail::check_asset(source);

@@ -8,6 +8,7 @@
 
 #include "faqem/bake.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -30,5 +31,16 @@ std::vector<SimplifiedParts> simplify_parts_to_targets(const Asset& source,
 /// \param levels   as for simplify_parts_to_targets()
 SimplifiedParts simplify_welded_parts(const Asset& source, const Options& options,
                                       std::span<const LevelTarget> levels = {});
+
+/// simplify_parts() to several targets in one run, with the kind of baking that the options say: Bake::automatic makes no
+/// SimplifiedParts::kept.
+/// \param targets    face counts of all parts together: at least one, in descending order
+/// \param requested  as for simplify_parts(); target and max_error are ignored
+/// \return one result per target; a single one with StopReason::cancelled if the progress callback cancels
+/// \throws whatever simplify_parts() throws
+/// Complexity: that of one call of simplify_parts(), and O(faces) for each target.
+FAQEM_EXPORT std::vector<SimplifiedParts> simplify_parts_in_steps(const Asset& source,
+                                                                  std::span<const std::uint64_t> targets,
+                                                                  const Options& requested);
 
 }  // namespace faqem::detail

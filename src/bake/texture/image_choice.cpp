@@ -197,8 +197,10 @@ Image smallest_at(const LossyEncoding& lossy, const std::string& name, Content c
         if (auto found = lossy.least(webp_qualities,
                                      [&](std::uint32_t quality) { return webp(WebpMode::lossy, quality); }))
             keep_smaller(best, std::move(found->first));
-        Image near_lossless = webp(WebpMode::near_lossless, near_lossless_level);
-        if (lossy.allows(near_lossless)) keep_smaller(best, std::move(near_lossless));
+        if (!best || limits.effort == ImageEffort::full) {
+            Image near_lossless = webp(WebpMode::near_lossless, near_lossless_level);
+            if (lossy.allows(near_lossless)) keep_smaller(best, std::move(near_lossless));
+        }
     }
     if (!tries_lossless && best) return *std::move(best);
     if (limits.tries_core) keep_smaller(best, encode_png(pixels, name));
@@ -294,8 +296,9 @@ Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known,
         return smallest_at({pixels, at, known, limits.quality, check_cancelled}, name, content, limits,
                            tries_lossless);
     };
-    Image best = encoded(smaller.empty() ? pixels : smaller.back(), true);
-    if (smaller.empty()) return best;
+    const bool is_estimate = limits.effort == ImageEffort::estimate;
+    Image best = encoded(smaller.empty() ? pixels : smaller.back(), !is_estimate);
+    if (smaller.empty() || is_estimate) return best;
     // Lossless encodings are tried there too if one may have been the smallest: images with few colours stay so at
     // any resolution.
     const bool was_lossless = best.mime_type != "image/jpeg";

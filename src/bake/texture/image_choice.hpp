@@ -21,12 +21,21 @@ struct ImageQuality {
     double whole, block;
 };
 
+/// How much encode_smallest() tries.
+enum class ImageEffort {
+    full,
+    /// For the size of an image, up to a few percent: one resolution, and lossless encodings only where no other is
+    /// within the limits.
+    estimate,
+};
+
 /// How far encode_smallest() may go.
 struct ImageLimits {
     ImageQuality quality;
     bool may_shrink = true;  ///< whether the result may have fewer texels
     bool tries_core = true;  ///< whether PNG and JPEG are tried, which glTF has without extensions
     bool tries_webp = false;
+    ImageEffort effort = ImageEffort::full;
 };
 
 /// Least PSNR of an image of ImageFormat::automatic: BakeOptions::image_quality, and 4 dB less for roughness and other

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "bake/texture/image_choice.hpp"
-
 namespace faqem::detail {
 namespace {
 
 Content encoded_content(TextureContent content) { return is_color(content) ? Content::color : Content::data; }
 
-Image encoded_image(const PendingImage& pending, const BakeOptions& bake, CancellationCheck check_cancelled) {
+Image encoded_image(const PendingImage& pending, const BakeOptions& bake, ImageEffort effort,
+                    CancellationCheck check_cancelled) {
     const Pixels& pixels = pending.pixels;
     const Content content = encoded_content(pending.content);
     if (has_image_quality(bake.image_format)) {
@@ -19,7 +18,7 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, Cancel
         const ImageLimits limits{
             least_quality(bake, pending.content, pending.roughness, pending.quality_change),
             pending.may_shrink, !is_webp,
-            bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp)};
+            bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp), effort};
         Image smallest =
             encode_smallest(pixels, *pending.known, pending.name, content, limits, check_cancelled);
         const bool was_webp = pending.original && pending.original->mime_type == "image/webp";
@@ -42,11 +41,11 @@ bool tries_webp(const Asset& source) {
 }
 
 void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
-                           const Workers& workers, std::vector<Image>& images) {
+                           const Workers& workers, std::vector<Image>& images, ImageEffort effort) {
     parallel_blocks(pending.size(), 1, workers,
                     [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
                         check_cancelled.now();
-                        images[pending[i].image] = encoded_image(pending[i], bake, check_cancelled);
+                        images[pending[i].image] = encoded_image(pending[i], bake, effort, check_cancelled);
                     });
 }
 

@@ -11,6 +11,7 @@
 
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "bake/texture/image_choice.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
@@ -50,9 +51,11 @@ bool tries_webp(const Asset& source);
 
 /// Encodes images as BakeOptions::image_format says.
 /// \param images  Asset::images of the result; receives the encoded images
+/// \param effort  of formats with has_image_quality()
 /// \throws engine::Cancelled
 /// Complexity: at most about ten encodings of each image.
 void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
-                           const Workers& workers, std::vector<Image>& images);
+                           const Workers& workers, std::vector<Image>& images,
+                           ImageEffort effort = ImageEffort::full);
 
 }  // namespace faqem::detail
