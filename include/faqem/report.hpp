@@ -118,8 +118,19 @@ struct ResultImage {
 
 /// A buffer view of the result.
 struct ResultView {
-    std::string content;      ///< what it stores, for example "POSITION" or "indices"; several are separated by commas
+    std::string
+        content;  ///< what it stores, for example "POSITION" or "indices"; several are separated by commas
     std::uint64_t bytes = 0;  ///< as stored, possibly compressed
+};
+
+/// A result that was made and compared with others of a byte budget. Set by the command.
+struct BudgetPoint {
+    Bake kind = Bake::keep;  ///< `keep`: with the UVs of the source
+    std::uint64_t faces = 0;
+    std::uint64_t bytes = 0;        ///< of all files
+    std::uint32_t image_side = 0;   ///< limit of the sides of images, texels; 0: none was encoded again
+    std::optional<double> quality;  ///< BakeOptions::image_quality, dB; empty if the format has none
+    double psnr = 0;                ///< of rendered pictures, dB
 };
 
 /// Summary of one run. Counts are sums if several meshes were simplified.
@@ -157,6 +168,8 @@ struct Report {
     std::vector<ResultView> buffer_views;
     /// What the command gave up so that the result has no more bytes than the input, also in a warning.
     std::vector<std::string> given_up;
+    /// For a byte budget without a face target: the results that were compared, in the order in which they were made.
+    std::vector<BudgetPoint> budget_points;
     /// Total size of the files of the model before and after, without those of history and correspondence. Set by
     /// the command; 0: unknown.
     std::uint64_t bytes_in = 0, bytes_out = 0;

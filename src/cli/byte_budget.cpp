@@ -7,6 +7,7 @@
 
 #include "asset/file_format.hpp"
 #include "asset/io/file_names.hpp"
+#include "cli/best_picture.hpp"
 #include "cli/output_file.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 
@@ -161,6 +162,11 @@ ModelBytes model_bytes(const Asset& asset, const fs::path& file) {
 }
 
 SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& options, const ByteBudget& budget) {
+    const detail::Deadline deadline = detail::deadline_of(options);
+    if (leaves_faces_to_budget(options)) {
+        if (auto best = best_picture_within_bytes(source, options, budget)) return *std::move(best);
+        return ByteBudgetSearch(source, detail::with_time_left(options, deadline), budget)();
+    }
     return ByteBudgetSearch(source, options, budget)();
 }
 

@@ -227,10 +227,10 @@ int run(const SimplifyCommandArguments& arguments) {
 }
 
 std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
-    OptionInfo max_bytes =
-        size_option("--max-bytes", a.max_bytes,
-                    "Maximum total size of all output files, as 2MB or 500KB; faces and images are reduced "
-                    "until they fit");
+    OptionInfo max_bytes = size_option(
+        "--max-bytes", a.max_bytes,
+        "Maximum total size of all output files, as 2MB or 500KB; without a face count, faces and "
+        "images are chosen for the best picture, otherwise reduced until they fit");
     max_bytes.excludes = {"--max-error"};
     return {max_bytes,
             size_option("--max-memory", a.max_memory,

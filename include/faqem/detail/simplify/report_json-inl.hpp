@@ -79,6 +79,39 @@ inline nlohmann::ordered_json buffer_views_json(const Report& report) {
     return json;
 }
 
+inline std::string_view bake_name(Bake kind) {
+    switch (kind) {
+        case Bake::automatic:
+            return "auto";
+        case Bake::atlas:
+            return "atlas";
+        case Bake::per_triangle:
+            return "per-triangle";
+        case Bake::vertex:
+            return "vertex";
+        case Bake::keep:
+            return "keep";
+        case Bake::none:
+            return "none";
+    }
+    return {};
+}
+
+inline nlohmann::ordered_json budget_points_json(const Report& report) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const BudgetPoint& point : report.budget_points) {
+        nlohmann::ordered_json quality;
+        if (point.quality) quality = *point.quality;
+        json.push_back({{"kind", bake_name(point.kind)},
+                        {"faces", point.faces},
+                        {"bytes", point.bytes},
+                        {"image_side", point.image_side},
+                        {"image_quality", quality},
+                        {"psnr", point.psnr}});
+    }
+    return json;
+}
+
 }  // namespace detail
 
 FAQEM_INLINE std::string to_json(const Report& report) {
@@ -121,6 +154,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["bytes_in"] = report.bytes_in;
     json["bytes_out"] = report.bytes_out;
     json["given_up"] = report.given_up;
+    json["budget_points"] = detail::budget_points_json(report);
     json["untouched_parts"] = report.untouched_parts;
     json["kept_uvs"] = report.kept_uvs;
     json["warnings"] = report.warnings;

@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// `--max-bytes` without a face target: the face count and the images that give the best pictures for the bytes.
+
+#include <optional>
+
+#include "cli/byte_budget.hpp"
+#include "faqem/bake.hpp"
+
+namespace faqem::cli {
+
+/// Whether the options leave the face count to best_picture_within_bytes(): no target is set, and the kind of baking is
+/// Bake::automatic, without options that are about a new atlas or the collapses, or Bake::keep, vertex or none.
+bool leaves_faces_to_budget(const Options& options);
+
+/// Simplifies with the UVs of the source (Bake::automatic and Bake::keep) or as BakeOptions::kind says, so that pictures
+/// of the result are as near to those of the source as the bytes allow:
+/// 1. One run gives results with 100% to 4.5% of the faces. Each is saved, for its bytes, and rendered with the images of
+///    the source, for its error.
+/// 2. The images are encoded with several sizes and qualities and rendered on all faces.
+/// 3. Errors of faces and images are assumed to add up. For each set of images, the face count is what the rest of the
+///    bytes allows.
+/// 4. The most promising choices are made, saved and rendered; the best one is returned. Report::budget_points has all.
+/// Images stay as they are with Bake::keep and ImageFormat::source. BakeOptions::texture_size limits their sides, and
+/// BakeOptions::image_quality is ignored.
+/// \param options  leaves_faces_to_budget() must be true
+/// \return nothing if no choice fits, or Options::max_seconds was over before one was complete. If the progress callback
+///     cancels, the report has StopReason::cancelled
+/// \throws whatever simplify() and save() throw
+/// Complexity: two to six simplifications, about 20 encodings of each image with fewer texels than it has, and 40
+/// renderings from six sides.
+std::optional<SimplifiedAsset> best_picture_within_bytes(const Asset& source, const Options& options,
+                                                         const ByteBudget& budget);
+
+}  // namespace faqem::cli
