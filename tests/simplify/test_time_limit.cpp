@@ -1,6 +1,9 @@
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "faqem/detail/base/time_limit.hpp"
+#include "faqem/detail/simplify/run.hpp"
 #include "faqem/error.hpp"
 #include "faqem/levels.hpp"
 #include "faqem/simplify.hpp"
@@ -35,6 +38,23 @@ TEST_CASE("a time limit that is over at once gives the input with stop reason re
         CHECK(result.report.faces_out == mesh.triangles.size());
         CHECK(result.report.target_faces == mesh.triangles.size() / 10);
         CHECK(result.report.collapses == 0);
+    }
+}
+
+TEST_CASE("targets that follow one without time give the input as well") {
+    const TriangleMesh mesh = bumpy_sphere();
+    const std::size_t faces_in = mesh.triangles.size();
+    const std::vector<std::uint64_t> targets = {faces_in, faces_in / 2, faces_in / 4};
+    for (const Preset preset : all_presets) {
+        CAPTURE(name(preset));
+        const std::vector<SimplifyResult> results =
+            detail::run_to_targets(mesh.view(), targets, {.max_seconds = no_time, .preset = preset});
+        REQUIRE(results.size() == 3);
+        CHECK(results[0].report.stop == StopReason::reached_target);
+        for (std::size_t i = 0; i < results.size(); ++i) {
+            CHECK(results[i].mesh.triangles.size() == faces_in);
+            if (i > 0) CHECK(results[i].report.stop == StopReason::reached_time_limit);
+        }
     }
 }
 

@@ -98,7 +98,7 @@ public:
 
     /// Continues after run() to a lower target. Rules that were relaxed stay relaxed, and the ladder starts
     /// again with its first rung. If the metric does not depend on the target, the stop does not change the
-    /// order of the collapses.
+    /// order of the collapses. A call that was cancelled or out of time is not continued.
     /// \param options  those of run(), with a lower target face count and a distance weight that is not
     ///     smaller
     /// \return the totals of all calls
@@ -109,6 +109,10 @@ public:
         rung_ = 0;
         set_progress(options);
         result_.stop = StopReason::reached_target;
+        if (interruption_) {  // costs and queue may be incomplete
+            set_interrupted();
+            return result_;
+        }
         return run_cancellable([&] { collapse_to_target(options); });
     }
 
@@ -124,10 +128,15 @@ private:
         try {
             work();
         } catch (const Cancelled& stopped) {
-            if (stopped.reason == StopReason::cancelled || mesh_.face_count() > target_face_count_)
-                result_.stop = stopped.reason;
+            interruption_ = stopped.reason;
+            set_interrupted();
         }
         return result_;
+    }
+
+    void set_interrupted() {
+        if (*interruption_ == StopReason::cancelled || mesh_.face_count() > target_face_count_)
+            result_.stop = *interruption_;
     }
 
     void collapse_to_target(const LoopOptions& options) {
@@ -435,6 +444,7 @@ private:
     RuleExceptions exceptions_;
     Rules rules_;
     LoopResult result_;
+    std::optional<StopReason> interruption_;  // why a call ended early
     std::size_t rung_ = 0;
     std::size_t initial_face_count_ = 0;
     std::size_t face_count_at_last_pass_ = 0;  // when all pairs were last evaluated
