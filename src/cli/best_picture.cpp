@@ -58,12 +58,6 @@ std::uint64_t encoded_bytes(const std::vector<Image>& images) {
     return result;
 }
 
-// The images of a choice are known before its faces.
-struct MadeImages {
-    TriedImages tried;
-    std::vector<Image> images;
-};
-
 /// One search, see best_picture_within_bytes().
 class BestPictureSearch {
 public:

@@ -171,8 +171,8 @@ void keep_all_parts(const Asset& source, const SimplifiedParts& simplified, cons
 
 // Calls work(options, progress, result) for a result that has the report of the geometry stage and the data of the file.
 template <class Work>
-UnencodedResult baked(const Asset& source, const SimplifiedParts& simplified, const Options& options,
-                      const Work& work) {
+UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                         const Work& work) {
     check_parts_match(source, simplified);
     BakeProgress progress(options);
     UnencodedResult out;
@@ -203,7 +203,7 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
         throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
     }
-    return baked(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
+    return run_bake(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
         if (options.bake.kind != requested.bake.kind)
             out.asset.report.warnings.push_back(
                 "images of KTX2 or AVIF cannot be baked: the UVs and images of the source are kept");
@@ -217,7 +217,7 @@ UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simpli
     check_asset(source);
     Options options = requested;
     options.bake.kind = Bake::keep;
-    return baked(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
+    return run_bake(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
         keep_all_parts(source, simplified, options.bake, progress, out);
     });
 }
