@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/gltf/uv_dependents.hpp"
 #include "asset/image/image.hpp"
 #include "asset/image/image_size.hpp"
 #include "asset/scene/material_textures.hpp"
@@ -153,9 +154,11 @@ bool limit_image_sides(UnencodedResult& result, std::uint32_t side) {
 void remove_unused_materials(UnencodedResult& result) {
     Asset& asset = result.asset.asset;
     std::vector<Index> number(asset.materials.size(), no_index);
-    for (const Part& part : asset.parts)
+    for (const Part& part : asset.parts) {
         for (const Index m : part.face_material)
             if (m < number.size()) number[m] = 0;
+        for (const Index m : variant_materials(asset, part)) number[m] = 0;
+    }
     std::vector<std::uint8_t> removed(asset.images.size(), 1);
     Index count = 0;
     for (std::size_t m = 0; m < number.size(); ++m) {

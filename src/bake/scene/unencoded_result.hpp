@@ -33,8 +33,8 @@ FAQEM_EXPORT void encode_images(UnencodedResult& result, const Options& options,
 /// Complexity: O(texels).
 FAQEM_EXPORT bool limit_image_sides(UnencodedResult& result, std::uint32_t side);
 
-/// Removes the materials that no face has, and the images that no material has.
-/// Complexity: O(faces + materials + images).
+/// Removes the materials that neither a face nor a variant of a part has, and the images that no material has.
+/// Complexity: O(faces + variants * materials + images).
 FAQEM_EXPORT void remove_unused_materials(UnencodedResult& result);
 
 /// Removes the normal maps of materials without one in the source, and the tangents for them.

@@ -1,6 +1,11 @@
 // Results that keep their UVs, with images that are encoded in several sizes.
 
 #include "bake/scene/unencoded_result.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "asset/gltf/source_document.hpp"
 #include "bake/simplify/simplify_parts.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
@@ -99,4 +104,20 @@ TEST_CASE("materials and images that no face has are removed, and the others kee
     for (const Index m : left.parts[0].face_material) CHECK(m == 0);
     REQUIRE(result.pending.size() == 1);
     CHECK(result.pending[0].image == 0);
+}
+
+TEST_CASE("materials of variants are not removed, although no face has them") {
+    Asset asset = textured_sheet();
+    asset.materials.push_back(asset.materials[0]);
+    asset.materials[1].base_color_texture.image = add_texture(asset, ramp(32));
+    SourceDocument document;
+    document.document = Json::parse(R"({"materials":[{},{}],"meshes":[{"primitives":[
+        {"extensions":{"KHR_materials_variants":{"mappings":[{"material":1,"variants":[0]}]}}}]}]})");
+    asset.source = std::make_shared<const SourceDocument>(std::move(document));
+    for (Index m = 0; m < 2; ++m) asset.materials[m].source = m;
+    asset.parts[0].source = 0;
+    UnencodedResult result = with_uvs(asset);
+    remove_unused_materials(result);
+    CHECK(result.asset.asset.materials.size() == 2);
+    CHECK(result.asset.asset.images.size() == 2);
 }
