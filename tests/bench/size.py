@@ -33,7 +33,12 @@ def source_texels(tool, file):
     info = subprocess.run([tool, "info", file, "--json"], capture_output=True, text=True)
     if info.returncode != 0:
         return None
-    return sum(image["width"] * image["height"] for image in json.loads(info.stdout).get("images", []))
+    return texels(json.loads(info.stdout).get("images", []))
+
+
+def texels(images):
+    """Texels of images; those of KTX2 and AVIF, whose headers are not read, do not count."""
+    return sum(image.get("width", 0) * image.get("height", 0) for image in images)
 
 
 def simplified(args, file):
@@ -64,7 +69,7 @@ def main():
         if not result:
             continue
         report, seconds = result
-        texels_out = sum(image["width"] * image["height"] for image in report["images"])
+        texels_out = texels(report["images"])
         ratio = report["bytes_out"] / report["bytes_in"]
         texel_ratio = texels_out / texels_in if texels_in else None
         bytes_in += report["bytes_in"]
