@@ -53,8 +53,7 @@ public:
     /// \param mesh      the mesh to simplify; modified by run() and continue_to() only
     /// \param pairs     vertex pairs of `mesh`; updated with it
     /// \param wedges    corner attributes to preserve, or an empty object; updated with the mesh
-    /// \param locked    one entry per vertex slot; vertices with a nonzero entry do not move. The survivor
-    ///     of a collapse inherits the entry
+    /// \param locked    one entry per vertex slot; vertices with a nonzero one do not move; the survivors inherit it
     /// \param metric    updated with the mesh
     /// \param recorder  notified before each change
     /// \param curves    boundaries between face groups to preserve; updated with the mesh; null: none
@@ -96,11 +95,9 @@ public:
         });
     }
 
-    /// Continues after run() to a lower target. Rules that were relaxed stay relaxed, and the ladder starts
-    /// again with its first rung. If the metric does not depend on the target, the stop does not change the
-    /// order of the collapses. A call that was cancelled or out of time is not continued.
-    /// \param options  those of run(), with a lower target face count and a distance weight that is not
-    ///     smaller
+    /// Continues after run() to a lower target. Rules that were relaxed stay relaxed, and the ladder starts again with
+    /// its first rung. If the metric does not depend on the target, the stop does not change the order of the collapses.
+    /// \param options  those of run(), with a lower target face count and a distance weight that is not smaller
     /// \return the totals of all calls
     /// \throws whatever `options.progress` throws
     LoopResult continue_to(const LoopOptions& options) {
@@ -109,11 +106,10 @@ public:
         rung_ = 0;
         set_progress(options);
         result_.stop = StopReason::reached_target;
-        if (interruption_) {  // costs and queue may be incomplete
-            set_interrupted();
-            return result_;
-        }
-        return run_cancellable([&] { collapse_to_target(options); });
+        return run_cancellable([&] {
+            check_cancelled_.now();  // costs are incomplete if the time was over before
+            collapse_to_target(options);
+        });
     }
 
 private:
@@ -128,15 +124,10 @@ private:
         try {
             work();
         } catch (const Cancelled& stopped) {
-            interruption_ = stopped.reason;
-            set_interrupted();
+            if (stopped.reason == StopReason::cancelled || mesh_.face_count() > target_face_count_)
+                result_.stop = stopped.reason;
         }
         return result_;
-    }
-
-    void set_interrupted() {
-        if (*interruption_ == StopReason::cancelled || mesh_.face_count() > target_face_count_)
-            result_.stop = *interruption_;
     }
 
     void collapse_to_target(const LoopOptions& options) {
@@ -444,7 +435,6 @@ private:
     RuleExceptions exceptions_;
     Rules rules_;
     LoopResult result_;
-    std::optional<StopReason> interruption_;  // why a call ended early
     std::size_t rung_ = 0;
     std::size_t initial_face_count_ = 0;
     std::size_t face_count_at_last_pass_ = 0;  // when all pairs were last evaluated
