@@ -7,6 +7,7 @@
 
 #include "asset/file_format.hpp"
 #include "asset/model_files.hpp"
+#include "asset/scene/messages.hpp"
 #include "cli/file_stamp.hpp"
 #include "cli/strict.hpp"
 #include "faqem/error.hpp"
@@ -57,6 +58,12 @@ std::uint64_t input_bytes(const std::filesystem::path& model) {
     std::vector<std::filesystem::path> files = detail::referenced_files(model, detail::References::readable);
     files.push_back(model);
     return total_file_size(files);
+}
+
+std::string warnings_text(const std::vector<std::string>& warnings) {
+    std::string text = detail::pluralized(warnings.size(), "warning") + "\n";
+    for (const std::string& warning : warnings) text += "  " + warning + "\n";
+    return text;
 }
 
 SimplifiedAsset simplify_model(const Asset& source, const std::filesystem::path& file, const Options& options,

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/byte_budget.hpp"
 #include "cli/exit_code.hpp"
@@ -53,6 +54,9 @@ QuantizeOptions resolve_quantize(QuantizeOptions requested, const std::filesyste
 
 /// Returns the total size of a model and of the files that it refers to, bytes.
 std::uint64_t input_bytes(const std::filesystem::path& model);
+
+/// `2 warnings`, and a line for each, as the summaries of commands print them.
+std::string warnings_text(const std::vector<std::string>& warnings);
 
 /// Calls simplify_within_bytes() if there is a budget, otherwise simplify_no_larger().
 /// \param file  name of the source, prepended to error messages

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -107,13 +108,20 @@ void write_histories(const LodArguments& a, const std::vector<SimplifiedPartsLev
     write_output(a.history, out.view(), a.overwrite());
 }
 
-void print_summary(const LodArguments& a, const std::vector<WrittenLevel>& levels) {
+/// \param warnings  of the manifest; those of the levels follow, and equal ones are printed once
+void print_summary(const LodArguments& a, const std::vector<WrittenLevel>& levels,
+                   std::vector<std::string> warnings) {
     std::ostringstream out;
     out << a.in << " -> " << a.out << "\n";
     for (const WrittenLevel& level : levels) {
         out << "  " << level.file << ": " << level.faces << " faces, error " << level.error
             << ", from distance " << switch_distance(level.error, a.view_settings) << "\n";
+        if (!level.report) continue;
+        for (const std::string& warning : level.report->warnings)
+            if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+                warnings.push_back(warning);
     }
+    out << warnings_text(warnings);
     std::cout << out.str();
 }
 
@@ -157,6 +165,7 @@ public:
     }
 
     const std::vector<WrittenLevel>& written() const { return written_; }
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
     /// Bakes and writes one level at a time, so that only the images of one level are in memory.
@@ -290,7 +299,7 @@ int run(const LodArguments& arguments) {
         code = writer();
     }
     if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";
-    if (code == exit_ok && !arguments.quiet) print_summary(arguments, writer.written());
+    if (code == exit_ok && !arguments.quiet) print_summary(arguments, writer.written(), writer.warnings());
     return code;
 }
 

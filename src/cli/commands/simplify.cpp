@@ -123,8 +123,7 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
     print_meshes("left as they are", report.untouched_parts.size());
     print_meshes("with the UVs of the source", report.kept_uvs.size());
     print_counts(out, report);
-    out << report.warnings.size() << (report.warnings.size() == 1 ? " warning\n" : " warnings\n");
-    for (const std::string& warning : report.warnings) out << "  " << warning << "\n";
+    out << warnings_text(report.warnings);
     const PhaseSeconds& s = report.seconds;
     out << std::fixed << std::setprecision(2) << "seconds: load " << s.load << ", simplify " << s.simplify
         << ", map " << s.map << ", bake " << s.bake << ", save " << s.save << ", total " << s.total << "\n";

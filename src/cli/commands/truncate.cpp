@@ -27,8 +27,9 @@ struct TruncateArguments {
     GivenOptions options;
     std::string history, out, source;
     std::uint64_t faces = 0;
-    bool force = false, quiet = false;
+    bool strict = false, force = false, quiet = false;
 
+    Strictness strictness() const { return strict ? Strictness::strict : Strictness::lenient; }
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
 };
 
@@ -47,7 +48,7 @@ std::vector<ChainHistory> read_histories(const std::string& file) {
 }
 
 /// Creates an asset from the histories alone: parts without names, materials or scene graph.
-Asset geometry_only(const SimplifiedParts& simplified_parts) {
+SimplifiedAsset geometry_only(const SimplifiedParts& simplified_parts) {
     Asset original;
     for (const SimplifyResult& one : simplified_parts.parts) {
         Part& part = original.parts.emplace_back();
@@ -61,18 +62,22 @@ Asset geometry_only(const SimplifiedParts& simplified_parts) {
     Options geometry_options;
     geometry_options.bake.kind = Bake::none;
     geometry_options.bake.normals = Normals::none;
-    return bake(original, simplified_parts, geometry_options).asset;
+    return bake(original, simplified_parts, geometry_options);
 }
 
-Asset baked_model(const TruncateArguments& arguments, const SimplifiedParts& simplified_parts,
-                  const Options& options) {
-    const Asset source = load_model(arguments.source, Strictness::lenient);
+/// Bakes the original model. The warnings of its reading are the first ones of the report.
+SimplifiedAsset baked_model(const TruncateArguments& arguments, const SimplifiedParts& simplified_parts,
+                            const Options& options) {
+    const Asset source = load_model(arguments.source, arguments.strictness());
     Options bake_options = options;
     bake_options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
     bake_options.quantize = resolve_quantize(bake_options.quantize, arguments.out);
     return with_file_in_errors(arguments.source, [&] {
         detail::check_source_matches_histories(source, simplified_parts);
-        return bake(source, simplified_parts, bake_options).asset;
+        SimplifiedAsset baked = bake(source, simplified_parts, bake_options);
+        baked.report.warnings.insert(baked.report.warnings.begin(), source.warnings.begin(),
+                                     source.warnings.end());
+        return baked;
     });
 }
 
@@ -80,6 +85,7 @@ int run(const TruncateArguments& arguments) {
     const Options options = make_options(arguments.options);
     if (options.bake.kind == Bake::keep)
         throw OptionError("--bake keep: cannot be used, because a history does not contain UVs");
+    if (arguments.strict && arguments.source.empty()) throw OptionError("--strict: requires --source");
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.history);
     if (!arguments.source.empty()) protect_input(arguments.source);
@@ -101,20 +107,21 @@ int run(const TruncateArguments& arguments) {
                   << "\n";
         return rejection;
     }
-    const Asset asset = arguments.source.empty() ? geometry_only(simplified_parts)
-                                                 : baked_model(arguments, simplified_parts, options);
+    const SimplifiedAsset result = arguments.source.empty()
+                                       ? geometry_only(simplified_parts)
+                                       : baked_model(arguments, simplified_parts, options);
+    std::vector<std::string> warnings = result.report.warnings;
     detail::FileSet set;
-    std::vector<std::string> save_warnings;
     {
         const detail::CollectWrites collect(set);
-        save_warnings = save(asset, arguments.out, arguments.overwrite());
+        for (std::string& loss : save(result.asset, arguments.out, arguments.overwrite()))
+            warnings.push_back(std::move(loss));
     }
     commit_outputs(set);
     if (arguments.quiet) return exit_ok;
     std::cout << arguments.history << " -> " << arguments.out << "\n"
-              << simplified_parts.report.faces_in << " -> " << simplified_parts.report.faces_out
-              << " faces\n";
-    for (const std::string& loss : save_warnings) std::cout << "  " << loss << "\n";
+              << simplified_parts.report.faces_in << " -> " << simplified_parts.report.faces_out << " faces\n"
+              << warnings_text(warnings);
     return exit_ok;
 }
 
@@ -134,7 +141,8 @@ CommandInfo truncate_command() {
                                           "The original model, from which the appearance is baked with the "
                                           "options below. Without it: geometry only")};
     add_options(command.options, table_options(detail::in_truncate, arguments->options));
-    add_options(command.options, {flag_option("--force", arguments->force, "Overwrite an existing file"),
+    add_options(command.options, {strict_option(arguments->strict),
+                                  flag_option("--force", arguments->force, "Overwrite an existing file"),
                                   flag_option("--quiet", arguments->quiet, "Print no summary")});
     command.run = [arguments] { return run(*arguments); };
     return command;

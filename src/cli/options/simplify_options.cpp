@@ -53,12 +53,15 @@ std::vector<OptionInfo> table_options(detail::EntryPoint command, GivenOptions& 
     return options;
 }
 
+OptionInfo strict_option(bool& strict) {
+    return flag_option("--strict", strict,
+                       "Exit with 3 if the input would be repaired: invalid elements, faces of zero area, "
+                       "duplicate faces");
+}
+
 std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target) {
-    return {flag_option("--strict", strict,
-                        "Exit with 3 if the input would be repaired: invalid elements, faces of zero area, "
-                        "duplicate faces"),
-            flag_option("--strict-target", strict_target,
-                        "Exit with 5, and write no model, if the target is missed")};
+    return {strict_option(strict), flag_option("--strict-target", strict_target,
+                                               "Exit with 5, and write no model, if the target is missed")};
 }
 
 OptionInfo allow_larger_option(bool& allow_larger) {

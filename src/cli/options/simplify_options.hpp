@@ -30,6 +30,9 @@ struct SimplifyArguments {
 std::vector<OptionInfo> table_options(detail::EntryPoint command, GivenOptions& given,
                                       detail::OptionTable table = detail::option_table());
 
+/// --strict.
+OptionInfo strict_option(bool& strict);
+
 /// --strict and --strict-target.
 std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target);
 

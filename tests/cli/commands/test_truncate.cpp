@@ -81,3 +81,22 @@ TEST_CASE("truncate reads the history of simplify and rejects invalid arguments"
     CHECK(refused("none.bin new.glb --faces 200") == 3);
     CHECK_FALSE(fs::exists(folder / "new.glb"));
 }
+
+TEST_CASE("lod and truncate print what was repaired in the model, which --strict rejects") {
+    const Folder folder;
+    faqem::save(sheet(12, 0.2), folder / "hill.obj");
+    write(folder / "hill.mtl", read(folder / "hill.mtl") + "disp d.png\n");
+    const std::string warning = "'disp' is not supported (1 statement)\n", size = " --texture-size 64";
+    const Outcome lod = run(folder, "lod hill.obj out --levels 0.5,100 --history h.bin" + size);
+    CHECK(lod.code == 0);
+    CHECK(lod.out.find("1 warning\n  ") != std::string::npos);
+    CHECK(lod.out.find(warning) != std::string::npos);
+    const std::string cut = "truncate h.bin cut.glb --faces 100" + size;
+    const Outcome lenient = run(folder, cut + " --source hill.obj");
+    CHECK(lenient.code == 0);
+    CHECK(lenient.out.find(warning) != std::string::npos);
+    const Outcome strict = run(folder, cut + " --force --strict --source hill.obj");
+    CHECK(strict.code == 3);
+    CHECK(strict.err.find("rejected by --strict: ") != std::string::npos);
+    CHECK(run(folder, cut + " --force --strict").code == 2);
+}
