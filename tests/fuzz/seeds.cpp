@@ -127,6 +127,64 @@ testing::GltfBuilder numbered_gltf() {
     return b;
 }
 
+/// Vertices that are integers, with a morph target, and a node that restores their size.
+testing::GltfBuilder quantized_gltf() {
+    testing::GltfBuilder b = testing::square_gltf();
+    testing::Json& primitive = b.json["meshes"][0]["primitives"][0];
+    const auto add = [&](const auto& values, int component, const char* type, bool normalized) {
+        const auto accessor = b.accessor(values, component, type);
+        b.json["accessors"][accessor]["normalized"] = normalized;
+        return accessor;
+    };
+    using Bytes = std::array<std::int8_t, 4>;
+    using Shorts = std::array<std::int16_t, 4>;
+    const std::vector<Shorts> corners = {{0, 0, 0, 0}, {100, 0, 0, 0}, {0, 100, 7, 0}, {100, 100, 0, 0}};
+    const std::vector<Bytes> normals(4, {0, 0, 127, 0}), tangents(4, {127, 0, 0, 127});
+    const std::vector<std::array<std::uint16_t, 2>> uvs = {{0, 0}, {65535, 0}, {0, 65535}, {65535, 65535}};
+    const auto vectors = [&](const auto& values, int component, bool normalized) {
+        const auto accessor = add(values, component, "VEC3", normalized);
+        const auto view = b.json["accessors"][accessor]["bufferView"].template get<std::size_t>();
+        b.json["bufferViews"][view]["byteStride"] = sizeof(values[0]);
+        return accessor;
+    };
+    primitive["attributes"] = {{"POSITION", vectors(corners, testing::i16, false)},
+                               {"NORMAL", vectors(normals, testing::i8, true)},
+                               {"TANGENT", add(tangents, testing::i8, "VEC4", true)},
+                               {"TEXCOORD_0", add(uvs, testing::u16, "VEC2", true)}};
+    primitive["targets"] = {{{"POSITION", vectors(corners, testing::i16, false)}}};
+    b.json["nodes"][0].update({{"scale", {0.01, 0.01, 0.01}}, {"translation", {1, 2, 3}}});
+    b.json["extensionsUsed"] = b.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    return b;
+}
+
+/// Textures whose images are not decoded: of extensions, and as a core source; and a texture of features.
+testing::GltfBuilder passed_gltf() {
+    testing::GltfBuilder b = testing::square_gltf();
+    const std::string ktx = "\xabKTX 20\xbb\r\n\x1a\n", avif = std::string("\0\0\0\x1c", 4) + "ftypavif";
+    const auto image = [&](const std::string& bytes, const char* type) {
+        return b.add("images", {{"bufferView", b.view(std::vector<char>(bytes.begin(), bytes.end()))},
+                                {"mimeType", type}});
+    };
+    const auto first = image(ktx, "image/ktx2"), second = image(avif, "image/avif");
+    b.add("textures", {{"source", first}});
+    b.add("textures", {{"extensions", {{"EXT_texture_avif", {{"source", second}}}}}});
+    testing::add_texture(b, 9);
+    b.json["materials"] = testing::Json::parse(
+        R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveTexture":{"index":1}}])");
+    testing::Json& primitive = b.json["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["attributes"]["TEXCOORD_0"] =
+        b.accessor<Vec2f>({{0, 0}, {1, 0}, {0, 1}, {1, 1}}, testing::f32, "VEC2");
+    primitive["extensions"] = testing::Json::parse(
+        R"({"EXT_mesh_features":{"featureIds":[{"featureCount":2,"texture":{"index":2,"channels":[0]}}]},
+            "EXT_structural_metadata":{"propertyTextures":[0]}})");
+    b.json["extensions"] = testing::Json::parse(
+        R"({"EXT_structural_metadata":{"propertyTextures":[{"properties":{"a":{"index":2,"channels":[0]}}}]}})");
+    b.json["extensionsUsed"] = {"KHR_texture_basisu", "EXT_texture_avif", "EXT_mesh_features",
+                                "EXT_structural_metadata"};
+    return b;
+}
+
 void gltf_seeds() {
     const auto write = [](const std::string& name, const testing::GltfBuilder& b) {
         put("glb", name + ".glb", b.glb());
@@ -137,6 +195,8 @@ void gltf_seeds() {
     write("rich", rich_gltf());
     write("posed", posed_gltf());
     write("numbered", numbered_gltf());
+    write("quantized", quantized_gltf());
+    write("passed", passed_gltf());
     testing::GltfBuilder strip = testing::square_gltf();
     strip.json["meshes"][0]["primitives"][0]["mode"] = 5;
     strip.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 6}});
