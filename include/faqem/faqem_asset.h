@@ -145,6 +145,10 @@ FAQEM_API const uint32_t* faqem_asset_face_materials(const faqem_asset* asset, s
 /** Number of warnings: what was repaired, left out, or could not be saved, one sentence each. */
 FAQEM_API size_t faqem_asset_warning_count(const faqem_asset* asset);
 FAQEM_API const char* faqem_asset_warning(const faqem_asset* asset, size_t index);
+/** Number of kinds of statements that loading ignored because they mean nothing for a model, and of unknown
+ * extensions, one line each. */
+FAQEM_API size_t faqem_asset_not_understood_count(const faqem_asset* asset);
+FAQEM_API const char* faqem_asset_not_understood(const faqem_asset* asset, size_t index);
 
 /** Fills `report`. \return FAQEM_ERROR_OPTION if an argument is null, or the asset is not a simplified one */
 FAQEM_API faqem_status faqem_asset_report(const faqem_asset* asset, faqem_report* report);

@@ -118,6 +118,15 @@ const char* faqem_asset_warning(const faqem_asset* asset, size_t index) {
     return index < faqem_asset_warning_count(asset) ? asset->asset.warnings[index].c_str() : nullptr;
 }
 
+size_t faqem_asset_not_understood_count(const faqem_asset* asset) {
+    return asset ? asset->asset.not_understood.size() : 0;
+}
+
+const char* faqem_asset_not_understood(const faqem_asset* asset, size_t index) {
+    return index < faqem_asset_not_understood_count(asset) ? asset->asset.not_understood[index].c_str()
+                                                           : nullptr;
+}
+
 faqem_status faqem_asset_report(const faqem_asset* asset, faqem_report* report) {
     if (!asset || !asset->stored_report || !report) return FAQEM_ERROR_OPTION;
     *report = capi::to_c_report(asset->stored_report->report);

@@ -92,9 +92,12 @@ static void data_that_the_format_cannot_store_is_a_warning(void) {
     faqem_asset_destroy(asset);
 
     FILE* coloured = fopen("test_c.obj", "w");
-    CHECK(coloured && fputs("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", coloured) >= 0);
+    CHECK(coloured && fputs("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\ng a\nf 1 2 3\n", coloured) >= 0);
     CHECK(fclose(coloured) == 0);
     CHECK(faqem_asset_load("test_c.obj", &asset, NULL) == FAQEM_OK);
+    CHECK(faqem_asset_warning_count(asset) == 0 && faqem_asset_not_understood_count(asset) == 1);
+    CHECK(strcmp(faqem_asset_not_understood(asset, 0), "'g': 1 statement") == 0);
+    CHECK(faqem_asset_not_understood(asset, 1) == NULL);
     CHECK(faqem_asset_save(asset, "test_c.stl", FAQEM_OVERWRITE_YES, NULL) == FAQEM_OK);
     CHECK(faqem_asset_warning_count(asset) > 0);
     CHECK(strstr(faqem_asset_warning(asset, 0), "STL") != NULL);
@@ -107,6 +110,7 @@ static void null_arguments_are_accepted(void) {
     CHECK(faqem_asset_part_count(NULL) == 0 && faqem_asset_part_name(NULL, 0) == NULL);
     CHECK(faqem_asset_vertex_count(NULL, 0) == 0 && faqem_asset_face_count(NULL, 0) == 0);
     CHECK(faqem_asset_positions(NULL, 0) == NULL && faqem_asset_triangles(NULL, 0) == NULL);
+    CHECK(faqem_asset_not_understood_count(NULL) == 0 && faqem_asset_not_understood(NULL, 0) == NULL);
     CHECK(faqem_asset_warning_count(NULL) == 0 && faqem_asset_report_json(NULL) == NULL);
     CHECK(faqem_asset_simplify(NULL, NULL, NULL, NULL) == FAQEM_ERROR_OPTION);
 }

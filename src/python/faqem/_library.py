@@ -126,6 +126,8 @@ _signatures: dict[str, tuple[Any, list[Any]]] = {
     "faqem_pixels_rgba": (POINTER(c_uint8), [_handle]),
     "faqem_asset_warning_count": (c_size_t, [_handle]),
     "faqem_asset_warning": (c_char_p, [_handle, c_size_t]),
+    "faqem_asset_not_understood_count": (c_size_t, [_handle]),
+    "faqem_asset_not_understood": (c_char_p, [_handle, c_size_t]),
     "faqem_asset_report_json": (c_char_p, [_handle]),
 }
 

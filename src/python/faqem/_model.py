@@ -77,6 +77,13 @@ class Model:
         return [library.faqem_asset_warning(self._handle, i).decode(errors="replace") for i in range(count)]
 
     @property
+    def not_understood(self) -> list[str]:
+        """List of str: kinds of statements that mean nothing for a model and were ignored, and unknown extensions."""
+        count = library.faqem_asset_not_understood_count(self._handle)
+        texts = (library.faqem_asset_not_understood(self._handle, i) for i in range(count))
+        return [text.decode(errors="replace") for text in texts]
+
+    @property
     def report(self) -> dict[str, Any] | None:
         """Report of bake(), with the keys documented in docs/cli.md; None for other models."""
         text = library.faqem_asset_report_json(self._handle)
