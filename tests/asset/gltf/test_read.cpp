@@ -308,6 +308,25 @@ TEST_CASE("extensions that are kept without being known are named") {
     CHECK(asset.not_understood == std::vector<std::string>{"extension ANY_document", "extension OTHER_node"});
 }
 
+TEST_CASE("members of glTF that are null are absent, also where the source is copied") {
+    GltfBuilder builder;
+    const auto positions = builder.accessor<Vec3f>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, f32, "VEC3");
+    Json triangle = {{"attributes", {{"POSITION", positions}}}, {"indices", nullptr}};
+    Json point = triangle;
+    triangle["extensions"]["FB_ngon_encoding"] = Json::object();
+    point["mode"] = 0;
+    builder.mesh(triangle);
+    builder.json["meshes"][0]["primitives"].push_back(point);
+    builder.json["nodes"][0].update({{"skin", 0}, {"camera", nullptr}});
+    builder.json["skins"] = {{{"joints", {0}}, {"inverseBindMatrices", nullptr}, {"skeleton", nullptr}}};
+    const Json json = through(builder);
+    const Json& primitives = json["meshes"][0]["primitives"];
+    CHECK(primitives[0]["extensions"].contains("FB_ngon_encoding"));
+    CHECK_FALSE(primitives[1].contains("indices"));
+    CHECK(json["skins"] == Json::array({{{"joints", {0}}}}));
+    CHECK_FALSE(json["nodes"][0].contains("camera"));
+}
+
 TEST_CASE("data URIs of any media type are decoded") {
     const TemporaryFolder folder;
     put(folder / "a.gltf",

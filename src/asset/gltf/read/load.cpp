@@ -239,6 +239,22 @@ Json parse_json(std::string_view text, const std::string& file) {
     }
 }
 
+/// Removes members that are null, except in extras: the checks take them for absent, and so must all that follows, which
+/// may ask whether there is a member. The recursion is limited by check_json_depth().
+void remove_null_members(Json& value) {
+    if (value.is_array())
+        for (Json& element : value) remove_null_members(element);
+    if (!value.is_object()) return;
+    for (auto member = value.begin(); member != value.end();) {
+        if (member.key() != "extras" && member->is_null()) {
+            member = value.erase(member);
+            continue;
+        }
+        if (member.key() != "extras") remove_null_members(*member);
+        ++member;
+    }
+}
+
 }  // namespace
 
 LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) {
@@ -247,6 +263,7 @@ LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) 
     loaded.source = std::make_shared<SourceDocument>();
     const GltfContainer container = split_gltf(bytes, loaded.file, loaded.warnings);
     loaded.source->document = parse_json(container.json, loaded.file);
+    remove_null_members(loaded.source->document);
     const Json& document = loaded.source->document;
     validate_gltf(document, loaded.file);
     CallbackContext context{document, container, file, loaded.warnings};
