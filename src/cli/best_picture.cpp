@@ -178,16 +178,20 @@ private:
     std::optional<double> try_size(std::size_t size, std::span<const std::optional<double>> qualities) {
         const double done =
             static_cast<double>(sizes_.size() - 1 - size) / static_cast<double>(sizes_.size());
-        std::uint64_t last = 0;
+        std::uint64_t first = 0, last = 0;
         double least = 0;
         bool fits = false;
         for (std::size_t q = 0; q < qualities.size(); ++q) {
             report(begin_of_images + (begin_of_choices - begin_of_images) * done);
             if (is_late()) break;
             const TriedImages& tried = try_images(size, qualities[q]);
-            if (q == 0) least = tried.error.unlit + tried.error.lit;
+            if (q == 0) {
+                least = tried.error.unlit + tried.error.lit;
+                first = tried.bytes;
+            }
             fits = fits || tried.bytes + tried_faces_.back().bytes <= budget_.bytes;
-            if (tried.bytes == last) break;
+            // Equal bytes from the first quality on may be those of a lossless encoding, and become less.
+            if (tried.bytes == last && tried.bytes < first) break;
             last = tried.bytes;
         }
         return fits ? std::optional(least) : std::nullopt;
