@@ -49,9 +49,9 @@ struct BakeOptions {
     ImageFormat image_format = ImageFormat::automatic;
     /// Least PSNR of colours in a baked image of a format with has_image_quality(), in dB, in [20, 80]; of other data 4 dB
     /// less, down to 30, of normals between, by roughness. 40 allows errors of 1% of the range of values, or 2 degrees
-    /// of a normal. Measured against the image before it is encoded. Unset: 40. If Bake::automatic has
-    /// compared pictures of the model, a value in [38, 44], so that the error of images is small beside that of the
-    /// geometry where both are seen.
+    /// of a normal. Measured against the image before it is encoded. Unset: 40. If Bake::automatic has compared pictures
+    /// of the model, a value in [38, 44], so that the error of images is small beside that of the geometry where both are
+    /// seen.
     std::optional<double> image_quality = {};
     std::uint32_t jpeg_quality = 90;  ///< in [1, 100]
     UntouchedParts untouched = UntouchedParts::automatic;

@@ -118,8 +118,8 @@ struct ResultImage {
 
 /// A buffer view of the result.
 struct ResultView {
-    std::string
-        content;  ///< what it stores, for example "POSITION" or "indices"; several are separated by commas
+    /// What it stores, for example "POSITION" or "indices"; several are separated by commas.
+    std::string content;
     std::uint64_t bytes = 0;  ///< as stored, possibly compressed
 };
 

@@ -314,8 +314,7 @@ private:
         points_.push_back({options_.bake.kind, result.asset.report.faces_out, size.total(), images.side,
                            images.quality, psnr});
         if (best_ && !(psnr > best_psnr_)) return false;
-        if (options_.history == Recording::on)
-            for (const SimplifyResult& part : parts.parts) result.asset.histories.push_back(part.history);
+        detail::add_histories(parts, options_, result.asset);
         best_ = std::move(result.asset);
         best_psnr_ = psnr;
         return true;

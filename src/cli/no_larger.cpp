@@ -105,9 +105,7 @@ SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simpl
                     rule.bytes_in);
         break;
     }
-    if (options.history == Recording::on) {
-        for (const SimplifyResult& part : simplified.parts) result.asset.histories.push_back(part.history);
-    }
+    detail::add_histories(simplified, options, result.asset);
     return std::move(result.asset);
 }
 

@@ -155,6 +155,12 @@ std::optional<ImageSize> declared_size(const Image& image) {
     return {};
 }
 
+std::uint64_t readable_pixels(const Image& image) {
+    const std::optional<ImageSize> size = declared_size(image);
+    const bool is_read = size && size->width <= max_image_side && size->height <= max_image_side;
+    return is_read ? size->pixels() : 0;
+}
+
 std::uint64_t decoding_memory(const Image& image) {
     const Bytes bytes = image.encoded;
     const std::optional<ImageSize> size = declared_size(image);

@@ -26,6 +26,9 @@ struct ImageSize {
 /// the size of the first picture, of a GIF that of the whole animation. O(bytes)
 FAQEM_EXPORT std::optional<ImageSize> declared_size(const Image& image);
 
+/// Number of pixels that the header of an image declares; 0 if it declares none, or more per side than are read. O(bytes)
+FAQEM_EXPORT std::uint64_t readable_pixels(const Image& image);
+
 /// Returns an upper estimate, in bytes, of the memory of a decoder in addition to the RGBA pixels that it
 /// returns, from the header of the image; 0 if the image will be rejected. O(bytes)
 FAQEM_EXPORT std::uint64_t decoding_memory(const Image& image);

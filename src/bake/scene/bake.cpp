@@ -228,9 +228,7 @@ SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, con
     const detail::Deadline deadline = detail::deadline_of(options);
     detail::UnencodedResult result = detail::bake_unencoded(source, simplified, options);
     detail::encode_images(result, detail::with_time_left(options, deadline));
-    if (options.history == Recording::on) {
-        for (const SimplifyResult& part : simplified.parts) result.asset.histories.push_back(part.history);
-    }
+    detail::add_histories(simplified, options, result.asset);
     return std::move(result.asset);
 }
 

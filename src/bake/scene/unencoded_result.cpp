@@ -96,6 +96,11 @@ void halve(PendingImage& pending) {
 
 }  // namespace
 
+void add_histories(const SimplifiedParts& simplified, const Options& options, SimplifiedAsset& result) {
+    if (options.history != Recording::on) return;
+    for (const SimplifyResult& part : simplified.parts) result.histories.push_back(part.history);
+}
+
 void set_cancelled(SimplifiedAsset& result) {
     result.asset.parts.clear();
     result.asset.materials.clear();

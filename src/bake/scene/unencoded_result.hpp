@@ -14,7 +14,8 @@ FAQEM_EXPORT UnencodedResult bake_unencoded(const Asset& source, const Simplifie
 
 /// bake() of parts that were simplified with Bake::keep. All keep their UVs and, other than in bake_unencoded(), their
 /// images are pending, unless BakeOptions::image_format is ImageFormat::source. No part is untouched
-/// (BakeOptions::untouched), and all have FileOrder::for_gpu. The result has all materials and images of the source, with the same indices.
+/// (BakeOptions::untouched), and all have FileOrder::for_gpu. The result has all materials and
+/// images of the source, with the same indices.
 /// \throws as bake()
 FAQEM_EXPORT UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simplified,
                                            const Options& options);
@@ -40,6 +41,10 @@ FAQEM_EXPORT void remove_unused_materials(UnencodedResult& result);
 /// Removes the normal maps of materials without one in the source, and the tangents for them.
 /// \return whether there were any
 FAQEM_EXPORT bool remove_new_normal_maps(UnencodedResult& result);
+
+/// Copies the histories of the parts to the result, if Options::history is on.
+FAQEM_EXPORT void add_histories(const SimplifiedParts& simplified, const Options& options,
+                                SimplifiedAsset& result);
 
 /// Makes the result that of a run whose progress callback has cancelled.
 void set_cancelled(SimplifiedAsset& result);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,11 +22,7 @@ struct FinestTexture {
 
 std::vector<double> image_texels(const Asset& asset) {
     std::vector<double> texels;
-    for (const Image& image : asset.images) {
-        const std::optional<ImageSize> size = declared_size(image);
-        const bool is_read = size && size->width <= max_image_side && size->height <= max_image_side;
-        texels.push_back(is_read ? static_cast<double>(size->pixels()) : 0);
-    }
+    for (const Image& image : asset.images) texels.push_back(static_cast<double>(readable_pixels(image)));
     return texels;
 }
 

@@ -72,10 +72,8 @@ double decoded_image_bytes(const Asset& asset) {
     double bytes = 0;
     std::uint64_t decoder = 0;
     for (const Image& image : asset.images) {
-        const auto size = detail::declared_size(image);
         // Larger images are rejected before memory for their pixels is allocated.
-        if (size && size->width <= detail::max_image_side && size->height <= detail::max_image_side)
-            bytes += 4.0 * static_cast<double>(size->pixels());
+        bytes += 4.0 * static_cast<double>(detail::readable_pixels(image));
         decoder = std::max(decoder, detail::decoding_memory(image));
     }
     return bytes + static_cast<double>(decoder);

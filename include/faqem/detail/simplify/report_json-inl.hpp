@@ -4,7 +4,10 @@
 
 #include <sys/resource.h>
 
+#include <array>
+#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "faqem/detail/simplify/report-inl.hpp"
 
@@ -39,12 +42,19 @@ inline nlohmann::ordered_json removed_components_json(const Report& report) {
     return json;
 }
 
+/// The value of --bake.
+inline std::string_view bake_name(Bake kind) {
+    constexpr std::array<std::string_view, 6> names = {"auto",   "atlas", "per-triangle",
+                                                       "vertex", "keep",  "none"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
 inline nlohmann::ordered_json pages_json(const Report& report) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const BakedPage& page : report.pages) {
         json.push_back(
             {{"material", page.material},
-             {"kind", page.kind == Bake::per_triangle ? "per-triangle" : "atlas"},
+             {"kind", bake_name(page.kind)},
              {"width", page.width},
              {"height", page.height},
              {"faces", page.faces},
@@ -77,24 +87,6 @@ inline nlohmann::ordered_json buffer_views_json(const Report& report) {
     for (const ResultView& view : report.buffer_views)
         json.push_back({{"content", view.content}, {"bytes", view.bytes}});
     return json;
-}
-
-inline std::string_view bake_name(Bake kind) {
-    switch (kind) {
-        case Bake::automatic:
-            return "auto";
-        case Bake::atlas:
-            return "atlas";
-        case Bake::per_triangle:
-            return "per-triangle";
-        case Bake::vertex:
-            return "vertex";
-        case Bake::keep:
-            return "keep";
-        case Bake::none:
-            return "none";
-    }
-    return {};
 }
 
 inline nlohmann::ordered_json budget_points_json(const Report& report) {
