@@ -1,8 +1,9 @@
 #pragma once
 /// \file
-/// Printing of JSON to stdout.
+/// JSON as text and on stdout.
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "faqem/compare.hpp"
 
@@ -16,7 +17,7 @@ Json info_json(const MeshInfo& info);
 /// Prints indented JSON. File and material names need not be UTF-8: invalid bytes are printed as U+FFFD.
 void print_json(const Json& json);
 
-/// Prints JSON on one line and flushes stdout, so that a reader of a pipe gets each line immediately.
-void print_json_line(const Json& json);
+/// Returns JSON on one line, with its end. Invalid UTF-8 is replaced as by print_json().
+std::string json_line(const Json& json);
 
 }  // namespace faqem::cli

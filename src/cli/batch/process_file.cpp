@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <exception>
 #include <limits>
+#include <new>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "asset/model_files.hpp"
 #include "cli/file_stamp.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/json.hpp"
 #include "cli/memory/memory_estimate.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/output_file.hpp"
@@ -64,8 +67,9 @@ Result skipped_result(const BatchEntry& entry) {
 
 Result cancelled_result() { return {exit_cancelled, "cancelled", "cancelled", 0, 0, {}}; }
 
+/// \param overwrite  set to yes when the result is about to be written
 Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchEntry entry,
-                         Overwrite overwrite) {
+                         Overwrite& overwrite) {
     const detail::Deadline deadline = detail::deadline_of(work.options);
     Asset source = load_model(file.in, work.strictness);
     Options options = detail::with_time_left(work.options, deadline);
@@ -88,7 +92,8 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
     entry.faces_in = report.faces_in;
     entry.faces_out = report.faces_out;
     work.record.add(file.out_name, entry);
-    const std::vector<std::string> save_warnings = save(simplified.asset, file.out, overwrite);
+    const std::vector<std::string> save_warnings =
+        save(simplified.asset, file.out, std::exchange(overwrite, Overwrite::yes));
     result.warnings.insert(result.warnings.end(), save_warnings.begin(), save_warnings.end());
     entry.result = modification_stamp({file.out});
     work.record.add(file.out_name, entry);
@@ -99,29 +104,15 @@ Result failed_result(const std::exception& problem) {
     return {exit_code_of(problem), "failed", message_of(problem), 0, 0, {}};
 }
 
-/// Simplifies a model as soon as there is memory for it. A model that fails because others use the memory,
-/// which belongs to the whole process, is run again when no other model is running.
-/// \param needed  estimated memory, bytes
-/// \param watch   reset after waiting for memory, so that it measures the work alone
-Result process_within_memory(const BatchFile& file, const BatchContext& work, const BatchEntry& entry,
-                             Overwrite overwrite, std::uint64_t needed, detail::Stopwatch& watch) {
-    for (const std::uint64_t bytes : {needed, all_memory}) {
-        const MemoryReservation reservation(work.memory, bytes);
-        if (is_interrupted()) break;
-        watch = {};
-        try {
-            return simplify_and_save(file, work, entry, overwrite);
-        } catch (const std::exception& problem) {
-            if (exit_code_of(problem) != exit_no_memory || !reservation.was_shared())
-                return failed_result(problem);
-        }
-        malloc_trim(0);
-    }
-    return cancelled_result();
-}
+/// Whether the memory of the process is used by other models at the same time.
+enum class Sharing { allowed, none };
 
-/// \param watch  see process_within_memory()
-Result try_process(const BatchFile& file, const BatchContext& work, detail::Stopwatch& watch) try {
+/// Simplifies a model, in the case of Sharing::allowed as soon as there is memory for it.
+/// \param overwrite  whether the result may exist; set to yes when it is about to be written
+/// \param watch      reset after waiting for memory, so that it measures the work alone
+/// \throws std::bad_alloc if memory is exhausted while other models use it
+Result try_process(const BatchFile& file, const BatchContext& work, Sharing sharing, Overwrite& overwrite,
+                   detail::Stopwatch& watch) try {
     if (is_interrupted()) return cancelled_result();
     if (!file.problem.empty()) throw ReadError(file.in.string(), "", file.problem);
     std::vector<fs::path> inputs = detail::referenced_files(file.in, detail::References::readable);
@@ -135,29 +126,60 @@ Result try_process(const BatchFile& file, const BatchContext& work, detail::Stop
         return skipped_result(*before);
     std::error_code error;
     fs::create_directories(file.out.parent_path(), error);
-    const Overwrite overwrite = is_own ? Overwrite::yes : work.overwrite;
+    if (is_own) overwrite = Overwrite::yes;
     check_output(file.out, overwrite);
     const std::uint64_t process_limit = std::max(work.memory.limit(), min_process_memory);
     const std::uint64_t loading = estimated_model_memory(file.in, process_limit);
     require_memory(file.in, loading, process_limit);
-    const std::uint64_t needed =
-        loading + estimated_work_memory(file.in, total_file_size(inputs), work.options);
-    return process_within_memory(file, work, entry, overwrite, needed, watch);
+    std::optional<MemoryReservation> reservation;
+    if (sharing == Sharing::allowed) {
+        reservation.emplace(work.memory,
+                            loading + estimated_work_memory(file.in, total_file_size(inputs), work.options));
+        if (is_interrupted()) return cancelled_result();
+    }
+    watch = {};
+    try {
+        return simplify_and_save(file, work, entry, overwrite);
+    } catch (const std::bad_alloc& problem) {
+        if (!reservation || reservation->was_shared()) throw;
+        return failed_result(problem);
+    }
+} catch (const std::bad_alloc& problem) {
+    if (sharing == Sharing::allowed) throw;
+    return failed_result(problem);
 } catch (const std::exception& problem) {
     return failed_result(problem);
 }
 
+/// One attempt at a model; see process_batch_file() and try_process().
+ExitCode process(const BatchFile& file, const BatchContext& work, Sharing sharing, Overwrite& overwrite,
+                 std::string& line) {
+    detail::Stopwatch watch;
+    const Result result = try_process(file, work, sharing, overwrite, watch);
+    line = json_line({{"path", file.name},
+                      {"result", file.out_name},
+                      {"status", result.status},
+                      {"code", static_cast<int>(result.code)},
+                      {"faces_in", result.faces_in},
+                      {"faces_out", result.faces_out},
+                      {"seconds", watch.seconds()},
+                      {"message", result.message},
+                      {"warnings", result.warnings}});
+    return result.code;
+}
+
 }  // namespace
 
-ExitCode process_batch_file(const BatchFile& file, const BatchContext& work, Json& line) {
-    detail::Stopwatch watch;
-    const Result result = try_process(file, work, watch);
-    line = {{"path", file.name},           {"result", file.out_name},
-            {"status", result.status},     {"code", static_cast<int>(result.code)},
-            {"faces_in", result.faces_in}, {"faces_out", result.faces_out},
-            {"seconds", watch.seconds()},  {"message", result.message},
-            {"warnings", result.warnings}};
-    return result.code;
+ExitCode process_batch_file(const BatchFile& file, const BatchContext& work, std::string& line) {
+    Overwrite overwrite = work.overwrite;
+    try {
+        return process(file, work, Sharing::allowed, overwrite, line);
+    } catch (const std::bad_alloc&) {
+        // The memory belongs to the whole process: another model may have used most of it.
+    }
+    const MemoryReservation alone(work.memory, all_memory);
+    malloc_trim(0);
+    return process(file, work, Sharing::none, overwrite, line);
 }
 
 }  // namespace faqem::cli

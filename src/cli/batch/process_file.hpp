@@ -8,7 +8,6 @@
 #include "cli/batch/plan.hpp"
 #include "cli/batch/record.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/json.hpp"
 #include "cli/simplify_model.hpp"
 #include "faqem/asset.hpp"
 
@@ -28,11 +27,11 @@ struct BatchContext {
 };
 
 /// Simplifies one model as `faqem simplify` does. With `resume`, up-to-date results are skipped, and results
-/// that the record lists and that were not changed since may be overwritten. Waits for memory. Throws no
-/// exceptions. Thread-safe.
+/// that the record lists and that were not changed since may be overwritten. Waits for memory. A model that
+/// fails because others use the memory is processed again when no other model is. Thread-safe.
 /// \param line  receives the JSON object that is printed for the model, with the keys documented in
-/// docs/cli.md
+/// docs/cli.md, as a line of text
 /// \return the exit code that `faqem simplify` would return; exit_ok if skipped
-ExitCode process_batch_file(const BatchFile& file, const BatchContext& work, Json& line);
+ExitCode process_batch_file(const BatchFile& file, const BatchContext& work, std::string& line);
 
 }  // namespace faqem::cli

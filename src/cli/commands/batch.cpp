@@ -59,6 +59,7 @@ int run(const BatchArguments& arguments) {
         options.threads =
             static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
     // Image libraries start a thread per hardware thread, besides those of the models.
+    return_freed_memory();
     limit_process_memory(allowed, jobs * (1 + options.threads) + detail::thread_count(0));
     options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
     const std::string key = std::string(version()) + " " + extension + " " + detail::options_key(options) +
@@ -78,14 +79,15 @@ int run(const BatchArguments& arguments) {
     ExitCode code = exit_ok;  // exit_cancelled if a model was not done because of a signal
     detail::parallel_blocks(files.size(), 1, static_cast<std::uint32_t>(jobs),
                             [&](std::size_t i, std::size_t) {
-                                Json line;
+                                std::string line;
                                 const ExitCode one = process_batch_file(files[i], work, line);
                                 const std::lock_guard guard(mutex);
                                 if (one == exit_cancelled)
                                     code = exit_cancelled;
                                 else if (one != exit_ok && code == exit_ok)
                                     code = exit_batch_incomplete;
-                                print_json_line(line);
+                                // Flushed, so that a reader of a pipe gets each line immediately.
+                                std::cout << line << std::flush;
                             });
     return code;
 }

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -134,6 +135,18 @@ TEST_CASE("batch limits the memory of all models and runs those that fail for me
         CHECK(json["code"].get<int>() == (json["path"] == "large.gltf" ? exit_no_memory : exit_ok));
     }
     CHECK(count == 5);
+}
+
+TEST_CASE("memory that models of a batch have freed is available for the next ones") {
+    const Folder folder;
+    fs::create_directories(folder / "in");
+    for (char name = 'a'; name <= 'j'; ++name)
+        write_repeated_sheet(folder / ("in/" + std::string(1, name) + ".gltf"), 50, 1600);
+    // All models start before the first has allocated, and most of them fail; each is run again alone.
+    const Outcome outcome =
+        run(folder, "batch in out --format ply --bake none --ratio 0.5 --jobs 10 --max-memory 500MB");
+    CHECK(outcome.code == exit_ok);
+    CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 10);
 }
 
 #endif
