@@ -59,11 +59,20 @@ std::uint32_t wrapped(std::int64_t i, std::int64_t n, Wrap wrap) {
     return static_cast<std::uint32_t>(r < n ? r : period - 1 - r);
 }
 
-LinearColor mix(const LinearColor& a, const LinearColor& b, float t) {
-    LinearColor result;
-    for (std::size_t k = 0; k < 4; ++k) result[k] = a[k] + t * (b[k] - a[k]);
-    return result;
+// RGBA as in LinearColor, in a vector register. Eigen's arrays are made in memory, from which a register cannot be
+// loaded as long as the four values are not stored.
+using TexelLanes [[gnu::vector_size(16)]] = float;
+using IntegerLanes [[gnu::vector_size(16)]] = std::int32_t;
+
+TexelLanes mix(TexelLanes a, TexelLanes b, float t) { return a + t * (b - a); }
+
+// Four integers, multiplied by a factor.
+template <class Integer>
+TexelLanes scaled_integers(const Integer* p, float factor) {
+    return __builtin_convertvector((IntegerLanes{p[0], p[1], p[2], p[3]}), TexelLanes) * factor;
 }
+
+LinearColor to_linear_color(TexelLanes texel) { return {texel[0], texel[1], texel[2], texel[3]}; }
 
 // Source texels covered by texel i of a downsampled row, with their weights.
 struct Taps {
@@ -93,9 +102,9 @@ struct Corners {
     std::array<std::uint32_t, 2> x, y;
     float s, t;
 
-    // read: (x, y) -> LinearColor
+    // read: (x, y) -> TexelLanes
     template <class Read>
-    LinearColor interpolate(const Read& read) const {
+    TexelLanes interpolate(const Read& read) const {
         return mix(mix(read(x[0], y[0]), read(x[1], y[0]), s), mix(read(x[0], y[1]), read(x[1], y[1]), s), t);
     }
 };
@@ -111,44 +120,39 @@ MipImage::MipImage(Pixels pixels, TexelEncoding encoding, const Workers& workers
 }
 
 template <class Visit>
-LinearColor MipImage::with_reader(std::size_t level, const Visit& visit) const {
+auto MipImage::with_reader(std::size_t level, const Visit& visit) const {
     const auto row = [columns = std::size_t{width(level)}](std::uint32_t x, std::uint32_t y) {
         return (y * columns + x) * 4;
     };
     if (level > 0) {
-        return visit(
-            [&, texels = levels_[level - 1].rgba.get()](std::uint32_t x, std::uint32_t y) -> LinearColor {
-                const std::uint16_t* p = texels + row(x, y);
-                constexpr float unit = 1.0f / 65535;
-                return {p[0] * unit, p[1] * unit, p[2] * unit, p[3] * unit};
-            });
+        return visit([&, texels = levels_[level - 1].rgba.get()](std::uint32_t x, std::uint32_t y) {
+            return scaled_integers(texels + row(x, y), 1.0f / 65535);
+        });
     }
     constexpr float unit = 1.0f / 255;
     const std::uint8_t* texels = pixels_.rgba.data();
     const float* linear = srgb_table().data();
     switch (encoding_) {
         case TexelEncoding::data:
-            return visit([&](std::uint32_t x, std::uint32_t y) -> LinearColor {
-                const std::uint8_t* p = texels + row(x, y);
-                return {p[0] * unit, p[1] * unit, p[2] * unit, p[3] * unit};
-            });
+            return visit(
+                [&](std::uint32_t x, std::uint32_t y) { return scaled_integers(texels + row(x, y), unit); });
         case TexelEncoding::color_and_data_alpha:
-            return visit([&](std::uint32_t x, std::uint32_t y) -> LinearColor {
+            return visit([&](std::uint32_t x, std::uint32_t y) {
                 const std::uint8_t* p = texels + row(x, y);
-                return {linear[p[0]], linear[p[1]], linear[p[2]], p[3] * unit};
+                return TexelLanes{linear[p[0]], linear[p[1]], linear[p[2]], p[3] * unit};
             });
         case TexelEncoding::opaque_color:
-            return visit([&](std::uint32_t x, std::uint32_t y) -> LinearColor {
+            return visit([&](std::uint32_t x, std::uint32_t y) {
                 const std::uint8_t* p = texels + row(x, y);
-                return {linear[p[0]], linear[p[1]], linear[p[2]], 1};
+                return TexelLanes{linear[p[0]], linear[p[1]], linear[p[2]], 1};
             });
         case TexelEncoding::color:
             break;
     }
-    return visit([&](std::uint32_t x, std::uint32_t y) -> LinearColor {
+    return visit([&](std::uint32_t x, std::uint32_t y) {
         const std::uint8_t* p = texels + row(x, y);
         const float alpha = p[3] * unit;
-        return {linear[p[0]] * alpha, linear[p[1]] * alpha, linear[p[2]] * alpha, alpha};
+        return TexelLanes{linear[p[0]], linear[p[1]], linear[p[2]], 1} * alpha;
     });
 }
 
@@ -164,20 +168,18 @@ MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) c
     const auto fill_row = [&](std::uint32_t y) {
         const Taps rows = taps(y, height(from), result.height);
         std::uint16_t* to = &result.rgba[std::size_t{y} * result.width * 4];
-        for (const Taps& columns : all_columns) {
-            const LinearColor sum = with_reader(from, [&](const auto& read) {
-                LinearColor weighted{};
+        with_reader(from, [&](const auto& read) {
+            for (const Taps& columns : all_columns) {
+                TexelLanes weighted = {};
                 for (std::uint32_t j = 0; j < rows.count; ++j) {
-                    for (std::uint32_t i = 0; i < columns.count; ++i) {
-                        const LinearColor c = read(columns.first + i, rows.first + j);
-                        for (std::size_t k = 0; k < 4; ++k)
-                            weighted[k] += rows.weight[j] * columns.weight[i] * c[k];
-                    }
+                    for (std::uint32_t i = 0; i < columns.count; ++i)
+                        weighted +=
+                            rows.weight[j] * columns.weight[i] * read(columns.first + i, rows.first + j);
                 }
-                return weighted;
-            });
-            for (float c : sum) *to++ = static_cast<std::uint16_t>(std::clamp(c, 0.0f, 1.0f) * 65535 + 0.5f);
-        }
+                for (const float c : to_linear_color(weighted))
+                    *to++ = static_cast<std::uint16_t>(std::clamp(c, 0.0f, 1.0f) * 65535 + 0.5f);
+            }
+        });
     };
     constexpr std::size_t rows_at_once = 16;
     parallel_blocks(result.height, rows_at_once, workers, [&](std::size_t y, std::size_t end) {
@@ -188,8 +190,7 @@ MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) c
     return result;
 }
 
-LinearColor MipImage::sample_level(std::size_t level, double u, double v,
-                                   const TextureRef& texture_ref) const {
+auto MipImage::sample_level(std::size_t level, double u, double v, const TextureRef& texture_ref) const {
     const std::uint32_t columns = width(level), rows = height(level);
     const double x = u * columns, y = v * rows;
     if (texture_ref.filter == Filter::nearest) {
@@ -213,8 +214,9 @@ LinearColor MipImage::sample(const TextureRef& texture_ref, double u, double v, 
     const double at = lod > 0 ? std::min(lod, deepest) : 0;
     const auto level = static_cast<std::size_t>(at);
     const float t = static_cast<float>(at - static_cast<double>(level));
-    const LinearColor fine = sample_level(level, u, v, texture_ref);
-    return t > 0 ? mix(fine, sample_level(level + 1, u, v, texture_ref), t) : fine;
+    const TexelLanes fine = sample_level(level, u, v, texture_ref);
+    if (!(t > 0)) return to_linear_color(fine);
+    return to_linear_color(mix(fine, sample_level(level + 1, u, v, texture_ref), t));
 }
 
 Vec3f MipImage::stored_color(const TextureRef& texture_ref, double u, double v) const {

@@ -50,10 +50,10 @@ private:
         std::uint32_t width, height;
         std::unique_ptr<std::uint16_t[]> rgba;
     };
-    // Returns visit(read) for the function read(x, y) -> LinearColor of the texels of a level.
+    // Returns visit(read) for the function read(x, y) of the texels of a level.
     template <class Visit>
-    LinearColor with_reader(std::size_t level, const Visit& visit) const;
-    LinearColor sample_level(std::size_t level, double u, double v, const TextureRef& texture_ref) const;
+    auto with_reader(std::size_t level, const Visit& visit) const;
+    auto sample_level(std::size_t level, double u, double v, const TextureRef& texture_ref) const;
     Level downsample(std::size_t from, const Workers& workers) const;
     std::uint32_t width(std::size_t level) const { return level ? levels_[level - 1].width : pixels_.width; }
     std::uint32_t height(std::size_t level) const {
