@@ -6,14 +6,26 @@
 namespace faqem::detail {
 namespace {
 
-// row &= row >> by, where bits beyond the end are 0.
-void and_with_shifted(std::vector<std::uint64_t>& row, std::uint32_t by) {
-    const std::size_t words = by / 64, bits = by % 64;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const std::uint64_t low = i + words < row.size() ? row[i + words] : 0;
-        const std::uint64_t high = i + words + 1 < row.size() ? row[i + words + 1] : 0;
-        row[i] &= bits ? (low >> bits) | (high << (64 - bits)) : low;
-    }
+// Word i of a row of bits that is shifted down. The row must have words up to i + by / 64 + 1.
+std::uint64_t shifted_word(const std::uint64_t* row, std::size_t i, std::uint32_t by) {
+    const std::size_t at = i + by / 64, bits = by % 64;
+    return (row[at] >> bits) | ((row[at + 1] << 1) << (63 - bits));
+}
+
+// row &= row >> by, for the first `count` words. The row must have words up to count + by / 64.
+void and_with_shifted(std::uint64_t* row, std::size_t count, std::uint32_t by) {
+    for (std::size_t i = 0; i < count; ++i) row[i] &= shifted_word(row, i, by);
+}
+
+// Every bit of the lower half of a word twice.
+std::uint64_t doubled_bits(std::uint64_t word) {
+    word &= 0xffffffff;
+    word = (word | word << 16) & 0x0000ffff0000ffff;
+    word = (word | word << 8) & 0x00ff00ff00ff00ff;
+    word = (word | word << 4) & 0x0f0f0f0f0f0f0f0f;
+    word = (word | word << 2) & 0x3333333333333333;
+    word = (word | word << 1) & 0x5555555555555555;
+    return word | word << 1;
 }
 
 }  // namespace
@@ -29,21 +41,18 @@ BlockMask BlockMask::rotated() const {
 }
 
 OccupancyGrid::OccupancyGrid(std::uint32_t columns, std::uint32_t rows)
-    : columns_(columns), rows_(rows), free_(rows, Row((columns + 63) / 64, 0)) {
-    for (Row& row : free_) {
-        for (std::uint32_t x = 0; x < columns; ++x) row[x / 64] |= std::uint64_t{1} << (x % 64);
-    }
+    : columns_(columns), rows_(rows), free_(rows, Row((columns + 63) / 64, ~std::uint64_t{0})) {
+    if (columns % 64 > 0)
+        for (Row& row : free_) row.back() = (std::uint64_t{1} << (columns % 64)) - 1;
     longest_free_run_.assign(rows, columns);
 }
 
 void OccupancyGrid::refine() {
     OccupancyGrid fine(2 * columns_, 2 * rows_);
     for (std::uint32_t y = 0; y < fine.rows_; ++y) {
-        for (std::uint32_t x = 0; x < fine.columns_; ++x) {
-            if (!(free_[y / 2][x / 128] >> (x / 2 % 64) & 1)) {
-                fine.free_[y][x / 64] &= ~(std::uint64_t{1} << (x % 64));
-            }
-        }
+        Row& to = fine.free_[y];
+        for (std::size_t i = 0; i < to.size(); ++i)
+            to[i] = doubled_bits(free_[y / 2][i / 2] >> (i % 2 ? 32 : 0));
         fine.longest_free_run_[y] = 2 * longest_free_run_[y / 2];
     }
     *this = std::move(fine);
@@ -91,23 +100,27 @@ bool OccupancyGrid::find_free_columns(std::span<const Run> runs, std::uint32_t y
         if (longest_free_run_[y + run.row] < run.length) return false;
     }
     candidates.assign(free_[0].size(), ~std::uint64_t{0});
+    std::size_t begin = 0, end = candidates.size();  // of the words with candidates
     for (const Run& run : runs) {
-        scratch = free_[y + run.row];
+        // The words of the row on which the candidates depend, and zeros for what is beyond its end.
+        const Row& row = free_[y + run.row];
+        const std::size_t first = begin + run.begin / 64, count = end - begin + 1;
+        const std::size_t size = count + run.length / 64 + 1;
+        scratch.assign(size + 1, 0);
+        if (first < row.size())
+            std::copy_n(row.data() + first, std::min(row.size() - first, size), scratch.data());
         // Bit x of `scratch`: the `known` blocks from x on are free.
         for (std::uint32_t known = 1; known < run.length;) {
             const std::uint32_t more = std::min(known, run.length - known);
-            and_with_shifted(scratch, more);
+            // What the last words lack has no influence on the first `count` words.
+            and_with_shifted(scratch.data(), size - more / 64, more);
             known += more;
         }
-        const std::size_t words = run.begin / 64, bits = run.begin % 64;
-        std::uint64_t any = 0;
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            const std::uint64_t low = i + words < scratch.size() ? scratch[i + words] : 0;
-            const std::uint64_t high = i + words + 1 < scratch.size() ? scratch[i + words + 1] : 0;
-            candidates[i] &= bits ? (low >> bits) | (high << (64 - bits)) : low;
-            any |= candidates[i];
-        }
-        if (any == 0) return false;
+        for (std::size_t i = begin; i < end; ++i)
+            candidates[i] &= shifted_word(scratch.data(), i - begin, run.begin % 64);
+        while (begin < end && candidates[begin] == 0) ++begin;
+        while (begin < end && candidates[end - 1] == 0) --end;
+        if (begin == end) return false;
     }
     return true;
 }
