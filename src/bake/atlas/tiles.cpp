@@ -34,13 +34,15 @@ public:
     // Assigns samples inside a triangle to it, unless they are inside one that was visited before.
     void assign_covered(Index triangle) {
         const Triangle2& uv = atlas_.placements[triangle].uv;
-        for_each_sample(range_of(bounding_box(uv)), [&](std::size_t at, const Point2& p) {
-            if (owner_[at] != no_index) return;
-            for (std::size_t c = 0; c < 3; ++c) {
-                if (twice_signed_area(uv[c], uv[(c + 1) % 3], p) > 0) return;  // outside, as v points down
+        const Range range = range_of(bounding_box(uv));
+        for (std::uint32_t j = range.y0; j < range.y1; ++j) {
+            std::uint32_t begin = range.x0, end = range.x1;
+            for (std::size_t c = 0; c < 3; ++c) cut_row(uv[c], uv[(c + 1) % 3], j, begin, end);
+            for (std::uint32_t i = begin; i < end; ++i) {
+                Index& owner = owner_[std::size_t{j} * columns_ + i];
+                if (owner == no_index) owner = triangle;
             }
-            owner_[at] = triangle;
-        });
+        }
     }
 
     // Assigns samples outside all triangles to this one if its edge opposite corner c is the closest so far.
@@ -109,13 +111,46 @@ private:
                 index(box.low.y, tile_.y, rows_), index(box.high.y + 1, tile_.y, rows_)};
     }
 
+    Point2 position(std::uint32_t i, std::uint32_t j) const {
+        return {tile_.x + (i + 0.5) / samples_, tile_.y + (j + 0.5) / samples_};
+    }
+
+    // Cuts samples of row j that are outside of edge ab. The area is a monotonic function of x, also with rounding, so
+    // that they are at one end of the row.
+    void cut_row(const Point2& a, const Point2& b, std::uint32_t j, std::uint32_t& begin,
+                 std::uint32_t& end) const {
+        const auto is_outside = [&](std::uint32_t i) {
+            return twice_signed_area(a, b, position(i, j)) > 0;  // as v points down
+        };
+        // Skips halves of the row, then samples.
+        constexpr std::uint32_t few = 4;
+        if (b.y > a.y) {
+            for (std::uint32_t from = begin, to = end; from < to;) {
+                const std::uint32_t i = to - from > few ? from + (to - from) / 2 : from;
+                if (is_outside(i)) {
+                    begin = from = i + 1;
+                } else {
+                    to = i;
+                }
+            }
+        } else {
+            for (std::uint32_t from = begin, to = end; from < to;) {
+                const std::uint32_t i = to - from > few ? from + (to - from) / 2 : to - 1;
+                if (is_outside(i)) {
+                    end = to = i;
+                } else {
+                    from = i + 1;
+                }
+            }
+        }
+    }
+
     // Calls visit(sample, position on the page) for the samples of a range.
     template <class Visit>
     void for_each_sample(const Range& range, Visit&& visit) const {
         for (std::uint32_t j = range.y0; j < range.y1; ++j) {
             for (std::uint32_t i = range.x0; i < range.x1; ++i) {
-                visit(std::size_t{j} * columns_ + i,
-                      Point2{tile_.x + (i + 0.5) / samples_, tile_.y + (j + 0.5) / samples_});
+                visit(std::size_t{j} * columns_ + i, position(i, j));
             }
         }
     }
