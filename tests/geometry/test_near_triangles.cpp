@@ -30,7 +30,7 @@ std::vector<NearTriangles::Entry> soup(Random& random, std::size_t count, const 
         const Vector3 a = around + scale * random_point(random), b = a + scale * size * random_point(random);
         Vector3 c = a + scale * size * random_point(random);
         if (i % 6 == 0) c = i % 12 == 0 ? a : Vector3(a + 0.3 * (b - a) + 1e-7 * (c - a));
-        result.push_back({a, i % 24 == 0 ? a : b, c, static_cast<Index>(1000 - 7 * i), i % 2 == 0});
+        result.push_back({a, i % 24 == 0 ? a : b, c, static_cast<Index>(1000 - 7 * i)});
     }
     return result;
 }
@@ -72,21 +72,47 @@ TEST_CASE("near triangles: a result is that of all triangles, bit by bit") {
                 const double reach = std::sqrt(brute_force(all, centre).at.distance_squared) + 2 * radius;
                 NearTriangles near;
                 near.reset(centre, reach, within(all, centre, reach));
+                NearTriangles::Recent recent;
                 for (int i = 0; i < 20; ++i, ++queries) {
                     const Vector3 p = centre + 1.1 * radius * random_point(random);
                     const auto hit = near.closest(p);
+                    const auto same = near.closest(p, recent);
+                    REQUIRE(same.has_value() == hit.has_value());
                     if (!hit) continue;
                     ++found;
                     const NearTriangles::Hit best = brute_force(all, p);
                     CHECK(hit->entry->face == best.entry->face);
-                    CHECK(hit->entry->is_marked == best.entry->is_marked);
                     CHECK(hit->at.distance_squared == best.at.distance_squared);
                     CHECK(hit->at.barycentric == best.at.barycentric);
+                    CHECK(same->entry == hit->entry);
+                    CHECK(same->at.barycentric == hit->at.barycentric);
                 }
             }
         }
     }
     CHECK(found > queries * 9 / 10);
+}
+
+TEST_CASE(
+    "near triangles: where the triangle of the query before is certainly the closest, the result is the "
+    "same") {
+    const std::vector<NearTriangles::Entry> strip = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3},
+                                                     {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 2}};
+    NearTriangles near;
+    near.reset({0.5, 0.5, 0}, 2, strip);
+    NearTriangles::Recent recent;
+    std::size_t kept = 0;
+    for (int i = 0; i <= 100; ++i) {
+        const Vector3 p(0.01 * i, 0.01 * i, 0.1);
+        const NearTriangles::Recent before = recent;
+        const auto hit = near.closest(p, recent);
+        REQUIRE(hit);
+        CHECK(hit->entry->face == (i < 50 ? 3u : 2u));
+        CHECK(hit->at.distance_squared == brute_force(strip, p).at.distance_squared);
+        if (recent.at == before.at && i > 0) ++kept;
+    }
+    CHECK(kept > 50);
+    CHECK(recent.others > 0);
 }
 
 TEST_CASE("near triangles: of several at the same distance, the smallest number wins") {
@@ -160,6 +186,10 @@ TEST_CASE("near triangles: a list is narrowed only where it is complete") {
     large.reset({0, 0, 0}, 1, {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3}});
     large.narrow({0.1, 0.1, 0.2}, 0.1, small);
     CHECK(small.size() == 1);
-    large.narrow({0.1, 0.1, 0.2}, 0.4, small);  // 0.24 from the centre, 0.2 from the triangle
+    // 0.24 from the centre and 0.2 from the triangle, so that the new list reaches 0.75.
+    large.narrow({0.1, 0.1, 0.2}, 0.4, small);
+    CHECK(small.closest({0.1, 0.1, 0.4}));        // 0.4 from the triangle
+    CHECK_FALSE(small.closest({0.1, 0.1, 0.5}));  // 0.5 from it, and 0.3 from the middle of the new list
+    large.narrow({0.1, 0.1, 0.2}, 1.2, small);
     CHECK(small.empty());
 }

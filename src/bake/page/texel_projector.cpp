@@ -1,7 +1,9 @@
 #include "bake/page/texel_projector.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "bake/source/vector_conversion.hpp"
 
@@ -28,6 +30,39 @@ constexpr std::uint32_t large_block = 4;
 // Samples of a block that are searched for one by one. With fewer samples than about twice as many, the search for
 // the faces near the block would take longer than it saves.
 constexpr std::uint32_t single_samples = 4;
+// A list of so few faces is not worth dividing.
+constexpr std::size_t short_list = 16;
+
+// Side of a block in texels.
+std::uint32_t block_size(const PageRequest& page) { return std::max(1u, block_samples / page.samples); }
+
+// A convex polygon: a triangle cut along the sides of a box.
+struct CutTriangle {
+    std::array<Point2, 7> corners;
+    std::size_t size = 0;
+
+    // Removes what is beyond a line, where distance(p) is negative.
+    template <class Distance>
+    void cut(const Distance& distance) {
+        CutTriangle result;
+        for (std::size_t i = 0; i < size; ++i) {
+            const Point2 &p = corners[i], &q = corners[(i + 1) % size];
+            const double a = distance(p), b = distance(q);
+            if (a >= 0) result.corners[result.size++] = p;
+            if ((a >= 0) != (b >= 0)) result.corners[result.size++] = point_on_line(p, q, a / (a - b));
+        }
+        *this = result;
+    }
+};
+
+CutTriangle cut_to(const Triangle2& triangle, const Box2& box) {
+    CutTriangle result{{triangle[0], triangle[1], triangle[2]}, 3};
+    result.cut([&](const Point2& p) { return p.x - box.low.x; });
+    result.cut([&](const Point2& p) { return box.high.x - p.x; });
+    result.cut([&](const Point2& p) { return p.y - box.low.y; });
+    result.cut([&](const Point2& p) { return box.high.y - p.y; });
+    return result;
+}
 
 }  // namespace
 
@@ -40,10 +75,8 @@ TexelProjector::TexelProjector(const PageRequest& page, Index triangle)
       triangle_(page.mesh.triangles[triangle]),
       texel_length_(texel_length()),
       spacing_(texel_length_ / page.samples),
-      block_size_(std::max(1u, block_samples / page.samples)),
-      box_(bounding_box(placement_.uv)),
-      first_column_(static_cast<std::uint32_t>(std::max(box_.low.x, 0.0)) / block_size_),
-      last_column_(static_cast<std::uint32_t>(std::max(box_.high.x, 0.0)) / block_size_) {
+      large_blocks_(large_block * block_size(page), bounding_box(placement_.uv)) {
+    blocks_.fill(BlockGrid(block_size(page), bounding_box(placement_.uv)));
     const std::vector<Vec4f>& tangents = page.tangents[face_.part];
     for (std::size_t i = 0; i < 3 && !tangents.empty(); ++i) {
         const std::size_t c = std::size_t{3} * face_.face + i;
@@ -96,70 +129,124 @@ Vec3 TexelProjector::weights_beyond(std::size_t c, const Vec3& w) const {
 }
 
 TexelSample TexelProjector::point(std::uint32_t x, std::uint32_t y, double s, double t) const {
-    if (is_single_texel())
-        return {face_.face, s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t}, 0, x + s,
-                y + t};
-    const Vec3 w = frame_.at(x + s, y + t);
+    TexelSample result{face_.face, {}, 0, x + s, y + t, {x + s, y + t}};
+    if (is_single_texel()) {
+        result.weights = s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t};
+        return result;
+    }
+    const Vec3 w = result.weights = frame_.at(x + s, y + t);
+    if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) return result;
     for (std::size_t c = 0; c < 3; ++c) {
         if (w[c] < 0 && w[(c + 1) % 3] >= 0 && w[(c + 2) % 3] >= 0 && unfolded_[c].face != no_index) {
-            return {unfolded_[c].face, weights_beyond(c, w), c + 1, x + s, y + t};
+            result.face = unfolded_[c].face;
+            result.weights = weights_beyond(c, w);
+            result.cache_index = c + 1;
+            return result;
         }
     }
-    return {face_.face, frame_.closest(x + s, y + t), 0, x + s, y + t};
+    const Triangle2& uv = placement_.uv;
+    result.weights = frame_.closest(x + s, y + t);
+    result.on_triangle = uv[0] * result.weights[0] + uv[1] * result.weights[1] + uv[2] * result.weights[2];
+    return result;
 }
 
-// The block of texels around a sample.
-TexelProjector::Block& TexelProjector::block_of(const TexelSample& at, std::uint32_t x, std::uint32_t y) {
-    const std::uint32_t column = x / block_size_;
-    std::vector<Block>& blocks = blocks_[at.cache_index];
-    if (blocks.empty()) blocks.resize(last_column_ - first_column_ + 1);
-    Block& block = blocks[std::clamp(column, first_column_, last_column_) - first_column_];
-    block.move_to(column, y / block_size_);
+TexelProjector::BlockGrid::BlockGrid(std::uint32_t size, const Box2& box)
+    : size_(size),
+      blocks_per_texel_(1 / size_),
+      origin_{std::floor(box.low.x), std::floor(box.low.y)},
+      columns_(1 + static_cast<std::int32_t>((box.high.x - origin_.x) / size_)),
+      rows_(1 + static_cast<std::int32_t>((box.high.y - origin_.y) / size_)) {}
+
+TexelProjector::Block& TexelProjector::BlockGrid::at(const Point2& p) {
+    // Rounds down; std::floor() is a call of a function without SSE4.
+    const auto number = [&](double texels) {
+        const double blocks = texels * blocks_per_texel_;
+        const auto truncated = static_cast<std::int32_t>(blocks);
+        return truncated - (truncated > blocks);
+    };
+    const std::int32_t column = number(p.x - origin_.x), row = number(p.y - origin_.y);
+    // The gutter is to the left and the right of the triangle too.
+    if (blocks_.empty()) blocks_.resize(2 * (static_cast<std::size_t>(columns_) + 2));
+    const auto slot = static_cast<std::size_t>(std::clamp(column + 1, 0, columns_ + 1));
+    Block& block = blocks_[2 * slot + (row & 1)];
+    block.move_to(column, row);
     return block;
 }
 
-// \param size  of the block in texels
-TexelProjector::Ball TexelProjector::ball_around(const Block& block, std::uint32_t size,
-                                                 std::size_t cache_index) const {
-    Box2 box{{double(block.column) * size, double(block.row) * size}, {}};
-    box.high = {box.low.x + size, box.low.y + size};
-    if (cache_index == 0) {
-        const Box2 shared{{std::max(box.low.x, box_.low.x), std::max(box.low.y, box_.low.y)},
-                          {std::min(box.high.x, box_.high.x), std::min(box.high.y, box_.high.y)}};
-        if (shared.low.x < shared.high.x && shared.low.y < shared.high.y) box = shared;
-    }
-    const Vec3 w = frame_.at((box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2);
-    return {cache_index == 0 ? w : weights_beyond(cache_index - 1, w),
-            std::hypot(box.width(), box.height()) / 2 * texel_length_};
+Box2 TexelProjector::BlockGrid::box_of(const Block& block) const {
+    const Point2 low = origin_ + Point2{block.column * size_, block.row * size_};
+    return {low, low + Point2{size_, size_}};
 }
 
-// Finds the faces of the source near the samples of a block that are on the same face as `at`.
-void TexelProjector::prepare(Block& block, const TexelSample& at, const SurfacePoint& near) {
-    const Ball ball = ball_around(block, block_size_, at.cache_index);
-    if (at.cache_index == 0) {
-        const std::uint32_t column = block.column / large_block, first = first_column_ / large_block,
-                            last = last_column_ / large_block;
-        if (large_blocks_.empty()) large_blocks_.resize(last - first + 1);
-        Block& large = large_blocks_[std::clamp(column, first, last) - first];
-        large.move_to(column, block.row / large_block);
-        const Ball around = ball_around(large, large_block * block_size_, 0);
-        if (around.radius > 1.5 * ball.radius) {
-            if (large.samples == 0)
-                large.map.prepare(*part_.map, at.face, around.centre, around.radius, near);
-            large.samples = 1;
-            if (block.map.prepare_from(*part_.map, at.face, ball.centre, ball.radius, large.map)) return;
+// A ball around the part of the face in a box on which the samples like `at` are.
+TexelProjector::Ball TexelProjector::ball_around(const Box2& box, const TexelSample& at) const {
+    if (at.cache_index > 0) {
+        const Vec3 middle = frame_.at((box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2);
+        return {weights_beyond(at.cache_index - 1, middle),
+                std::hypot(box.width(), box.height()) / 2 * texel_length_};
+    }
+    const CutTriangle cut = cut_to(placement_.uv, box);
+    if (cut.size == 0) return {at.weights, box.width() * texel_length_};
+    const auto position = [&](const Vec3& w) {
+        return Vector3(w[0] * to_eigen(triangle_.corners[0]) + w[1] * to_eigen(triangle_.corners[1]) +
+                       w[2] * to_eigen(triangle_.corners[2]));
+    };
+    std::array<Vector3, 7> corners;
+    for (std::size_t i = 0; i < cut.size; ++i)
+        corners[i] = position(frame_.at(cut.corners[i].x, cut.corners[i].y));
+    const auto ball = [&](const Point2& centre) {
+        Ball result{frame_.at(centre.x, centre.y), 0};
+        const Vector3 middle = position(result.centre);
+        for (std::size_t i = 0; i < cut.size; ++i)
+            result.radius = std::max(result.radius, (corners[i] - middle).norm());
+        return result;
+    };
+    // The ball is around the mean of the corners, or the middle of the two that are farthest from each other.
+    Point2 sum, between = cut.corners[0];
+    double longest = 0;
+    for (std::size_t i = 0; i < cut.size; ++i) {
+        sum = sum + cut.corners[i];
+        for (std::size_t j = 0; j < i; ++j) {
+            const double squared = (corners[i] - corners[j]).squaredNorm();
+            if (!(squared > longest)) continue;
+            longest = squared;
+            between = point_on_line(cut.corners[i], cut.corners[j], 0.5);
         }
     }
-    block.map.prepare(*part_.map, at.face, ball.centre, ball.radius, near);
+    const Ball first = ball(sum * (1.0 / static_cast<double>(cut.size))), second = ball(between);
+    return second.radius < first.radius ? second : first;
 }
 
-SurfacePoint TexelProjector::map_near(const TexelSample& at, std::uint32_t x, std::uint32_t y,
-                                      const SurfacePoint& near) {
+// Finds the faces of the source near the samples of a box that are on the same face as `at`.
+// \param larger  prepared for a larger box; may be null
+void TexelProjector::prepare(LocalMap& map, const Box2& box, const TexelSample& at, const SurfacePoint& near,
+                             const LocalMap* larger) const {
+    const Ball ball = ball_around(box, at);
+    if (larger && map.prepare_from(*part_.map, at.face, ball.centre, ball.radius, *larger)) return;
+    map.prepare(*part_.map, at.face, ball.centre, ball.radius, near);
+}
+
+// The map of the large block around a sample; null if there is none.
+LocalMap* TexelProjector::large_map(const TexelSample& at, const SurfacePoint& near) {
+    if (at.cache_index > 0 || blocks_[0].is_single()) return nullptr;
+    Block& large = large_blocks_.at(at.on_triangle);
+    if (large.samples++ == 0) prepare(large.map, large_blocks_.box_of(large), at, near, nullptr);
+    return large.map.size() > 0 ? &large.map : nullptr;
+}
+
+SurfacePoint TexelProjector::map_near(const TexelSample& at, const SurfacePoint& near) {
     if (is_single_texel()) return part_.map->map_near(at.face, at.weights, near);
-    Block& block = block_of(at, x, y);
+    BlockGrid& grid = blocks_[at.cache_index];
+    Block& block = grid.at(at.on_triangle);
     if (block.samples < single_samples) {
-        if (++block.samples < single_samples) return part_.map->map_near(at.face, at.weights, near);
-        prepare(block, at, near);
+        LocalMap* const large = large_map(at, near);
+        if (large && large->size() <= short_list)
+            return large->map_near(*part_.map, at.face, at.weights, near);
+        if (++block.samples < single_samples) {
+            return large ? large->map_near(*part_.map, at.face, at.weights, near)
+                         : part_.map->map_near(at.face, at.weights, near);
+        }
+        prepare(block.map, grid.box_of(block), at, near, large);
     }
     return block.map.map_near(*part_.map, at.face, at.weights, near);
 }
@@ -167,7 +254,7 @@ SurfacePoint TexelProjector::map_near(const TexelSample& at, std::uint32_t x, st
 SurfacePoint TexelProjector::project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y) {
     WarmStartCache& cache = warm_starts_[at.cache_index];
     const SurfacePoint* near = cache.start_near(x, y);
-    const SurfacePoint point = near ? map_near(at, x, y, *near) : part_.map->map(at.face, at.weights);
+    const SurfacePoint point = near ? map_near(at, *near) : part_.map->map(at.face, at.weights);
     cache.add(point, x, y);
     return point;
 }

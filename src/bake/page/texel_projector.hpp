@@ -24,6 +24,7 @@ struct TexelSample {
     Vec3 weights = {};            ///< barycentric coordinates
     std::size_t cache_index = 0;  ///< 0 on the projector's triangle, c + 1 across its edge opposite corner c
     double x = 0, y = 0;          ///< position on the page, in texels
+    Point2 on_triangle;  ///< (x, y) or, with cache_index 0, the closest point of the triangle on the page
 };
 
 /// Projects samples of one triangle of the atlas to the source. Not thread-safe, since it keeps warm starts and the
@@ -71,12 +72,12 @@ private:
 
     // The samples of one face in a square block of texels.
     struct Block {
-        std::uint32_t column = 0, row = 0;  // of the block on the page
-        std::uint32_t samples = 0;          // number of samples so far
-        LocalMap map;                       // prepared when there are enough samples
+        std::int32_t column = 0, row = 0;
+        std::uint32_t samples = 0;  // number of samples so far
+        LocalMap map;               // prepared when there are enough samples
 
         // Makes this the block at another place.
-        void move_to(std::uint32_t to_column, std::uint32_t to_row) {
+        void move_to(std::int32_t to_column, std::int32_t to_row) {
             if (column == to_column && row == to_row) return;
             column = to_column, row = to_row, samples = 0;
         }
@@ -87,13 +88,36 @@ private:
         double radius = 0;  // in the part's units
     };
 
+    // Squares of one size. Of each column of blocks the last ones in an even and an odd row are kept.
+    class BlockGrid {
+    public:
+        BlockGrid() = default;
+        // \param size  texels along each axis of a block
+        // \param box   of the triangle on the page, in texels; it begins with the first column
+        BlockGrid(std::uint32_t size, const Box2& box);
+
+        // The block around a point of the page.
+        Block& at(const Point2& p);
+        // Bounding box of a block, in texels.
+        Box2 box_of(const Block& block) const;
+        // Whether the triangle is in a single block.
+        bool is_single() const { return columns_ == 1 && rows_ == 1; }
+
+    private:
+        double size_ = 1, blocks_per_texel_ = 1;
+        Point2 origin_;                        // of column and row 0
+        std::int32_t columns_ = 1, rows_ = 1;  // of the triangle
+        std::vector<Block> blocks_;
+    };
+
     bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }
     double texel_length() const;
     Vec3 weights_beyond(std::size_t c, const Vec3& w) const;
-    SurfacePoint map_near(const TexelSample& at, std::uint32_t x, std::uint32_t y, const SurfacePoint& near);
-    Block& block_of(const TexelSample& at, std::uint32_t x, std::uint32_t y);
-    Ball ball_around(const Block& block, std::uint32_t size, std::size_t cache_index) const;
-    void prepare(Block& block, const TexelSample& at, const SurfacePoint& near);
+    SurfacePoint map_near(const TexelSample& at, const SurfacePoint& near);
+    LocalMap* large_map(const TexelSample& at, const SurfacePoint& near);
+    Ball ball_around(const Box2& box, const TexelSample& at) const;
+    void prepare(LocalMap& map, const Box2& box, const TexelSample& at, const SurfacePoint& near,
+                 const LocalMap* larger) const;
     UnfoldedNeighbour unfold(std::size_t c, const PageMesh& mesh) const;
     Vec3 own_weights(const TexelSample& at) const;
 
@@ -105,15 +129,11 @@ private:
     const PageTriangle& triangle_;
     const double texel_length_;
     const double spacing_;
-    const std::uint32_t block_size_;                  // texels along each axis
-    const Box2 box_;                                  // of the triangle on the page, in texels
-    const std::uint32_t first_column_, last_column_;  // of blocks
-    std::array<UnfoldedNeighbour, 3> unfolded_;       // by corner opposite the edge
-    std::array<FrameCorner, 3> frames_;               // set if the page has a normal map
-    std::array<WarmStartCache, 4> warm_starts_;       // by TexelSample::cache_index
-    // By TexelSample::cache_index and column of the block within the triangle: the last block there.
-    std::array<std::vector<Block>, 4> blocks_;
-    std::vector<Block> large_blocks_;  // of samples on the triangle, by column
+    std::array<UnfoldedNeighbour, 3> unfolded_;  // by corner opposite the edge
+    std::array<FrameCorner, 3> frames_;          // set if the page has a normal map
+    std::array<WarmStartCache, 4> warm_starts_;  // by TexelSample::cache_index
+    std::array<BlockGrid, 4> blocks_;            // by TexelSample::cache_index
+    BlockGrid large_blocks_;                     // of samples on the triangle
 };
 
 }  // namespace faqem::detail

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,12 @@ public:
     /// O(n)
     void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
 
+    /// Corner positions of a triangle, and its index in the constructor's triangles.
+    struct Corners {
+        engine::Vector3 a, b, c;
+        Index face = no_index;
+    };
+
     /// Result of a closest-point query.
     struct Hit {
         Index face = no_index;  ///< index into the constructor's triangles; no_index: no face in range
@@ -83,7 +90,8 @@ public:
     }
 
     /// Same as closest(), restricted to the faces f for which filter(f) returns true.
-    /// \param filter          bool(Index face); called only for faces closer than the best one so far
+    /// \param filter          bool(Index face) or bool(const Corners&); called only for faces closer than the best
+    ///                        one so far
     /// \param max_rejections  after this many rejections by the filter, the best face so far is returned
     template <class Filter>
     Hit closest_if(const Vec3& p, Filter&& filter,
@@ -95,13 +103,15 @@ public:
     template <class Visit>
     void visit_within(const Vec3& p, double distance_squared, Visit&& visit) const;
 
-    /// Calls visit(face) for the faces whose bounding box is at most sqrt(limit()) from p, nearer boxes
-    /// first, in an order that is always the same. The limit is read again after each call, so that it may
-    /// shrink.
+    /// Calls visit(const Corners&, double) for the faces whose bounding box is at most sqrt(limit()) from p, with a
+    /// lower bound of the squared distance of the box, nearer boxes first, in an order that is always the same. The
+    /// limit is read again after each call, so that it may shrink.
     /// \param limit  () -> double, a squared distance, rounded outwards
     template <class Limit, class Visit>
     void visit_near(const Vec3& p, Limit&& limit, Visit&& visit) const {
-        traverse(engine::to_eigen(p), limit, [&](const Corners& t) { visit(t.face); });
+        const double unit = 1 / (frame_.scale * frame_.scale);
+        traverse(engine::to_eigen(p), limit,
+                 [&](const Corners& t, float in_frame) { visit(t, double{in_frame} * unit); });
     }
 
     /// Which side of a triangle a ray comes from: seen from the front its corners go counter-clockwise.
@@ -172,11 +182,6 @@ private:
             return enter <= leave * (1 + 1e-6f);
         }
     };
-    /// Corner positions of a triangle, and its index in the constructor's triangles.
-    struct Corners {
-        Vector3 a, b, c;
-        Index face = no_index;
-    };
     /// A child that has not been visited yet.
     struct Pending {
         std::uint32_t child;
@@ -198,8 +203,16 @@ private:
     /// Converts a squared distance to the frame, rounded up.
     float limit_in_frame(double distance_squared) const;
 
-    /// Calls leaf(corners) for the triangles whose bounding box is within the squared distance limit() of p,
-    /// nearest box first. limit() is evaluated again after each call.
+    template <class Filter>
+    static bool is_accepted_by(Filter& filter, const Corners& t) {
+        if constexpr (std::is_invocable_v<Filter&, const Corners&>)
+            return filter(t);
+        else
+            return filter(t.face);
+    }
+
+    /// Calls leaf(corners) or leaf(corners, squared distance of the box in the frame) for the triangles whose bounding
+    /// box is within the squared distance limit() of p, nearest box first. limit() is evaluated again after each call.
     template <class Limit, class Leaf>
     void traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const;
 
@@ -220,7 +233,10 @@ void Bvh::traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const {
         const Pending top = stack[--size];
         if (!(top.distance_squared <= bound)) continue;
         if (top.child & leaf_bit) {
-            leaf(triangles_[top.child & ~leaf_bit]);
+            if constexpr (std::is_invocable_v<Leaf&, const Corners&, float>)
+                leaf(triangles_[top.child & ~leaf_bit], top.distance_squared);
+            else
+                leaf(triangles_[top.child & ~leaf_bit]);
             bound = limit_in_frame(limit());
             continue;
         }
@@ -253,7 +269,7 @@ Bvh::Hit Bvh::closest_if(const Vec3& p, Filter&& filter, double max_distance_squ
             const bool nearer = hit.distance_squared < best.distance_squared;
             if (!nearer && !(hit.distance_squared == best.distance_squared && t.face < face)) return;
             if (rejections == max_rejections) return;
-            if (!filter(t.face)) {
+            if (!is_accepted_by(filter, t)) {
                 ++rejections;
                 return;
             }

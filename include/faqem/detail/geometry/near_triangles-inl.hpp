@@ -70,21 +70,27 @@ FAQEM_INLINE void NearTriangles::fill_last_group() {
         groups_.back().plane.set(static_cast<int>(i % width), Vector3::Zero(), far);
 }
 
-// Computes lower bounds of the squared distances, in units of the list; returns the smallest.
-FAQEM_INLINE float NearTriangles::find_bounds(const Vector3& p, Bounds& bounds) const {
+// Computes lower bounds of the squared distances, in units of the list.
+FAQEM_INLINE NearTriangles::Smallest NearTriangles::find_bounds(const Vector3& p, Bounds& bounds) const {
     const Vector3 offset = (p - origin_) * scale_;
     const auto x = static_cast<float>(offset.x()), y = static_cast<float>(offset.y()),
                z = static_cast<float>(offset.z());
-    Lanes least = Lanes::Constant(std::numeric_limits<float>::infinity());
+    Lanes first = Lanes::Constant(std::numeric_limits<float>::infinity()), second = first;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
         const auto& [plane, edges] = groups_[g];
         const Lanes height = plane.at(x, y, z);
         const Lanes inside =
             edges[0].at(x, y, z).min(edges[1].at(x, y, z)).min(edges[2].at(x, y, z)).min(0.0f);
         bounds[g] = height * height + inside * inside;
-        least = least.min(bounds[g]);
+        second = second.min(first.max(bounds[g]));
+        first = first.min(bounds[g]);
     }
-    return least.minCoeff();
+    Smallest result{first[0], second.minCoeff()};
+    for (int lane = 1; lane < width; ++lane) {
+        result.second = std::min(result.second, std::max(result.first, first[lane]));
+        result.first = std::min(result.first, first[lane]);
+    }
+    return result;
 }
 
 // The bound of triangles within a distance of a point, rounded up.
@@ -93,8 +99,9 @@ FAQEM_INLINE float NearTriangles::bound_of(double distance) const {
     return static_cast<float>(farthest * farthest * (1 + 1e-6));
 }
 
-FAQEM_INLINE bool NearTriangles::is_complete(const Vector3& p, double distance) const {
-    return ((p - centre_).norm() + distance) * scale_ + tolerance_ < reach_ * scale_;
+// A distance that triangles with a bound have at least, rounded down.
+FAQEM_INLINE double NearTriangles::distance_of(float bound) const {
+    return std::max(0.0, (std::sqrt(double{bound}) * (1 - 1e-6) - tolerance_) / scale_);
 }
 
 // Calls visit(i) for the entries with a bound from `from` (exclusive) to `to`.
@@ -110,31 +117,56 @@ void NearTriangles::for_each_within(const Bounds& bounds, float from, float to, 
     }
 }
 
-FAQEM_INLINE std::optional<NearTriangles::Hit> NearTriangles::closest(const Vector3& p) const {
-    if (entries_.empty() || !is_complete(p, 0)) return std::nullopt;
-    Bounds bounds;
-    const float smallest = find_bounds(p, bounds);
+FAQEM_INLINE std::optional<NearTriangles::Hit> NearTriangles::closest(const Vector3& p,
+                                                                      Recent& recent) const {
+    const double from_centre = (p - centre_).norm();
+    if (entries_.empty() || !is_complete(from_centre, 0)) return std::nullopt;
     Hit best;
-    const auto evaluate = [&](std::size_t i) {
-        const Entry& entry = entries_[i];
+    const Entry* known = nullptr;  // evaluated already
+    const auto evaluate = [&](const Entry& entry) {
+        if (&entry == known) return;
         const ClosestPoint at = closest_point_on_triangle(p, entry.a, entry.b, entry.c);
         if (at.distance_squared < best.at.distance_squared ||
             (at.distance_squared == best.at.distance_squared && best.entry && entry.face < best.entry->face))
             best = {&entry, at};
     };
+    const auto found = [&]() -> std::optional<Hit> {
+        if (!best.entry || !is_complete(from_centre, std::sqrt(best.at.distance_squared)))
+            return std::nullopt;
+        return best;
+    };
+    if (recent.entry < entries_.size()) {
+        // The other triangles are at least recent.others minus the distance of the queries away. Without roots:
+        // (a + b)^2 <= 2 (a^2 + b^2).
+        const double moved_squared = (p - recent.at).squaredNorm(), limit = recent.others * recent.others;
+        if (2 * moved_squared < limit) {
+            evaluate(entries_[recent.entry]);
+            if (2 * (moved_squared + best.at.distance_squared) < limit) return found();
+            known = &entries_[recent.entry];
+        }
+    }
+    Bounds bounds;
+    const Smallest smallest = find_bounds(p, bounds);
     // First the triangles with the smallest bound, then the others that may be as close as these.
-    for_each_within(bounds, -1, smallest, evaluate);
-    for_each_within(bounds, smallest, bound_of(std::sqrt(best.at.distance_squared)), evaluate);
-    if (!best.entry || !is_complete(p, std::sqrt(best.at.distance_squared))) return std::nullopt;
-    return best;
+    for_each_within(bounds, -1, smallest.first, [&](std::size_t i) { evaluate(entries_[i]); });
+    for_each_within(bounds, smallest.first, bound_of(std::sqrt(best.at.distance_squared)),
+                    [&](std::size_t i) { evaluate(entries_[i]); });
+    recent = {};
+    if (!best.entry) return std::nullopt;
+    const auto i = static_cast<std::size_t>(best.entry - entries_.data());
+    const bool has_smallest = bounds[i / width][static_cast<int>(i % width)] == smallest.first;
+    recent = {i, p, distance_of(has_smallest ? smallest.second : smallest.first)};
+    return found();
 }
 
 FAQEM_INLINE void NearTriangles::narrow(const Vector3& centre, double radius, NearTriangles& to) const {
     to.clear();
     const std::optional<Hit> hit = closest(centre);
     if (!hit) return;
-    const double reach = std::sqrt(hit->at.distance_squared) + 2 * radius;
-    if (!is_complete(centre, reach)) return;
+    const double from_centre = (centre - centre_).norm(), distance = std::sqrt(hit->at.distance_squared);
+    const double most = reach_ - from_centre - 2 * tolerance_ / scale_;
+    const double reach = std::min(usual_reach(distance, radius), most);
+    if (!(reach > distance + radius / 2) || !is_complete(from_centre, reach)) return;
     to.origin_ = origin_;
     to.centre_ = centre;
     to.reach_ = reach;

@@ -2,6 +2,7 @@
 /// \file
 /// The triangles near a ball, for many closest-point queries inside it.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -25,7 +26,6 @@ public:
     struct Entry {
         engine::Vector3 a, b, c;  ///< corners
         Index face = no_index;    ///< in the caller's numbering; different for all entries
-        bool is_marked = false;   ///< for the caller
     };
     /// Result of a query.
     struct Hit {
@@ -35,6 +35,22 @@ public:
 
     /// Largest number of triangles in a list.
     static constexpr std::size_t max_size = 256;
+
+    /// What a query leaves for the next ones near it.
+    struct Recent {
+        std::size_t entry =
+            max_size;  ///< place in the list of the triangle closest to `at`; max_size: unknown
+        engine::Vector3 at = engine::Vector3::Zero();
+        double others = 0;  ///< lower bound of the distance of all other triangles of the list from `at`
+    };
+
+    /// The reach of a list with which most points of a ball have a result. It is complete for all of them with
+    /// `distance` + 2 `radius`, but then it has up to three times as many triangles.
+    /// \param distance  of the centre from the closest triangle, in model units
+    /// \param radius    of the ball, in model units
+    static double usual_reach(double distance, double radius) {
+        return std::min(distance + 2 * radius, 2 * distance + 1.25 * radius);
+    }
 
     /// Empties the list: closest() finds nothing.
     void clear() { entries_.clear(), groups_.clear(); }
@@ -47,11 +63,10 @@ public:
     /// O(entries)
     void reset(const engine::Vector3& centre, double reach, std::vector<Entry> entries);
 
-    /// Makes the list for a smaller ball from this one, with those of its triangles that can be the closest to points
-    /// of the ball.
+    /// Makes the list for a smaller ball from this one, with the usual reach or a smaller one.
     /// \param centre  of the smaller ball, finite
     /// \param radius  of the smaller ball, in model units
-    /// \param to      another list; empty if this list is not complete for the ball
+    /// \param to      another list; empty if this list is not complete for the smaller ball
     /// O(entries)
     void narrow(const engine::Vector3& centre, double radius, NearTriangles& to) const;
 
@@ -63,7 +78,13 @@ public:
     /// \param p  finite
     /// \return nothing if the list is empty, or if a triangle that is not in it may be as close
     /// O(entries)
-    std::optional<Hit> closest(const engine::Vector3& p) const;
+    std::optional<Hit> closest(const engine::Vector3& p) const {
+        Recent recent;
+        return closest(p, recent);
+    }
+    /// The same in O(1) where the triangle of a query nearby is certainly the closest.
+    /// \param recent  of the last query of this list, or of none; receives that of this query
+    std::optional<Hit> closest(const engine::Vector3& p, Recent& recent) const;
 
     /// Whether the list contains a face. O(entries)
     bool contains(Index face) const;
@@ -93,11 +114,20 @@ private:
     };
     using Bounds = std::array<Lanes, max_size / width>;
 
+    /// The two smallest bounds.
+    struct Smallest {
+        float first, second;
+    };
+
     void fill_last_group();
-    float find_bounds(const engine::Vector3& p, Bounds& bounds) const;
+    Smallest find_bounds(const engine::Vector3& p, Bounds& bounds) const;
     float bound_of(double distance) const;
-    /// Whether every triangle within a distance of p is in the list.
-    bool is_complete(const engine::Vector3& p, double distance) const;
+    double distance_of(float bound) const;
+    /// Whether every triangle within a distance of a point is in the list.
+    /// \param from_centre  distance of the point from the centre of the ball
+    bool is_complete(double from_centre, double distance) const {
+        return (from_centre + distance) * scale_ + tolerance_ < reach_ * scale_;
+    }
     template <class Visit>
     void for_each_within(const Bounds& bounds, float from, float to, Visit&& visit) const;
     void describe(const Entry& entry, Group& group, int lane) const;

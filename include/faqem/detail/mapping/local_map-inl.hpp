@@ -14,24 +14,24 @@ namespace detail {
 
 FAQEM_INLINE void LocalMap::prepare(const SurfaceMap& map, Index face, const Vec3& barycentric, double radius,
                                     const SurfacePoint& near) {
-    faces_.clear();
+    clear();
     if (const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map))
         (*projection)->find_accepted_faces(face, barycentric, radius, near, faces_);
 }
 
 FAQEM_INLINE bool LocalMap::prepare_from(const SurfaceMap& map, Index face, const Vec3& barycentric,
                                          double radius, const LocalMap& larger) {
-    faces_.clear();
+    clear();
     if (const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map))
         larger.faces_.narrow((*projection)->position_on(face, barycentric), radius, faces_);
     return !faces_.empty();
 }
 
 FAQEM_INLINE SurfacePoint LocalMap::map_near(const SurfaceMap& map, Index face, const Vec3& barycentric,
-                                             const SurfacePoint& near) const {
+                                             const SurfacePoint& near) {
     const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map);
     if (faces_.empty() || !projection) return map.map_near(face, barycentric, near);
-    return (*projection)->map_near(face, barycentric, near, faces_);
+    return (*projection)->map_near(face, barycentric, near, faces_, recent_);
 }
 
 }  // namespace detail

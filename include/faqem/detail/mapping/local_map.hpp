@@ -3,6 +3,7 @@
 /// The map from the simplified mesh to the original for many points close to each other.
 
 #include "faqem/detail/geometry/near_triangles.hpp"
+#include "faqem/detail/mapping/successive_projection.hpp"
 #include "faqem/export.hpp"
 #include "faqem/surface_map.hpp"
 
@@ -33,14 +34,20 @@ public:
     bool prepare_from(const SurfaceMap& map, Index face, const Vec3& barycentric, double radius,
                       const LocalMap& larger);
 
+    /// Number of faces that are searched for each point; 0: all, since the map is not prepared.
+    std::size_t size() const { return faces_.size(); }
+
     /// Same as SurfaceMap::map_near().
     /// \param map   as in the last call of prepare(), if any
     /// \param face  likewise
     SurfacePoint map_near(const SurfaceMap& map, Index face, const Vec3& barycentric,
-                          const SurfacePoint& near) const;
+                          const SurfacePoint& near);
 
 private:
+    void clear() { faces_.clear(), recent_ = {}; }
+
     NearTriangles faces_;
+    SuccessiveProjection::Recent recent_;
 };
 
 }  // namespace detail

@@ -173,22 +173,26 @@ FAQEM_INLINE ClosestPoint SuccessiveProjection::on_original(Index face, const Ve
                                      to_eigen(history_.positions[t[1]]), to_eigen(history_.positions[t[2]]));
 }
 
+FAQEM_INLINE bool SuccessiveProjection::is_accepted(const Bvh::Corners& t, const Query& query) const {
+    return surface_patches_.surface_patch[t.face] == query.surface_patch && group(t.face) == query.group &&
+           !is_facing_away(t.face, engine::area_vector(t.a, t.b, t.c), query);
+}
+
 FAQEM_INLINE bool SuccessiveProjection::is_accepted(Index f, const Query& query) const {
-    if (surface_patches_.surface_patch[f] != query.surface_patch || group(f) != query.group) return false;
     const Triangle& t = history_.triangles[f];
-    return !is_facing_away(
-        f,
-        engine::area_vector(to_eigen(history_.positions[t[0]]), to_eigen(history_.positions[t[1]]),
-                            to_eigen(history_.positions[t[2]])),
-        query);
+    if (t[0] == no_index) return false;
+    return is_accepted({to_eigen(history_.positions[t[0]]), to_eigen(history_.positions[t[1]]),
+                        to_eigen(history_.positions[t[2]]), f},
+                       query);
 }
 
 // Whether a corner of the original face was collapsed into a corner of the simplified face.
-FAQEM_INLINE bool SuccessiveProjection::is_preimage_face(Index original_face, const Query& query) const {
+// \param corners  versions of the simplified face
+FAQEM_INLINE bool SuccessiveProjection::is_preimage_face(Index original_face, const Triangle& corners) const {
     const Triangle& t = history_.triangles[original_face];
     return std::any_of(t.begin(), t.end(), [&](Index v) {
         const Index last = last_[v];
-        return last == query.corners[0] || last == query.corners[1] || last == query.corners[2];
+        return last == corners[0] || last == corners[1] || last == corners[2];
     });
 }
 
@@ -199,7 +203,8 @@ Bvh::Hit SuccessiveProjection::closest_accepted_if(const Query& query, double di
     const std::span<const Index> surface_patch = surface_patches_.of(query.surface_patch);
     if (surface_patch.size() > small_surface_patch) {
         return tree_.closest_if(
-            to_array(query.p0), [&](Index f) { return filter(f) && is_accepted(f, query); }, distance_squared,
+            to_array(query.p0),
+            [&](const Bvh::Corners& t) { return filter(t.face) && is_accepted(t, query); }, distance_squared,
             max_rejections);
     }
     Bvh::Hit best;
@@ -221,8 +226,8 @@ FAQEM_INLINE Bvh::Hit SuccessiveProjection::closest_accepted(const Query& query,
 
 FAQEM_INLINE SurfacePoint SuccessiveProjection::closest_preimage_face(const Query& query,
                                                                       double distance_squared) const {
-    const Bvh::Hit hit =
-        closest_accepted_if(query, distance_squared, [&](Index f) { return is_preimage_face(f, query); });
+    const Bvh::Hit hit = closest_accepted_if(query, distance_squared,
+                                             [&](Index f) { return is_preimage_face(f, query.corners); });
     return {hit.face, hit.barycentric, MapStep::closest};
 }
 
@@ -278,7 +283,7 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map(Index face, const Vec3& bary
     const Query query = make_query(face, barycentric);
     const double close = near_threshold * query.longest_edge;
     const Bvh::Hit hit = closest_accepted(query, close * close);
-    if (hit.face == no_index || !is_preimage_face(hit.face, query)) return map_by_walk(face, query);
+    if (hit.face == no_index || !is_preimage_face(hit.face, query.corners)) return map_by_walk(face, query);
     return {hit.face, hit.barycentric, MapStep::history};
 }
 
@@ -291,8 +296,8 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3&
     if (hit.face == no_index) return {near.face, to_array(here.barycentric), near.step};
     // In flat regions most faces are not preimage faces. Without the walk, all following points would keep
     // the face of `near`.
-    return is_preimage_face(hit.face, query) ? SurfacePoint{hit.face, hit.barycentric, near.step}
-                                             : map_by_walk(face, query);
+    return is_preimage_face(hit.face, query.corners) ? SurfacePoint{hit.face, hit.barycentric, near.step}
+                                                     : map_by_walk(face, query);
 }
 
 FAQEM_INLINE void SuccessiveProjection::find_accepted_faces(Index face, const Vec3& barycentric,
@@ -301,12 +306,10 @@ FAQEM_INLINE void SuccessiveProjection::find_accepted_faces(Index face, const Ve
     faces.clear();
     const Query query = make_query(face, barycentric);
     if (!is_accepted(near.face, query)) return;
-    // The closest face of a point of the ball is at most this much farther from the centre than the centre's.
-    const double slack = 2 * radius;
     double least = std::sqrt(on_original(near.face, query.p0).distance_squared);
     struct Candidate {
-        Index face;
-        double distance;
+        const Bvh::Corners* face;
+        double distance_squared;  // or that of its bounding box
     };
     std::vector<Candidate> candidates;
     std::size_t rejections = 0;
@@ -314,43 +317,51 @@ FAQEM_INLINE void SuccessiveProjection::find_accepted_faces(Index face, const Ve
     const auto is_too_long = [&] {
         return rejections >= max_rejections || candidates.size() > 2 * NearTriangles::max_size;
     };
+    const auto reach_squared = [&] {
+        const double reach = NearTriangles::usual_reach(least, radius);
+        return reach * reach;
+    };
     constexpr double stop_search = -1;
-    const auto limit = [&] { return is_too_long() ? stop_search : (least + slack) * (least + slack); };
-    tree_.visit_near(to_array(query.p0), limit, [&](Index f) {
-        const double distance = std::sqrt(on_original(f, query.p0).distance_squared);
-        if (!(distance <= least + slack)) return;
-        if (!is_accepted(f, query)) {
-            ++rejections;
-            return;
-        }
-        least = std::min(least, distance);
-        candidates.push_back({f, distance});
-    });
+    tree_.visit_near(
+        to_array(query.p0), [&] { return is_too_long() ? stop_search : reach_squared(); },
+        [&](const Bvh::Corners& t, double distance_squared) {
+            if (!is_accepted(t, query)) {
+                ++rejections;
+                return;
+            }
+            if (distance_squared < least * least) {
+                distance_squared = closest_point_on_triangle(query.p0, t.a, t.b, t.c).distance_squared;
+                least = std::min(least, std::sqrt(distance_squared));
+            }
+            candidates.push_back({&t, distance_squared});
+        });
     if (is_too_long()) return;
-    const double reach = least + slack;
-    std::erase_if(candidates, [&](const Candidate& c) { return !(c.distance <= reach); });
+    const double farthest = reach_squared();
+    std::erase_if(candidates, [&](const Candidate& c) { return !(c.distance_squared <= farthest); });
     if (candidates.size() > NearTriangles::max_size) return;
     std::vector<NearTriangles::Entry> entries;
     entries.reserve(candidates.size());
-    for (const Candidate& c : candidates) {
-        const Triangle& t = history_.triangles[c.face];
-        entries.push_back({to_eigen(history_.positions[t[0]]), to_eigen(history_.positions[t[1]]),
-                           to_eigen(history_.positions[t[2]]), c.face, is_preimage_face(c.face, query)});
-    }
-    faces.reset(query.p0, reach, std::move(entries));
+    for (const Candidate& c : candidates) entries.push_back({c.face->a, c.face->b, c.face->c, c.face->face});
+    faces.reset(query.p0, NearTriangles::usual_reach(least, radius), std::move(entries));
 }
 
 FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3& barycentric,
-                                                         const SurfacePoint& near,
-                                                         const NearTriangles& faces) const {
-    const std::optional<NearTriangles::Hit> hit = faces.closest(replay_.position_on(face, barycentric));
+                                                         const SurfacePoint& near, const NearTriangles& faces,
+                                                         Recent& recent) const {
+    const std::optional<NearTriangles::Hit> hit =
+        faces.closest(replay_.position_on(face, barycentric), recent.search);
     if (!hit) return map_near(face, barycentric, near);
+    const Index found = hit->entry->face;
+    if (recent.face != found) {
+        recent.face = found;
+        recent.is_preimage = is_preimage_face(found, replay_.kept_corners[face]);
+    }
     // All faces of the list are accepted.
-    if (near.face != hit->entry->face && !faces.contains(near.face) &&
+    if (near.face != found && !faces.contains(near.face) &&
         !is_accepted(near.face, make_query(face, barycentric)))
         return map(face, barycentric);
-    if (!hit->entry->is_marked) return map_by_walk(face, make_query(face, barycentric));
-    return {hit->entry->face, to_array(hit->at.barycentric), near.step};
+    if (!recent.is_preimage) return map_by_walk(face, make_query(face, barycentric));
+    return {found, to_array(hit->at.barycentric), near.step};
 }
 
 }  // namespace detail

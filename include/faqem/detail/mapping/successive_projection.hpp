@@ -64,8 +64,7 @@ public:
     /// face is not a preimage face.
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near) const;
 
-    /// Finds the accepted faces that can be the closest to points of a simplified face within a ball, marked if they
-    /// are preimage faces.
+    /// Finds the accepted faces that can be the closest to most points of a simplified face within a ball.
     /// \param face         face of the simplified mesh
     /// \param barycentric  weights of its three corners at the centre of the ball; may be negative, sum 1
     /// \param radius       of the ball, in model units
@@ -74,9 +73,17 @@ public:
     void find_accepted_faces(Index face, const Vec3& barycentric, double radius, const SurfacePoint& near,
                              NearTriangles& faces) const;
 
+    /// What a call of map_near() with a list of faces leaves for the next one.
+    struct Recent {
+        NearTriangles::Recent search;
+        Index face = no_index;     ///< of the original: the last one found
+        bool is_preimage = false;  ///< whether that is a preimage face
+    };
+
     /// Same result as map_near(), faster with the faces that find_accepted_faces() found for a ball around the point.
+    /// \param recent  of the last call with the same list and simplified face, or of none
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near,
-                          const NearTriangles& faces) const;
+                          const NearTriangles& faces, Recent& recent) const;
 
     /// Position of a point of the simplified mesh.
     /// \param face         face of the simplified mesh
@@ -102,9 +109,10 @@ private:
     Bvh::Hit closest_accepted_if(const Query& query, double distance_squared, Filter&& filter) const;
     Bvh::Hit closest_accepted(const Query& query, double distance_squared) const;
     SurfacePoint closest_preimage_face(const Query& query, double distance_squared) const;
-    bool is_preimage_face(Index original_face, const Query& query) const;
+    bool is_preimage_face(Index original_face, const Triangle& corners) const;
     ClosestPoint on_original(Index face, const engine::Vector3& p0) const;
     bool is_accepted(Index original_face, const Query& query) const;
+    bool is_accepted(const Bvh::Corners& original_face, const Query& query) const;
     Index group(Index f) const { return history_.face_groups.empty() ? 0 : history_.face_groups[f]; }
 
     const CollapseHistory& history_;

@@ -125,9 +125,9 @@ inline std::vector<CandidateEdge> candidate_edges(const CollapseMesh& mesh, cons
         NearestInOtherComponents nearest(all.component_of, all.component_of[i], distance * distance);
         tree.visit_near(
             engine::to_array(all.positions[i]), [&] { return nearest.limit(); },
-            [&](Index point) {
-                const Vector3 d = all.positions[point] - all.positions[i];
-                nearest.add(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), point);
+            [&](const Bvh::Corners& point, double) {
+                const Vector3 d = point.a - all.positions[i];
+                nearest.add(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), point.face);
             });
         for (const auto& hit : nearest.hits()) {
             const Index w = all.vertices[hit.point];
