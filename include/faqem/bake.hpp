@@ -58,6 +58,9 @@ struct SimplifiedAsset {
 /// each part then gets at least 4 faces (or all it has) for each of its connected components. In both cases
 /// no part gets fewer than 4 faces (or all it has), so the total may exceed the target.
 ///
+/// If the asset is a glTF scene with coarser levels of detail (MSFT_lod), these are left out, with a warning in the
+/// report: their parts get no faces, and what save() writes of a result has neither their nodes nor the extension.
+///
 /// For Options::max_error every part is measured against its original, in scene units: a part counts at the
 /// largest scale of its instances, and at scale 1 if it has none.
 ///

@@ -25,7 +25,8 @@ struct SavedLevel {
 /// levels, which are not part of a scene; viewers without the extension show the first level. The coverages
 /// are written as MSFT_screencoverage, at most 1 and non-increasing, the last one 0. If a node has a
 /// transform, children, a camera or an animation, its mesh is moved to a new child node, so that the nodes of
-/// the other levels need no transform. Identical images are stored once.
+/// the other levels need no transform. Identical images are stored once. Coarser levels that an asset has already are
+/// left out.
 /// \param levels     from fine to coarse, at least one, with the same parts in the same order
 /// \param file       name ending in .glb or .gltf
 /// \param overwrite  whether existing files may be replaced

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "asset/file_format.hpp"
+#include "asset/finest_level.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/objects.hpp"
@@ -91,6 +92,7 @@ std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::p
                                "cannot hold levels: the name must end in " +
                                    detail::listed_extensions(detail::FormatUse::write_levels));
     check_levels(levels);
+    for (SavedLevel& level : levels) detail::keep_finest_level(level.asset);
     for (SavedLevel& level : levels) divide_into_objects(level);
     check_levels(levels);
     const std::size_t parts = levels[0].asset.parts.size();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asset/file_format.hpp"
+#include "asset/finest_level.hpp"
 #include "asset/model_files.hpp"
 #include "asset/scene/messages.hpp"
 #include "cli/file_stamp.hpp"
@@ -16,6 +17,8 @@ namespace faqem::cli {
 
 Asset load_model(const std::filesystem::path& file, Strictness strictness) {
     Asset asset = load(file);
+    const std::string left_out = detail::keep_finest_level(asset);
+    if (!left_out.empty()) asset.warnings.push_back(file.string() + ": " + left_out);
     std::uint64_t faces = 0;
     for (const Part& part : asset.parts) faces += part.triangles.size();
     if (faces == 0) throw InputError(file.string(), "", "has no triangles");

@@ -212,6 +212,17 @@ void gltf_seeds() {
         {"TRANSLATION", instances.accessor(moves, testing::f32, "VEC3")}, {"ROTATION", turn}};
     instances.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
     write("instances", instances);
+    testing::GltfBuilder levels = rich_gltf();
+    levels.json["meshes"].push_back(levels.json["meshes"][0]);
+    const std::size_t first = levels.json["nodes"].size();
+    levels.json["nodes"].push_back({{"mesh", 1}, {"name", "coarser"}, {"children", {first + 1}}});
+    levels.json["nodes"].push_back(testing::Json::object());
+    levels.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {first};
+    levels.json["nodes"][0]["extras"] = {{"MSFT_screencoverage", {0.5, 0}}};
+    levels.json["materials"].push_back(testing::Json::object());
+    levels.json["materials"][0]["extensions"]["MSFT_lod"]["ids"] = {levels.json["materials"].size() - 1};
+    levels.json["extensionsUsed"].push_back("MSFT_lod");
+    write("levels", levels);
 #ifdef FAQEM_WITH_DRACO
     for (const testing::Method method : {testing::Method::edgebreaker, testing::Method::sequential})
         for (const int bits : {0, 11})

@@ -70,8 +70,15 @@ class Models(unittest.TestCase):
             with self.assertRaises(faqem.OptionError):
                 faqem.save_levels([coloured], chain, overwrite=True, **wrong)
 
-        both = faqem.load(chain)
         texture = {"texture_size": 64}
+        finest = faqem.bake(faqem.load(chain), ratio=0.5, **texture)
+        self.assertEqual(finest.report["faces_in"], 288)
+        self.assertTrue(any("1 coarser level of 1 node (MSFT_lod)" in w for w in finest.report["warnings"]))
+
+        # Without the extension the meshes of the levels have nothing to do with each other.
+        separate = self.folder / "separate.glb"
+        separate.write_bytes(chain.read_bytes().replace(b"MSFT_lod", b"EXT_none"))
+        both = faqem.load(separate)
         levels = faqem.bake_levels(both, [200, 40], history=True, **texture)
         file = self.folder / "both.history"
         faqem.History.of(levels).save(file)

@@ -32,6 +32,24 @@ std::string string_member(const Json& object, const char* key) {
     return value.is_string() ? value.get<std::string>() : std::string();
 }
 
+const Json& level_ids(const Json& object) {
+    return member(member(member(object, "extensions"), lod_name), "ids");
+}
+
+std::string animated_pointer(const Json& channel) {
+    return string_member(member(member(member(channel, "target"), "extensions"), "KHR_animation_pointer"),
+                         "pointer");
+}
+
+Index pointed_node(std::string_view pointer) {
+    constexpr std::string_view nodes = "/nodes/";
+    if (!pointer.starts_with(nodes)) return no_index;
+    Index node = no_index;
+    const char* const end = pointer.data() + pointer.size();
+    const auto [last, error] = std::from_chars(pointer.data() + nodes.size(), end, node);
+    return error == std::errc() && last != end && *last == '/' ? node : no_index;
+}
+
 std::string child_path(const std::string& where, std::uint64_t index) {
     return where + "/" + std::to_string(index);
 }

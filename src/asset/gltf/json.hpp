@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "faqem/export.hpp"
@@ -19,6 +20,10 @@ using Json = nlohmann::json;
 /// Names of the extensions that compress geometry.
 inline constexpr const char* meshopt_name = "EXT_meshopt_compression";
 inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
+
+/// Name of the extension that gives a node or a material coarser levels of detail, and of the extras beside it.
+inline constexpr const char* lod_name = "MSFT_lod";
+inline constexpr const char* coverage_name = "MSFT_screencoverage";
 
 /// Extensions of textures whose images have other media types than PNG and JPEG, with these types.
 struct ImageExtension {
@@ -42,6 +47,15 @@ FAQEM_EXPORT std::uint64_t unsigned_member(const Json& object, const char* key, 
 
 /// The string stored under `key`, or an empty string.
 std::string string_member(const Json& object, const char* key);
+
+/// The indices of the coarser levels of a node or material by MSFT_lod; null if it has none.
+const Json& level_ids(const Json& object);
+
+/// The JSON pointer that a channel of an animation targets by KHR_animation_pointer, or an empty string.
+std::string animated_pointer(const Json& channel);
+
+/// The node to whose members a JSON pointer points; no_index if there is none.
+Index pointed_node(std::string_view pointer);
 
 /// Appends a step to a JSON pointer: "/accessors" and 3 give "/accessors/3".
 std::string child_path(const std::string& where, std::uint64_t index);

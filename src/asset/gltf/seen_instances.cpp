@@ -20,12 +20,12 @@ using Matrix4 = std::array<double, 16>;
 using NodeScales = std::vector<std::optional<std::array<double, 3>>>;
 
 // The node whose scale a channel animates, or no_index.
-Index scaled_node(const Json& target, std::size_t nodes) {
+Index scaled_node(const Json& channel, std::size_t nodes) {
+    const Json& target = member(channel, "target");
     const std::string path = string_member(target, "path");
     if (path == "scale") return index_member(target, "node");
     if (path != "pointer") return no_index;
-    const Json& extension = member(member(target, "extensions"), "KHR_animation_pointer");
-    const std::string pointer = string_member(extension, "pointer");
+    const std::string pointer = animated_pointer(channel);
     // Only its own indices give the text that is compared: 01 or 1e0 do not.
     const std::string before = "/nodes/";
     if (pointer.compare(0, before.size(), before) != 0) return no_index;
@@ -52,7 +52,7 @@ NodeScales largest_scales(const SourceDocument& source) {
     NodeScales scales(nodes.size());
     for (const Json& animation : member(source.document, "animations")) {
         for (const Json& channel : member(animation, "channels")) {
-            const Index node = scaled_node(member(channel, "target"), nodes.size());
+            const Index node = scaled_node(channel, nodes.size());
             if (node == no_index) continue;
             if (!scales[node]) {
                 scales[node] = {1, 1, 1};

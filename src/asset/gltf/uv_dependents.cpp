@@ -13,8 +13,7 @@ std::vector<std::uint8_t> materials_with_moving_textures(const Json& document) {
     std::vector<std::uint8_t> result(array_size(document, "materials"), 0);
     for (const Json& animation : member(document, "animations")) {
         for (const Json& channel : member(animation, "channels")) {
-            const Json& extensions = member(member(channel, "target"), "extensions");
-            const std::string pointer = string_member(member(extensions, "KHR_animation_pointer"), "pointer");
+            const std::string pointer = animated_pointer(channel);
             if (pointer.find("/KHR_texture_transform/") == std::string::npos) continue;
             for (std::size_t m = 0; m < result.size(); ++m)
                 if (pointer.starts_with("/materials/" + std::to_string(m) + "/")) result[m] = 1;

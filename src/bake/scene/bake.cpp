@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "asset/finest_level.hpp"
 #include "asset/scene/messages.hpp"
 #include "bake/keep/kept_images.hpp"
 #include "bake/keep/kept_parts.hpp"
@@ -169,7 +171,7 @@ void keep_all_parts(const Asset& source, const SimplifiedParts& simplified, cons
     progress.report(Phase::bake, 1);
 }
 
-// Calls work(options, progress, result) for a result that has the report of the geometry stage and the data of the file.
+// Calls work(progress, result) for a result that has the report of the geometry stage and the data of the file.
 template <class Work>
 UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified, const Options& options,
                          const Work& work) {
@@ -195,10 +197,12 @@ UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified,
 
 }  // namespace
 
-UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
+UnencodedResult bake_unencoded(const Asset& given, const SimplifiedParts& simplified,
                                const Options& requested) {
     validate(requested);
-    check_asset(source);
+    check_asset(given);
+    const std::optional<FinestLevel> finest = finest_level(given);
+    const Asset& source = finest ? finest->asset : given;
     const Options options = bakeable_options(source, requested);
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
         throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
@@ -211,10 +215,12 @@ UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simpl
     });
 }
 
-UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simplified,
+UnencodedResult bake_with_uvs(const Asset& given, const SimplifiedParts& simplified,
                               const Options& requested) {
     validate(requested);
-    check_asset(source);
+    check_asset(given);
+    const std::optional<FinestLevel> finest = finest_level(given);
+    const Asset& source = finest ? finest->asset : given;
     Options options = requested;
     options.bake.kind = Bake::keep;
     return run_bake(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {

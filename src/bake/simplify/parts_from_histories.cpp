@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "asset/finest_level.hpp"
 #include "faqem/error.hpp"
 #include "faqem/truncate.hpp"
 
@@ -44,7 +46,9 @@ SimplifiedParts parts_from_histories(std::vector<CollapseHistory> cuts) {
     return simplified;
 }
 
-void check_source_matches_histories(const Asset& source, const SimplifiedParts& simplified) {
+void check_source_matches_histories(const Asset& given, const SimplifiedParts& simplified) {
+    const std::optional<FinestLevel> finest = finest_level(given);
+    const Asset& source = finest ? finest->asset : given;
     if (source.parts.size() != simplified.parts.size())
         throw InputError("", "", "the number of meshes differs from that of the history");
     for (std::size_t p = 0; p < source.parts.size(); ++p) {

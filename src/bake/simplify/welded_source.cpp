@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "asset/finest_level.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/rounding_weld.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
@@ -18,16 +19,20 @@ bool welds_equal_positions_only(const Options& options) {
 
 }  // namespace
 
-WeldedSource::WeldedSource(const Asset& source, const Options& options) : source_(source) {
+WeldedSource::WeldedSource(const Asset& given, const Options& options) : source_(given) {
+    if (std::optional<FinestLevel> finest = finest_level(given)) {
+        copy_ = std::move(finest->asset);
+        if (!finest->warning.empty()) warnings_.push_back(std::move(finest->warning));
+    }
     if (!welds_equal_positions_only(options)) return;
     const Stopwatch watch;
-    for (std::size_t p = 0; p < source.parts.size(); ++p) {
-        const Part& part = source.parts[p];
+    for (std::size_t p = 0; p < given.parts.size(); ++p) {
+        const Part& part = asset().parts[p];
         const RoundingWeld found = find_rounding_weld(part.positions, part.triangles);
         for (const std::string& message : rounding_messages(found))
-            warnings_.push_back(part_title(source, p) + ": " + message);
+            warnings_.push_back(part_title(given, p) + ": " + message);
         if (found.representative.empty()) continue;
-        if (!copy_) copy_ = source;
+        if (!copy_) copy_ = given;
         apply_rounding_weld(found, copy_->parts[p].positions);
     }
     seconds_ = watch.seconds();

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The asset that is simplified: vertices whose positions differ by rounding are at one position.
+/// The asset that is simplified: without coarser levels of detail, and with vertices whose positions differ by rounding
+/// at one position.
 
 #include <optional>
 #include <string>
@@ -12,13 +13,14 @@
 
 namespace faqem::detail {
 
-/// The source or, where positions differ by rounding, a copy in which they are welded (weld_rounded_positions()). With
-/// Weld::none, a weld_distance, and presets that have one, the source is used as it is.
+/// The source or, if it has coarser levels (finest_level()) or positions that differ by rounding, a copy without these
+/// levels in which the positions are welded (weld_rounded_positions()). With Weld::none, a weld_distance, and presets
+/// that have one, no positions are.
 class WeldedSource {
 public:
-    /// \param source  must have passed check_asset(), and outlive this
+    /// \param given  must have passed check_asset(), and outlive this
     /// Complexity: O(n) expected
-    WeldedSource(const Asset& source, const Options& options);
+    WeldedSource(const Asset& given, const Options& options);
     WeldedSource(const WeldedSource&) = delete;
     WeldedSource& operator=(const WeldedSource&) = delete;
 

@@ -1,10 +1,13 @@
 #include "faqem/bake_levels.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
+#include "faqem/save_levels.hpp"
 #include "support/catch.hpp"
+#include "support/format_support.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;
@@ -237,4 +240,48 @@ TEST_CASE("invalid levels of an asset are rejected") {
     CHECK_THROWS_AS(simplify_levels(asset, {ratio(0.1), ratio(0.5)}, plain()), OptionError);
     asset.parts[0].triangles[0][0] = 1000;
     CHECK_THROWS_AS(simplify_levels(asset, {ratio(0.1)}, plain()), InputError);
+}
+
+TEST_CASE("a scene with coarser levels gives what its finest level alone gives, with a warning") {
+    const testing::TemporaryFolder folder;
+    Asset one;
+    one.parts = {rolling_sheet(12, 0.2, 0), rolling_sheet(8, 0.1, 2)};
+    save(one, folder / "one.glb");
+    one = load(folder / "one.glb");
+    std::vector<SavedLevel> saved = {{one, {1, 1}}};
+    for (SimplifiedAssetLevel& level : simplify_levels(one, {ratio(0.5), ratio(0.2)}, plain()))
+        saved.push_back({std::move(level.result.asset), {0.5, 0.5}});
+    save_levels(saved, folder / "chain.glb");
+    const Asset chain = load(folder / "chain.glb");
+    REQUIRE(chain.parts.size() == 6);
+    const auto warns = [](const Report& report) {
+        return std::count(report.warnings.begin(), report.warnings.end(),
+                          "4 coarser levels of 2 nodes (MSFT_lod) left out: the finest one is simplified");
+    };
+    const auto check_equal = [&](const SimplifiedAsset& of_chain, const SimplifiedAsset& of_one) {
+        CHECK(warns(of_chain.report) == 1);
+        CHECK(of_chain.report.faces_in == of_one.report.faces_in);
+        REQUIRE(of_chain.asset.parts.size() == 6);
+        for (std::size_t p = 0; p < 2; ++p) {
+            CHECK(of_chain.asset.parts[p].positions == of_one.asset.parts[p].positions);
+            CHECK(of_chain.asset.parts[p].triangles == of_one.asset.parts[p].triangles);
+        }
+        for (std::size_t p = 2; p < 6; ++p) CHECK(of_chain.asset.parts[p].triangles.empty());
+        save(of_chain.asset, folder / "a.glb", Overwrite::yes);
+        CHECK(load(folder / "a.glb").parts.size() == 2);
+    };
+    Options options = plain();
+    options.target = ratio(0.3);
+    check_equal(simplify(chain, options), simplify(one, options));
+    const SimplifiedParts parts = simplify_parts(chain, options);
+    REQUIRE(parts.parts.size() == 6);
+    check_equal(bake(chain, parts, options), bake(one, simplify_parts(one, options), options));
+    for (const LevelTextures textures : {LevelTextures::each, LevelTextures::shared}) {
+        Options of_levels;
+        of_levels.bake.texture_size = 64;
+        const auto levels = simplify_levels(chain, wanted_levels, of_levels, textures);
+        const auto expected = simplify_levels(one, wanted_levels, of_levels, textures);
+        REQUIRE(levels.size() == 3);
+        for (std::size_t i = 0; i < 3; ++i) check_equal(levels[i].result, expected[i].result);
+    }
 }

@@ -187,6 +187,46 @@ TEST_CASE("lod --one-file writes all levels to one file whose scene has the fine
     CHECK(run(folder, "lod hill.glb one --one-file --format ply").code == 2);
 }
 
+TEST_CASE("a file with levels is simplified from the finest one in every command") {
+    const Folder folder;
+    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    const std::string options = " --levels 0.5,0.1 --texture-size 128";
+    REQUIRE(run(folder, "lod hill.glb . --one-file" + options).code == 0);
+    const std::string warning = "2 coarser levels of 1 node (MSFT_lod) left out";
+    for (const std::string bake : {"auto", "none", "keep", "atlas"}) {
+        CAPTURE(bake);
+        const std::string to = ".glb --force --allow-larger --ratio 0.3 --texture-size 128 --bake " + bake;
+        REQUIRE(run(folder, "simplify hill.glb one" + to).code == 0);
+        const Outcome chain = run(folder, "simplify hill_LOD.glb chain" + to);
+        CHECK(chain.code == 0);
+        CHECK(chain.out.find(warning) != std::string::npos);
+        CHECK(chain.out.find("\n1152 -> ") != std::string::npos);
+        const bool is_same = read(folder / "chain.glb") == read(folder / "one.glb");
+        CHECK(is_same);
+    }
+    const Outcome strict = run(folder, "simplify hill_LOD.glb x.glb --ratio 0.3 --strict");
+    CHECK(strict.code == 3);
+    CHECK(strict.err.find(warning) != std::string::npos);
+
+    const Outcome again = run(folder, "lod hill_LOD.glb again --one-file --history h.bin" + options);
+    CHECK(again.code == 0);
+    CHECK(again.out.find(warning) != std::string::npos);
+    const bool is_same = read(folder / "again/hill_LOD_LOD.glb") == read(folder / "hill_LOD.glb");
+    CHECK(is_same);
+    const Outcome cut =
+        run(folder, "truncate h.bin cut.glb --source hill_LOD.glb --faces 200 --texture-size 128");
+    CHECK(cut.code == 0);
+    CHECK(cut.out.find(warning) != std::string::npos);
+    CHECK(faqem::load(folder / "cut.glb").parts.size() == 1);
+
+    fs::create_directory(folder / "in");
+    fs::copy_file(folder / "hill_LOD.glb", folder / "in/hill_LOD.glb");
+    const Outcome batch = run(folder, "batch in out --ratio 0.3 --texture-size 128");
+    CHECK(batch.code == 0);
+    CHECK(batch.out.find(warning) != std::string::npos);
+    CHECK(batch.out.find("\"faces_in\":1152") != std::string::npos);
+}
+
 TEST_CASE("a level pixels:N@D is the error that covers N pixels at distance D") {
     using namespace faqem::cli;
     const ViewSettings view_settings{1, 90, 1000};  // 2 units cover 1000 pixels at distance 1

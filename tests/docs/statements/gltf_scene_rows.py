@@ -147,6 +147,39 @@ def metadata(runs):
     expect("extensions" not in baked.primitive() and baked.warns("EXT_structural_metadata"), "left out with new UVs")
 
 
+@row("MSFT_lod")
+def levels_of_detail(runs):
+    glb = textured(PATTERN)
+    fine = primitive_of(glb)
+    positions, uvs, triangles = grid(4)
+    glb.add("meshes", {"primitives": [{
+        "attributes": {"POSITION": glb.accessor(positions), "TEXCOORD_0": glb.accessor(uvs)},
+        "indices": glb.accessor([i for t in triangles for i in t], "I"), "material": 1}]})
+    for name in ("coarse", "far"):
+        glb.add("materials", {"name": name})
+    glb.json["nodes"] += [{"name": "coarse", "mesh": 1}, {"name": "coarsest"}]
+    glb.json["nodes"][0]["extensions"] = {"MSFT_lod": {"ids": [1, 2]}}
+    glb.json["nodes"][0]["extras"] = {"MSFT_screencoverage": [0.5, 0.1, 0]}
+    glb.json["materials"][fine["material"]]["extensions"] = {"MSFT_lod": {"ids": [2]}}
+    glb.json["extensionsRequired"] = ["MSFT_lod"]
+    write(runs, glb, ["MSFT_lod"])
+    expect_no_warning(runs)
+    expect([p["faces"] for p in runs.info("a.glb")["parts"]] == [128, 32], "`info` lists all")
+    for gltf in three(runs):
+        expect(gltf.warns("2 coarser levels of 1 node and 1 coarser level of 1 material"), "a warning counts them")
+        expect(len(gltf.json["meshes"]) == len(gltf.json["nodes"]) == len(gltf.json["materials"]) == 1, "one level")
+        expect("extensionsUsed" not in gltf.json and "extras" not in gltf.json["nodes"][0], "no trace of levels")
+    expect(runs.is_strict("a.glb"), "--strict")
+    done = runs.run("lod", "a.glb", "levels", "--levels", "0.5,0.25,0.1", "--one-file", "--force", "--quiet")
+    expect(done.returncode == 0, done.stderr.decode())
+    levels = type(gltf)(runs.read("levels/a_LOD.glb"), {"warnings": []})
+    expect(levels.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] == [1, 2, 3], "`lod` writes new ones")
+    expect(len(levels.json["meshes"]) == 4, "of the finest level")
+    glb.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = [9]
+    write(runs, glb)
+    expect(runs.run("info", "a.glb").returncode == 3, "code 3 for a level that does not exist")
+
+
 @row("other extensions")
 def unknown(runs):
     glb = gltf_grid(RED)

@@ -117,6 +117,7 @@ bool is_core_texture(const std::string& key) {
 }
 
 void check_material(const GltfChecker& checker, const Json& material, const std::string& where) {
+    checker.check_levels(material, where, "materials");
     const Json& pbr = checker.object(material, where, "pbrMetallicRoughness");
     checker.check_number_array(pbr, where + "/pbrMetallicRoughness", "baseColorFactor", 4);
     checker.check_number_array(material, where, "emissiveFactor", 3);

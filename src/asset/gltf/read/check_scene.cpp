@@ -52,6 +52,7 @@ void check_node(const GltfChecker& checker, const Json& node, const std::string&
     checker.check_number_array(node, where, "scale", 3);
     checker.array(node, where, "weights");
     checker.object(node, where, "extensions");
+    checker.check_levels(node, where, "nodes");
 }
 
 void check_instance_counts(const GltfChecker& checker, const Json& nodes) {

@@ -44,6 +44,8 @@ struct GltfChecker {
     const Json& array(const Json& object, const std::string& where, const char* key) const;
     /// The object under `key`; null if the key is absent.
     const Json& object(const Json& parent, const std::string& where, const char* key) const;
+    /// Checks that the coarser levels of a node or material (MSFT_lod) are indices into the top-level array `array`.
+    void check_levels(const Json& object, const std::string& where, const char* array) const;
     /// Checks that the value under `key`, if present, is an array of exactly `size` numbers.
     void check_number_array(const Json& object, const std::string& where, const char* key,
                             std::uint64_t size) const;

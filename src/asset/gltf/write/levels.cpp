@@ -12,8 +12,6 @@ namespace faqem::detail {
 
 namespace {
 
-constexpr const char* lod_extension = "MSFT_lod";
-
 /// Whether the mesh of a node must be moved to a child node. Otherwise the nodes of the other levels, which
 /// are not in the scene, would need copies of its transform, children, camera or animation.
 bool needs_child_node(const Json& node, bool is_animated) {
@@ -83,10 +81,10 @@ void attach_levels(GltfWriter& writer, const LeveledAsset& leveled, const std::v
         }
         if (ids.empty()) continue;
         Json& json = writer.out["nodes"][mesh_node];
-        json["extensions"][lod_extension] = {{"ids", std::move(ids)}};
+        json["extensions"][lod_name] = {{"ids", std::move(ids)}};
         const Json& extras = member(json, "extras");
         if (extras.is_null() || extras.is_object())  // extras may be of any JSON type
-            json["extras"]["MSFT_screencoverage"] = leveled.coverage[part];
+            json["extras"][coverage_name] = leveled.coverage[part];
     }
 }
 

@@ -208,6 +208,18 @@ void write_unlit(Json& json, bool unlit) {
     if (json.contains("extensions") && json["extensions"].empty()) json.erase("extensions");
 }
 
+/// Writes the coarser levels of a material, too. One that is being written already refers back to itself: it is left
+/// out.
+void write_levels_of_material(GltfWriter& writer, Json& json) {
+    if (level_ids(json).is_null()) return;
+    Json ids = Json::array();
+    for (const Json& id : level_ids(json)) {
+        const Index level = write_source_material(writer, id.get<Index>());
+        if (level != no_index) ids.push_back(level);
+    }
+    json["extensions"][lod_name]["ids"] = std::move(ids);
+}
+
 Json material_json(GltfWriter& writer, const Material& material) {
     const bool has_source = material.source < writer.source.materials.size();
     static const Material default_value;
@@ -231,6 +243,7 @@ Json material_json(GltfWriter& writer, const Material& material) {
     write_unknown_textures(writer, material, json);
     write_extensions(writer, material, original, json);
     write_unlit(json, material.unlit);
+    write_levels_of_material(writer, json);
     return json;
 }
 
@@ -260,6 +273,7 @@ Index write_source_material(GltfWriter& writer, Index material) {
         for (auto& [name, extension] : json["extensions"].items())
             remap_textures(writer, {}, name, extension);
     }
+    write_levels_of_material(writer, json);
     entry->second = append(writer, "materials", std::move(json));
     return entry->second;
 }

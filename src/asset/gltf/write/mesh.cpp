@@ -276,8 +276,11 @@ void write_meshes(GltfWriter& writer, std::vector<Index>& new_meshes) {
     std::vector<std::vector<const Part*>> parts_of(sources.size());
     for (const Part& part : writer.asset.parts)
         if (part.source < parts_of.size()) parts_of[part.source].push_back(&part);
-    for (Index mesh = 0; mesh < parts_of.size(); ++mesh)
-        writer.mesh_map.push_back(write_mesh(writer, sources[mesh], parts_of[mesh]));
+    for (Index mesh = 0; mesh < parts_of.size(); ++mesh) {
+        const bool is_coarser_level = sources[mesh].is_null();  // by finest_level(), whose caller warned
+        writer.mesh_map.push_back(is_coarser_level ? no_index
+                                                   : write_mesh(writer, sources[mesh], parts_of[mesh]));
+    }
     for (const Part& part : writer.asset.parts)
         if (part.source >= parts_of.size()) new_meshes.push_back(write_mesh(writer, Json(), {&part}));
 }

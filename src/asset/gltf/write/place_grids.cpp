@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,21 +35,6 @@ bool is_grid_node(const GltfWriter& writer, const Json& node) {
 
 /// The beginning of JSON pointers to members of a node.
 std::string pointer_to(Index node) { return "/nodes/" + std::to_string(node) + "/"; }
-
-/// The node to whose members a JSON pointer points; no_index if there is none.
-Index pointed_node(std::string_view pointer) {
-    constexpr std::string_view nodes = "/nodes/";
-    if (!pointer.starts_with(nodes)) return no_index;
-    Index node = no_index;
-    const char* const end = pointer.data() + pointer.size();
-    const auto [last, error] = std::from_chars(pointer.data() + nodes.size(), end, node);
-    return error == std::errc() && last != end && *last == '/' ? node : no_index;
-}
-
-std::string animated_pointer(const Json& channel) {
-    return string_member(member(member(member(channel, "target"), "extensions"), "KHR_animation_pointer"),
-                         "pointer");
-}
 
 void retarget_weight_channels(Json& document, Index from, Index to) {
     if (!document.contains("animations")) return;

@@ -1,0 +1,385 @@
+#include "asset/finest_level.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "asset/gltf/read/checker.hpp"
+#include "asset/gltf/source_document.hpp"
+#include "asset/scene/material_textures.hpp"
+#include "asset/scene/messages.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using Marks = std::vector<std::uint8_t>;  // one for each element of an array of the document
+
+/// Members of a node that place its children.
+constexpr std::array<const char*, 7> placing_members = {"name",        "extras",   "children", "matrix",
+                                                        "translation", "rotation", "scale"};
+
+bool has_levels(const Json& object) { return member(object, "extensions").contains(lod_name); }
+
+void erase_levels(Json& object) {
+    if (!has_levels(object)) return;
+    object["extensions"].erase(lod_name);
+    if (object["extensions"].empty()) object.erase("extensions");
+    if (!member(object, "extras").is_object()) return;
+    object["extras"].erase(coverage_name);
+    if (object["extras"].empty()) object.erase("extras");
+}
+
+/// Marks a node and its descendants, without recursion: nodes may be nested deeper than the call stack allows.
+void mark_with_descendants(const Json& nodes, Index root, Marks& marks) {
+    std::vector<Index> open = {root};
+    while (!open.empty()) {
+        const Index node = open.back();
+        open.pop_back();
+        if (marks[node]) continue;
+        marks[node] = 1;
+        for (const Json& child : member(nodes[node], "children")) open.push_back(child.get<Index>());
+    }
+}
+
+/// By node: its parent, or no_index.
+std::vector<Index> parents_of(const Json& nodes) {
+    std::vector<Index> parents(nodes.size(), no_index);
+    for (Index n = 0; n < nodes.size(); ++n)
+        for (const Json& child : member(nodes[n], "children")) parents[child.get<Index>()] = n;
+    return parents;
+}
+
+/// The coarser levels of nodes or materials.
+struct CoarserLevels {
+    Marks marks;                // by object: it is a coarser level of another one
+    std::uint64_t objects = 0;  // number of objects that have coarser levels
+    std::uint64_t levels = 0;   // number of coarser levels
+
+    std::string message(const std::string& noun) const {
+        return pluralized(levels, "coarser level") + " of " + pluralized(objects, noun);
+    }
+};
+
+/// Levels may have levels of their own. No object is a level of itself or of one that it contains.
+/// \param parents  by object: the one that contains it, or no_index
+CoarserLevels coarser_levels(const Json& objects, const std::vector<Index>& parents) {
+    CoarserLevels result;
+    result.marks.assign(objects.size(), 0);
+    for (Index finest = 0; finest < objects.size(); ++finest) {
+        if (result.marks[finest] || !has_levels(objects[finest])) continue;
+        const auto contains_finest = [&](Index level) {
+            Index at = finest;
+            while (at != no_index && at != level) at = parents[at];
+            return at == level;
+        };
+        std::vector<Index> found = {finest};
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            for (const Json& id : level_ids(objects[found[k]])) {
+                const Index level = id.get<Index>();
+                if (result.marks[level] || contains_finest(level)) continue;
+                result.marks[level] = 1;
+                found.push_back(level);
+            }
+        }
+        result.objects += found.size() > 1 ? 1 : 0;
+        result.levels += found.size() - 1;
+    }
+    return result;
+}
+
+/// Removes nodes, and what refers to them, from a document.
+class NodeRemover {
+public:
+    /// \param levels  the nodes that are removed, with their descendants
+    /// \param keeps_numbers  whether nodes and skins keep their indices, so that empty nodes stay
+    NodeRemover(Json& document, const Marks& levels, bool keeps_numbers)
+        : document_(document), keeps_numbers_(keeps_numbers), removed_(levels.size(), 0) {
+        for (Index n = 0; n < levels.size(); ++n)
+            if (levels[n]) mark_with_descendants(member(document, "nodes"), n, removed_);
+    }
+
+    /// \return by mesh: whether only removed nodes had it
+    Marks operator()() {
+        const Marks skins = used_by_removed_only("skins", "skin");
+        const Marks meshes = used_by_removed_only("meshes", "mesh");
+        const Marks needed = needed_nodes(skins);
+        for (Index n = 0; n < removed_.size(); ++n) {
+            if (!removed_[n] || !needed[n]) continue;
+            removed_[n] = 0;
+            strip(document_["nodes"][n]);
+        }
+        number_nodes();
+        if (!keeps_numbers_) remove_skins(skins);
+        update_animations();
+        update_scenes();
+        update_nodes();
+        return meshes;
+    }
+
+private:
+    const Json& node(Index n) const { return member(document_, "nodes")[n]; }
+
+    /// By element of a top-level array: whether nodes refer to it under `key`, but only removed ones.
+    Marks used_by_removed_only(const char* array, const char* key) const {
+        Marks by_removed(array_size(document_, array), 0), by_kept = by_removed;
+        for (Index n = 0; n < removed_.size(); ++n) {
+            const Index used = index_member(node(n), key);
+            if (used != no_index) (removed_[n] ? by_removed : by_kept)[used] = 1;
+        }
+        for (std::size_t i = 0; i < by_removed.size(); ++i)
+            if (by_kept[i]) by_removed[i] = 0;
+        return by_removed;
+    }
+
+    /// The joints of the skins that stay, with their ancestors.
+    Marks needed_nodes(const Marks& removed_skins) const {
+        const std::vector<Index> parent = parents_of(member(document_, "nodes"));
+        Marks needed(removed_.size(), 0);
+        for (std::size_t s = 0; s < removed_skins.size(); ++s)
+            if (!removed_skins[s])
+                for (const Json& joint : member(document_["skins"][s], "joints"))
+                    for (Index n = joint.get<Index>(); n != no_index && !needed[n]; n = parent[n])
+                        needed[n] = 1;
+        return needed;
+    }
+
+    static void strip(Json& stripped) {
+        Json placing = Json::object();
+        for (const char* key : placing_members)
+            if (stripped.contains(key)) placing[key] = stripped[key];
+        stripped = std::move(placing);
+    }
+
+    void number_nodes() {
+        Index next = 0;
+        for (Index n = 0; n < removed_.size(); ++n) {
+            number_.push_back(removed_[n] ? no_index : keeps_numbers_ ? n : next);
+            if (!removed_[n]) ++next;
+        }
+    }
+
+    /// Renumbers the nodes in a list, which is erased if none is left.
+    void update_list(Json& holder, const char* key) const {
+        if (!holder.contains(key)) return;
+        Json kept = Json::array();
+        for (const Json& n : holder[key])
+            if (number_[n.get<Index>()] != no_index) kept.push_back(number_[n.get<Index>()]);
+        if (kept.empty() && !holder[key].empty())
+            holder.erase(key);
+        else
+            holder[key] = std::move(kept);
+    }
+
+    void remove_skins(const Marks& removed) {
+        if (!document_.contains("skins")) return;
+        Json kept = Json::array();
+        std::vector<Index> number(removed.size(), no_index);
+        for (std::size_t s = 0; s < removed.size(); ++s) {
+            if (removed[s]) continue;
+            Json& skin = document_["skins"][s];
+            update_list(skin, "joints");
+            const Index skeleton = index_member(skin, "skeleton");
+            if (skeleton != no_index && number_[skeleton] == no_index) skin.erase("skeleton");
+            if (skin.contains("skeleton")) skin["skeleton"] = number_[skeleton];
+            number[s] = static_cast<Index>(kept.size());
+            kept.push_back(std::move(skin));
+        }
+        for (Index n = 0; n < removed_.size(); ++n)
+            if (!removed_[n] && node(n).contains("skin"))
+                document_["nodes"][n]["skin"] = number[index_member(node(n), "skin")];
+        if (kept.empty())
+            document_.erase("skins");
+        else
+            document_["skins"] = std::move(kept);
+    }
+
+    /// Returns whether the target of a channel stays.
+    bool update_channel(Json& channel) const {
+        Json& target = channel["target"];
+        const Index node = index_member(target, "node");
+        if (node != no_index && number_[node] == no_index) return false;
+        if (node != no_index) target["node"] = number_[node];
+        std::string pointer = animated_pointer(channel);
+        const Index pointed = pointed_node(pointer);
+        if (pointed >= number_.size()) return true;
+        if (number_[pointed] == no_index) return false;
+        pointer = "/nodes/" + std::to_string(number_[pointed]) + pointer.substr(pointer.find('/', 7));
+        target["extensions"]["KHR_animation_pointer"]["pointer"] = std::move(pointer);
+        return true;
+    }
+
+    void update_animations() {
+        if (!document_.contains("animations")) return;
+        Json animations = Json::array();
+        for (Json& animation : document_["animations"]) {
+            if (!animation.contains("channels")) {
+                animations.push_back(std::move(animation));
+                continue;
+            }
+            Json channels = Json::array();
+            for (Json& channel : animation["channels"])
+                if (update_channel(channel)) channels.push_back(std::move(channel));
+            if (channels.size() < animation["channels"].size()) remove_samplers(animation, channels);
+            if (channels.empty()) continue;
+            animation["channels"] = std::move(channels);
+            animations.push_back(std::move(animation));
+        }
+        if (animations.empty())
+            document_.erase("animations");
+        else
+            document_["animations"] = std::move(animations);
+    }
+
+    /// Removes the samplers that no channel uses, with whose data an animation of the levels could be as large as
+    /// before.
+    static void remove_samplers(Json& animation, Json& channels) {
+        Json samplers = Json::array();
+        std::vector<Index> number(array_size(animation, "samplers"), no_index);
+        for (Json& channel : channels) {
+            const Index sampler = index_member(channel, "sampler");
+            if (number[sampler] == no_index) {
+                number[sampler] = static_cast<Index>(samplers.size());
+                samplers.push_back(animation["samplers"][sampler]);
+            }
+            channel["sampler"] = number[sampler];
+        }
+        animation["samplers"] = std::move(samplers);
+    }
+
+    void update_scenes() {
+        if (!document_.contains("scenes")) return;
+        for (Json& scene : document_["scenes"]) update_list(scene, "nodes");
+    }
+
+    void update_nodes() {
+        Json nodes = Json::array();
+        for (Index n = 0; n < removed_.size(); ++n) {
+            if (removed_[n] && keeps_numbers_) nodes.push_back(Json::object());
+            if (removed_[n]) continue;
+            Json& kept = document_["nodes"][n];
+            update_list(kept, "children");
+            erase_levels(kept);
+            nodes.push_back(std::move(kept));
+        }
+        document_["nodes"] = std::move(nodes);
+    }
+
+    Json& document_;
+    const bool keeps_numbers_;
+    Marks removed_;              // by node
+    std::vector<Index> number_;  // new index by node; no_index if it is removed
+};
+
+/// Leaves out the nodes of coarser levels and the meshes that only these show.
+void remove_level_nodes(Json& document, const Marks& levels, std::vector<Part>& parts) {
+    const bool keeps_numbers = !unknown_extensions(document).empty();
+    const Marks meshes = NodeRemover(document, levels, keeps_numbers)();
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        if (meshes[m]) document["meshes"][m] = nullptr;
+    for (Part& part : parts) {
+        if (part.source >= meshes.size() || !meshes[part.source]) continue;
+        Part empty;
+        empty.name = part.name;
+        empty.source = part.source;
+        part = std::move(empty);
+    }
+}
+
+/// By material of a document: whether a primitive of a mesh, or a variant of one, has it.
+Marks used_materials(const Json& document) {
+    Marks used(array_size(document, "materials"), 0);
+    const auto mark = [&](const Json& holder) {
+        const Index material = index_member(holder, "material");
+        if (material != no_index) used[material] = 1;
+    };
+    for (const Json& mesh : member(document, "meshes"))
+        for (const Json& primitive : member(mesh, "primitives")) {
+            mark(primitive);
+            for (const Json& mapping :
+                 member(member(member(primitive, "extensions"), "KHR_materials_variants"), "mappings"))
+                mark(mapping);
+        }
+    return used;
+}
+
+/// Leaves out materials, and the images that no other one has. The faces get the new indices.
+void remove_materials(const Marks& removed_sources, Asset& asset) {
+    std::vector<Material> materials;
+    std::vector<Index> number, image_number(asset.images.size(), no_index);
+    for (Material& material : asset.materials) {
+        const bool is_removed = material.source < removed_sources.size() && removed_sources[material.source];
+        number.push_back(is_removed ? no_index : static_cast<Index>(materials.size()));
+        if (!is_removed) materials.push_back(std::move(material));
+    }
+    for (Part& part : asset.parts)
+        for (Index& material : part.face_material)
+            if (material != no_index) material = number[material];
+    asset.materials = std::move(materials);
+    for (const Material& material : asset.materials)
+        for_each_texture(material, [&](const TextureRef& ref) {
+            if (ref) image_number[ref.image] = 0;
+        });
+    std::vector<Image> images;
+    for (std::size_t i = 0; i < image_number.size(); ++i) {
+        if (image_number[i] == no_index) continue;
+        image_number[i] = static_cast<Index>(images.size());
+        images.push_back(std::move(asset.images[i]));
+    }
+    asset.images = std::move(images);
+    for (Material& material : asset.materials)
+        for_each_texture(material, [&](TextureRef& ref) {
+            if (ref) ref.image = image_number[ref.image];
+        });
+}
+
+void erase_material_levels(SourceDocument& source, std::vector<Material>& materials) {
+    if (source.document.contains("materials"))
+        for (Json& material : source.document["materials"]) erase_levels(material);
+    for (std::vector<Material>* all : {&source.materials, &materials})
+        for (Material& material : *all) std::erase(material.extensions, lod_name);
+}
+
+}  // namespace
+
+std::optional<FinestLevel> finest_level(const Asset& asset) {
+    if (!asset.source) return std::nullopt;
+    const Json &nodes = member(asset.source->document, "nodes"),
+               &materials = member(asset.source->document, "materials");
+    if (std::none_of(nodes.begin(), nodes.end(), has_levels) &&
+        std::none_of(materials.begin(), materials.end(), has_levels))
+        return std::nullopt;
+    const CoarserLevels of_nodes = coarser_levels(nodes, parents_of(nodes));
+    const CoarserLevels of_materials =
+        coarser_levels(materials, std::vector<Index>(materials.size(), no_index));
+
+    FinestLevel result{asset, {}};
+    const auto source = std::make_shared<SourceDocument>(*asset.source);
+    Marks materials_left_out = used_materials(source->document);
+    for (std::size_t m = 0; m < of_materials.marks.size(); ++m)
+        if (of_materials.marks[m]) materials_left_out[m] = 1;
+    remove_level_nodes(source->document, of_nodes.marks, result.asset.parts);
+    const Marks still_used = used_materials(source->document);
+    for (std::size_t m = 0; m < still_used.size(); ++m)
+        if (still_used[m]) materials_left_out[m] = 0;
+    remove_materials(materials_left_out, result.asset);
+    erase_material_levels(*source, result.asset.materials);
+    result.asset.source = source;
+    if (of_nodes.levels > 0) result.warning = of_nodes.message("node");
+    if (of_materials.levels > 0)
+        result.warning += (of_nodes.levels > 0 ? " and " : "") + of_materials.message("material");
+    if (!result.warning.empty())
+        result.warning += std::string(" (") + lod_name + ") left out: the finest one is simplified";
+    return result;
+}
+
+std::string keep_finest_level(Asset& asset) {
+    std::optional<FinestLevel> finest = finest_level(asset);
+    if (!finest) return {};
+    asset = std::move(finest->asset);
+    return std::move(finest->warning);
+}
+
+}  // namespace faqem::detail
