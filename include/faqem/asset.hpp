@@ -125,6 +125,10 @@ struct Part {
     /// stay closed; save() writes a mesh or object for each of them in formats that have these.
     std::vector<Index> face_object;  ///< empty or F, indices into object_names; no_index: the part itself
     std::vector<std::string> object_names;  ///< names of the objects
+    /// The groups that a file names (`g` of OBJ), which divide neither meshes nor primitives: OBJ files keep them, glTF
+    /// files only the names of each primitive.
+    std::vector<Index> face_group;         ///< empty or F, indices into group_names; no_index: none
+    std::vector<std::string> group_names;  ///< names of the groups; one may consist of several, as in `g a b`
     /// Mesh of the source document whose name, extras, points and lines are written too; no_index: none.
     Index source = no_index;
     /// bake() copies integers and feature ids (`_BATCHID`, `_FEATURE_ID_n`) from a vertex, and interpolates floats.

@@ -92,11 +92,11 @@ static void data_that_the_format_cannot_store_is_a_warning(void) {
     faqem_asset_destroy(asset);
 
     FILE* coloured = fopen("test_c.obj", "w");
-    CHECK(coloured && fputs("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\ng a\nf 1 2 3\n", coloured) >= 0);
+    CHECK(coloured && fputs("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\ns 1\nf 1 2 3\n", coloured) >= 0);
     CHECK(fclose(coloured) == 0);
     CHECK(faqem_asset_load("test_c.obj", &asset, NULL) == FAQEM_OK);
     CHECK(faqem_asset_warning_count(asset) == 0 && faqem_asset_not_understood_count(asset) == 1);
-    CHECK(strcmp(faqem_asset_not_understood(asset, 0), "'g': 1 statement") == 0);
+    CHECK(strcmp(faqem_asset_not_understood(asset, 0), "'s': 1 statement") == 0);
     CHECK(faqem_asset_not_understood(asset, 1) == NULL);
     CHECK(faqem_asset_save(asset, "test_c.stl", FAQEM_OVERWRITE_YES, NULL) == FAQEM_OK);
     CHECK(faqem_asset_warning_count(asset) > 0);

@@ -40,6 +40,8 @@ struct ObjStatements {
     std::vector<std::string> libraries;
     std::vector<Index> face_object;  // indices into objects; no_index before the first one
     std::vector<std::string> objects;
+    std::vector<Index> face_group;  // indices into groups; no_index for the default group
+    std::vector<std::string> groups;
     IgnoredStatements ignored;
 };
 
@@ -78,7 +80,7 @@ private:
         else if (key == "l" || key == "p")
             ++lines_and_points_;
         else if (key == "g")
-            ++groups_;
+            group();
         else if (key == "s")
             ++smoothing_groups_;
         else if (unknown_++ == 0)
@@ -120,6 +122,12 @@ private:
         out_.normals.push_back(n);
     }
 
+    void group() {
+        const std::string name = in_.rest_of_line();
+        const bool is_default = name.empty() || name == default_group_name;
+        group_ = is_default ? no_index : number_of(name, group_numbers_, out_.groups);
+    }
+
     void end_of_statement(const char* key) {
         if (!in_.at_line_end())
             in_.fail("unexpected " + TextScanner::quoted(in_.word()) + " at the end of " + key);
@@ -134,6 +142,7 @@ private:
         out_.sizes.push_back(static_cast<std::uint32_t>(count));
         out_.face_material.push_back(material_);
         out_.face_object.push_back(object_);
+        out_.face_group.push_back(group_);
     }
 
     /// Parses v, v/t, v//n or v/t/n. Some exporters write `v/` and `v/t/`, where the index after the last
@@ -194,7 +203,6 @@ private:
     }
 
     void add_warnings() {
-        if (groups_) out_.ignored["'g'"] = groups_;
         if (smoothing_groups_) out_.ignored["'s'"] = smoothing_groups_;
         if (lines_and_points_)
             warnings_.push_back(pluralized(lines_and_points_, "line or point statement") +
@@ -215,10 +223,10 @@ private:
     TextScanner in_;
     std::vector<std::string>& warnings_;
     ObjStatements out_;
-    Numbers material_numbers_, object_numbers_;
-    Index material_ = no_index, object_ = no_index;
+    Numbers material_numbers_, object_numbers_, group_numbers_;
+    Index material_ = no_index, object_ = no_index, group_ = no_index;
     std::array<ForwardReference, 3> highest_;  // largest forward reference of each kind
-    std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0, groups_ = 0, smoothing_groups_ = 0;
+    std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0, smoothing_groups_ = 0;
     std::string first_unknown_;
 };
 
@@ -261,6 +269,21 @@ void add_objects(Part& part, const ObjStatements& in, const std::vector<Index>& 
     }
     part.face_object.reserve(source_polygon.size());
     for (const Index p : source_polygon) part.face_object.push_back(number[slot(in.face_object[p])]);
+}
+
+/// Adds the groups that have faces, in the order of their first faces.
+void add_groups(Part& part, const ObjStatements& in, const std::vector<Index>& source_polygon) {
+    std::vector<Index> number(in.groups.size(), no_index);
+    for (const Index p : source_polygon) {
+        const Index group = in.face_group[p];
+        if (group == no_index || number[group] != no_index) continue;
+        number[group] = static_cast<Index>(part.group_names.size());
+        part.group_names.push_back(in.groups[group]);
+    }
+    if (part.group_names.empty()) return;
+    part.face_group.reserve(source_polygon.size());
+    for (const Index p : source_polygon)
+        part.face_group.push_back(in.face_group[p] == no_index ? no_index : number[in.face_group[p]]);
 }
 
 /// Adds the used materials in the order of their first use by a face.
@@ -319,6 +342,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     part.face_material.reserve(part.triangles.size());
     for (const Index p : split.source_polygon) part.face_material.push_back(in.face_material[p]);
     add_objects(part, in, split.source_polygon, file.stem().string());
+    add_groups(part, in, split.source_polygon);
     repair_non_finite(part, file.string(), split.non_finite, asset.warnings);
     add_materials(asset, in, file);
     asset.not_understood = ignored_messages(in.ignored);

@@ -13,15 +13,18 @@
 
 namespace faqem::detail {
 
+/// The group of faces before the first `g`.
+inline constexpr const char* default_group_name = "default";
+
 /// Reads an OBJ file.
 ///
 /// All objects are read as one part, so that no cracks open between them; the part has the name of the first
-/// object, and Part::face_object if several have faces. Vertex i of the part is position i (`v`) with the vt
-/// and vn of its first corner. Corners of position i with another vt or vn get additional vertices after all
-/// positions, in the order of the faces. Polygons are split by triangulate(). Colours after a position are sRGB
-/// values in [0, 1] and are converted to linear; vertices without a colour are white. UVs are converted by v' =
-/// 1 - v. See read_mtl() for materials; a missing library or material is a warning. Lines, points, unknown
-/// statements and faces with fewer than three corners are skipped with a counted warning.
+/// object, Part::face_object if several have faces, and Part::face_group. Vertex i of the part is position i (`v`) with
+/// the vt and vn of its first corner. Corners of position i with another vt or vn get additional vertices after all
+/// positions, in the order of the faces. Polygons are split by triangulate(). Colours after a position are sRGB values
+/// in [0, 1] and are converted to linear; vertices without a colour are white. UVs are converted by v' = 1 - v. See
+/// read_mtl() for materials; a missing library or material is a warning. Lines, points, unknown statements and faces
+/// with fewer than three corners are skipped with a counted warning.
 /// \param file  path of the file; material libraries and images are searched in its folder
 /// \return an asset with one part, and warnings
 /// \throws ReadError   if the file cannot be read

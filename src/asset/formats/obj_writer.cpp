@@ -193,11 +193,18 @@ std::vector<ObjObject> objects_of(const Asset& asset, const std::vector<Instance
 TextBuffer faces_text(const Part& part, VertexLines& lines, const UsedMaterials& used,
                       const MtlLibrary& library, const std::vector<ObjObject>& objects) {
     TextBuffer text;
-    Index current = no_index;
+    Index current = no_index, group = no_index;
     auto next = objects.begin();
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         if (objects.size() > 1 && next != objects.end() && next->first_face == f)
             text.put("o " + next++->name + "\n");
+        if (!part.face_group.empty() && part.face_group[f] != group) {
+            group = part.face_group[f];
+            text.put("g " +
+                     (group == no_index ? std::string(default_group_name)
+                                        : sanitized_name(part.group_names[group], default_group_name)) +
+                     "\n");
+        }
         const Index material = part.face_material[f];
         const Index slot = used.slot_of(material);
         if (!used.materials.empty() && slot != current) text.put("usemtl " + library.names[slot] + "\n");

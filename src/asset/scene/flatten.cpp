@@ -11,9 +11,9 @@
 namespace faqem::detail {
 namespace {
 
-/// Vertex attributes of the flattened part.
+/// Vertex attributes of the flattened part, and whether its faces have groups.
 struct VertexLayout {
-    bool normals = false, colors = false;
+    bool normals = false, colors = false, groups = false;
     std::size_t uv_sets = 0;
 };
 
@@ -47,6 +47,13 @@ void append(Part& flat, const Part& part, const std::array<double, 16>& m, const
             {first + t[0], first + t[is_mirrored ? 2 : 1], first + t[is_mirrored ? 1 : 2]});
     }
     append(flat.face_material, part.face_material, part.triangles.size(), no_index);
+    if (!layout.groups) return;
+    const std::size_t first_face = flat.face_group.size();
+    append(flat.face_group, part.face_group, part.triangles.size(), no_index);
+    const auto first_group = static_cast<Index>(flat.group_names.size());
+    for (std::size_t f = first_face; f < flat.face_group.size(); ++f)
+        if (flat.face_group[f] != no_index) flat.face_group[f] += first_group;
+    flat.group_names.insert(flat.group_names.end(), part.group_names.begin(), part.group_names.end());
 }
 
 std::size_t uninstanced_part_count(const Asset& asset) {
@@ -77,6 +84,7 @@ Part flatten(const Asset& asset, const std::vector<PosedInstance>& all) {
         faces += part.triangles.size();
         layout.normals |= !part.normals.empty();
         layout.colors |= !part.colors.empty();
+        layout.groups |= !part.face_group.empty();
         layout.uv_sets = std::max(layout.uv_sets, part.uvs.size());
     }
     check_index_count(vertices, "", "vertices of the flattened scene");

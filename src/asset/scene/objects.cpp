@@ -1,6 +1,7 @@
 #include "asset/scene/objects.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace faqem::detail {
@@ -13,6 +14,22 @@ void copy_vertices(std::vector<Value>& to, const std::vector<Value>& from,
     if (from.empty()) return;
     to.reserve(vertices.size());
     for (const Index v : vertices) to.push_back(from[v]);
+}
+
+/// The groups of some faces of a part, with the names of these groups only.
+void copy_groups(const Part& part, const std::vector<Index>& faces, Part& to) {
+    if (part.face_group.empty()) return;
+    std::map<Index, Index> number;
+    for (const Index f : faces) {
+        const Index group = part.face_group[f];
+        if (group == no_index) {
+            to.face_group.push_back(no_index);
+            continue;
+        }
+        const auto [entry, is_new] = number.try_emplace(group, static_cast<Index>(to.group_names.size()));
+        if (is_new) to.group_names.push_back(part.group_names[group]);
+        to.face_group.push_back(entry->second);
+    }
 }
 
 /// The part with the given faces, in their order, and with the vertices that they use.
@@ -35,6 +52,7 @@ Part with_faces(const Part& part, const std::vector<Index>& faces, std::vector<I
         result.triangles.push_back(t);
         if (!part.face_material.empty()) result.face_material.push_back(part.face_material[f]);
     }
+    copy_groups(part, faces, result);
     for (const Index v : vertices) number[v] = no_index;
     copy_vertices(result.positions, part.positions, vertices);
     copy_vertices(result.normals, part.normals, vertices);

@@ -41,12 +41,14 @@ std::uint64_t drop_faces(Part& part, const std::vector<Index>& renumbered) {
         part.triangles[kept] = t;
         if (!part.face_material.empty()) part.face_material[kept] = part.face_material[f];
         if (!part.face_object.empty()) part.face_object[kept] = part.face_object[f];
+        if (!part.face_group.empty()) part.face_group[kept] = part.face_group[f];
         ++kept;
     }
     const std::uint64_t dropped = part.triangles.size() - kept;
     part.triangles.resize(kept);
     if (!part.face_material.empty()) part.face_material.resize(kept);
     if (!part.face_object.empty()) part.face_object.resize(kept);
+    if (!part.face_group.empty()) part.face_group.resize(kept);
     return dropped;
 }
 

@@ -68,6 +68,8 @@ Part posed_part(const Part& part, const PosedInstance& instance) {
     posed.colors = part.colors;
     posed.face_object = part.face_object;
     posed.object_names = part.object_names;
+    posed.face_group = part.face_group;
+    posed.group_names = part.group_names;
     const RestPose& pose = *instance.pose;
     apply_morph_weights(part, pose.morph_weights, posed);
     const bool is_skinned = !pose.joints.empty() && part.joints.size() == part.positions.size() &&

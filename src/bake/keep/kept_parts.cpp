@@ -62,6 +62,7 @@ Part part_with_kept_faces(const Part& source, const std::vector<Index>& kept) {
     select(part.triangles, source.triangles);
     select(part.face_material, source.face_material);
     select(part.face_object, source.face_object);
+    select(part.face_group, source.face_group);
     return part;
 }
 

@@ -94,8 +94,8 @@ bool bake_textures(const BakeJob& job, DecodedImages decoded, UnencodedResult& o
     return true;
 }
 
-// Sets what files record of the parts: the objects that the faces belong to, which are those of the source faces, and the
-// order of vertices and faces. A part that lost faces has no order of its own that a file should preserve.
+// Sets what files record of the parts: the objects and groups of the faces, which are those of the source faces, and
+// the order of vertices and faces. A part that lost faces has no order of its own that a file should preserve.
 void keep_file_records(std::span<const BakePart> parts, std::span<const std::uint8_t> untouched,
                        Asset& result) {
     for (const BakePart& part : parts) {
@@ -103,11 +103,15 @@ void keep_file_records(std::span<const BakePart> parts, std::span<const std::uin
         Part& to = result.parts[part.index];
         const bool lost_faces = part.faces() < part.source->triangles.size();
         to.file_order = lost_faces ? FileOrder::for_gpu : part.source->file_order;
-        if (part.source->face_object.empty()) continue;
+        const auto select = [&](std::vector<Index>& values, const std::vector<Index>& of_source) {
+            values.clear();
+            if (of_source.empty()) return;
+            for (const Index f : part.simplified->history.kept_faces) values.push_back(of_source[f]);
+        };
+        select(to.face_object, part.source->face_object);
+        select(to.face_group, part.source->face_group);
         to.object_names = part.source->object_names;
-        to.face_object.clear();
-        for (const Index f : part.simplified->history.kept_faces)
-            to.face_object.push_back(part.source->face_object[f]);
+        to.group_names = part.source->group_names;
     }
 }
 

@@ -79,12 +79,17 @@ private:
         for (std::size_t f = 0; f < materials.size(); ++f)
             if (materials[f] != no_index && !(materials[f] < asset_.materials.size()))
                 fail("face " + std::to_string(f), "material index out of range");
-        const std::vector<Index>& objects = part_.face_object;
-        if (!objects.empty() && objects.size() != part_.triangles.size())
-            fail("face_object", "needs one entry per face or none");
-        for (std::size_t f = 0; f < objects.size(); ++f)
-            if (objects[f] != no_index && !(objects[f] < part_.object_names.size()))
-                fail("face " + std::to_string(f), "object index out of range");
+        check_names(part_.face_object, part_.object_names, "object");
+        check_names(part_.face_group, part_.group_names, "group");
+    }
+    // Checks the objects or groups of the faces.
+    void check_names(const std::vector<Index>& of_face, const std::vector<std::string>& names,
+                     const std::string& kind) const {
+        if (!of_face.empty() && of_face.size() != part_.triangles.size())
+            fail("face_" + kind, "needs one entry per face or none");
+        for (std::size_t f = 0; f < of_face.size(); ++f)
+            if (of_face[f] != no_index && !(of_face[f] < names.size()))
+                fail("face " + std::to_string(f), kind + " index out of range");
     }
 
     const Asset& asset_;

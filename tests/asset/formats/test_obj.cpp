@@ -221,10 +221,22 @@ TEST_CASE("warnings count lines, points and unknown statements", "[obj]") {
     CHECK(asset.not_understood.empty());
 }
 
-TEST_CASE("groups of OBJ are counted, but are no reason for a warning", "[obj]") {
-    const Asset asset = parse_obj(square_vertices + "g a b\ns 1\nf 1 2 3\ng\nf 1 3 4\n");
+TEST_CASE("smoothing groups of OBJ are counted, but are no reason for a warning", "[obj]") {
+    const Asset asset = parse_obj(square_vertices + "s 1\nf 1 2 3\ns off\nf 1 3 4\n");
     CHECK(asset.warnings.empty());
-    CHECK(asset.not_understood == std::vector<std::string>{"'g': 2 statements", "'s': 1 statement"});
+    CHECK(asset.not_understood == std::vector<std::string>{"'s': 2 statements"});
+}
+
+TEST_CASE("groups are names of faces, and the default group is none", "[obj]") {
+    const Asset asset = parse_obj(square_vertices +
+                                  "v 0 0 nan\nf 1 2 3\ng empty\ng a  b\nf 1 2 3 4\nf 1 2 5\ng\nf 1 2 3\ng c\n"
+                                  "f 1 2 3\ng default\nf 1 2 3\ng a  b\nf 1 2 3\n");
+    const Part& part = asset.parts[0];
+    CHECK(part.group_names == std::vector<std::string>{"a  b", "c"});
+    CHECK(part.face_group == std::vector<Index>{no_index, 0, 0, no_index, 1, no_index, 0});
+    CHECK(part.face_object.empty());
+    CHECK(asset.not_understood.empty());
+    CHECK(parse_obj(square_vertices + "g default\nf 1 2 3\ng x\n").parts[0].face_group.empty());
 }
 
 TEST_CASE("non-finite numbers are repaired and counted", "[obj]") {

@@ -197,6 +197,25 @@ TEST_CASE("an OBJ file has an object for each mesh with a unique name", "[obj_wr
           std::vector<std::string>{"a", "a_2", "a_2_2"});
 }
 
+TEST_CASE("an OBJ file with groups in objects is unchanged by reading and writing", "[obj_writer]") {
+    const TemporaryFolder folder;
+    const std::string text =
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\no a\nf 1 2 3\ng x y\nf 1 2 3\nf 2 3 1\ng default\nf 1 2 3\no b\ng z\nf 1 "
+        "2 3\n";
+    put(folder / "a.obj", text);
+    write_obj(read_obj(folder / "a.obj"), folder / "b.obj", Overwrite::no);
+    CHECK(get(folder / "b.obj") == text);
+    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 2, 0}});
+    asset.parts[0].face_group = {1, 0};
+    asset.parts[0].group_names = {"", "x\nf 1 2 3"};
+    asset.parts.push_back(asset.parts[0]);
+    write_obj(asset, folder / "c.obj", Overwrite::no);
+    CHECK(get(folder / "c.obj") ==
+          "v 0 0 0\nv 1 0 0\nv 1 1 0\no c\ng x_f 1 2 3\nf 1 2 3\ng default\nf 2 3 1\no c_2\ng x_f 1 2 3\nf 1 "
+          "2 3\n"
+          "g default\nf 2 3 1\n");
+}
+
 TEST_CASE("names that are invalid in OBJ statements are replaced", "[obj_writer]") {
     const TemporaryFolder folder;
     Asset asset = textured();

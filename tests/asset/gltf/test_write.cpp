@@ -419,3 +419,25 @@ TEST_CASE("extensions that describe triangles are left out, and unknown ones if 
     CHECK_FALSE(json["meshes"][0]["primitives"][0].contains("extensions"));
     CHECK_FALSE(json.contains("extensionsUsed"));
 }
+
+TEST_CASE("primitives have the names of the groups of their faces, if the mesh has several") {
+    Asset asset = new_square();
+    asset.materials.resize(2);
+    Part& part = asset.parts[0];
+    part.face_material = {0, 1};
+    part.face_group = {1, 0};
+    part.group_names = {"b", "a"};
+    const Json json = json_of(saved(asset));
+    REQUIRE(json["meshes"][0]["primitives"].size() == 2);
+    CHECK(json["meshes"][0]["primitives"][0]["extras"] == Json({{"groups", {"a"}}}));
+    CHECK(json["meshes"][0]["primitives"][1]["extras"] == Json({{"groups", {"b"}}}));
+    part.face_material.clear();
+    CHECK(json_of(saved(asset))["meshes"][0]["primitives"][0]["extras"] == Json({{"groups", {"b", "a"}}}));
+    part.face_group = {0, 0};
+    part.group_names = {"b"};
+    CHECK_FALSE(json_of(saved(asset))["meshes"][0]["primitives"][0].contains("extras"));
+    part.group_names.resize(257);
+    const WrittenGltf many = write_gltf_of(asset);
+    CHECK_FALSE(many.primitive().contains("extras"));
+    CHECK(many.warns("'square': the names of 257 groups were left out"));
+}

@@ -49,6 +49,18 @@ TEST_CASE("parts are divided into their objects") {
     CHECK(asset.parts[1].face_object.empty());
 }
 
+TEST_CASE("objects have the groups of their faces only") {
+    Asset source = two_quads();
+    source.parts[0].face_group = {2, 1, no_index, 2};
+    source.parts[0].group_names = {"unused", "b", "c"};
+    const auto divided = divided_into_objects(source);
+    REQUIRE(divided);
+    CHECK(divided->asset.parts[0].group_names == std::vector<std::string>{"c"});
+    CHECK(divided->asset.parts[0].face_group == std::vector<Index>{0, no_index});
+    CHECK(divided->asset.parts[1].group_names == std::vector<std::string>{"b", "c"});
+    CHECK(divided->asset.parts[1].face_group == std::vector<Index>{0, 1});
+}
+
 TEST_CASE("faces without an object stay in the part, and objects without faces stay empty") {
     Asset source = two_quads();
     source.parts[0].face_object = {no_index, 1, no_index, 1};

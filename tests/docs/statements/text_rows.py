@@ -47,13 +47,39 @@ def objects(runs):
     expect(open_edges(runs, "out.obj") <= 32 and report["faces_out"] == 64, "no open edge between the objects")
 
 
-@row("OBJ", "`g`, `s`")
+@row("OBJ", "`g`")
 def groups(runs):
     _, _, low, high = halves()
-    runs.write("a.obj", obj_vertices() + "g low\ns 1\n" + obj_faces(low) + "g high\n" + obj_faces(high))
+    runs.write("a.obj", obj_vertices() + "g low part\n" + obj_faces(low) + "g high\n" + obj_faces(high))
+    expect_no_warning(runs, "a.obj")
+    expect(not runs.info("a.obj")["not_understood"] and not runs.is_strict("a.obj"), "understood")
+    for gltf in (runs.whole("a.obj"), runs.baked("a.obj"), runs.kept("a.obj")):
+        expect(gltf.primitive()["extras"] == {"groups": ["low part", "high"]}, "one primitive with the names")
+    for options in (("--ratio", 0.5), ("--ratio", 0.1), ("--ratio", 0.5, "--bake", "none"), ("--ratio", 1)):
+        report = runs.simplify("a.obj", *options, out="out.obj")
+        text = runs.read("out.obj").decode()
+        expect("\ng low part\nf " in text and "\ng high\nf " in text and text.count("\ng ") == 2, "groups in OBJ")
+        expect(runs.info("out.obj")["total"]["components"] == 1, "no open edge between the groups")
+        expect(open_edges(runs, "out.obj") <= 32 and not report["warnings"], "no open edge between the groups")
+    runs.write("b.obj", obj_vertices() + "o a\n" + obj_faces(low) + "o b\ng x\n" + obj_faces(high))
+    runs.simplify("b.obj", "--ratio", 0.5, out="out.obj")
+    expect("\no a\nf " in runs.read("out.obj").decode() and "\no b\ng x\nf " in runs.read("out.obj").decode(),
+           "groups of objects")
+    middle = "".join(f"g {i}\n" + obj_faces([t]) for i, t in enumerate(low * 5))
+    runs.write("d.obj", obj_vertices() + middle)
+    many = runs.whole("d.obj")
+    expect("extras" not in many.primitive() and many.warns("the names of 320 groups"), "not more than 256 names")
+    runs.write("c.obj", obj_vertices() + "g default\n" + obj_faces(low) + "g low\n" + obj_faces(high))
+    expect("extras" not in runs.whole("c.obj").primitive(), "no extras for one group")
+
+
+@row("OBJ", "`s`")
+def smoothing_groups(runs):
+    _, _, low, high = halves()
+    runs.write("a.obj", obj_vertices() + "s 1\n" + obj_faces(low) + "s off\n" + obj_faces(high))
     expect_no_warning(runs, "a.obj")
     expect(not runs.is_strict("a.obj"), "accepted by --strict")
-    expect(runs.info("a.obj")["not_understood"] == ["'g': 2 statements", "'s': 1 statement"], "`info` counts them")
+    expect(runs.info("a.obj")["not_understood"] == ["'s': 2 statements"], "`info` counts them")
     expect(len(runs.baked("a.obj").list("meshes")) == 1, "one mesh")
 
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <type_traits>
 #include <utility>
 
@@ -117,8 +118,8 @@ Index add_directions(GltfWriter& writer, const std::vector<std::array<float, N>>
                         values, is_new ? AccessorUse::directions : AccessorUse::vertices);
 }
 
-/// Writes texture coordinates. With Asset::uv_bits they are normalised integers if all are from 0 to 1. Where compression
-/// rounds floats, these are smaller; vertices that are not new stay exact there.
+/// Writes texture coordinates. With Asset::uv_bits they are normalised integers if all are from 0 to 1. Where
+/// compression rounds floats, these are smaller; vertices that are not new stay exact there.
 Index add_uvs(GltfWriter& writer, const std::vector<Vec2f>& values, bool is_new) {
     constexpr double unit = 65535;
     const bool is_compressed = writer.asset.compression == Compression::meshopt;
@@ -376,12 +377,38 @@ void warn_degenerate(GltfWriter& writer, const Part& part, std::size_t faces, co
                                   " became degenerate");
 }
 
+/// Whether primitives get the names of the groups of their faces: if the mesh has several, and not so many that the
+/// names would take more bytes than its geometry.
+bool has_group_names(GltfWriter& writer, const Part& part) {
+    constexpr std::size_t max_groups = 256;
+    if (part.face_group.empty() || part.group_names.size() < 2) return false;
+    if (part.group_names.size() <= max_groups) return true;
+    writer.warnings.push_back("part '" + part.name + "': the names of " +
+                              std::to_string(part.group_names.size()) + " groups were left out: more than " +
+                              std::to_string(max_groups));
+    return false;
+}
+
+/// Adds the names of the groups of some faces to the extras of their primitive: a primitive for each group would be a
+/// draw call for each. Extras may be of any JSON type; only objects have names.
+void add_group_names(const Part& part, const std::vector<Index>& faces, Json& primitive) {
+    std::set<Index> groups;
+    for (const Index f : faces)
+        if (part.face_group[f] != no_index) groups.insert(part.face_group[f]);
+    const Json& extras = member(primitive, "extras");
+    if (groups.empty() || !(extras.is_null() || extras.is_object())) return;
+    Json names = Json::array();
+    for (const Index group : groups) names.push_back(part.group_names[group]);
+    primitive["extras"]["groups"] = std::move(names);
+}
+
 }  // namespace
 
 void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json& primitives,
                 Json& mesh_extensions) {
     std::vector<Index> scratch(part.positions.size(), no_index);
     std::size_t degenerate_faces = 0, degenerate_grid_faces = 0;
+    const bool names_groups = has_group_names(writer, part);
     for (const auto& [material, faces] : faces_by_material(part)) {
         const PrimitiveData data = gather_primitive(part, faces, writer.origin, scratch);
         degenerate_faces += data.degenerate_faces;
@@ -398,6 +425,7 @@ void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json
         if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data, grid);
         if (material != no_index) primitive["material"] = write_material(writer, material);
         keep_manifold(writer, part, data, primitive, mesh_extensions);
+        if (names_groups) add_group_names(part, faces, primitive);
         primitives.push_back(std::move(primitive));
     }
     warn_degenerate(writer, part, degenerate_faces, "glTF stores positions as floats");
