@@ -3,6 +3,7 @@
 /// The source document that the glTF reader keeps for the writer.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "asset/gltf/json.hpp"
@@ -19,6 +20,7 @@ struct SourceDocument {
     bool has_meshopt = false;         ///< the file was compressed with EXT_meshopt_compression
     bool has_draco = false;           ///< the file was compressed with KHR_draco_mesh_compression
     std::vector<Material> materials;  ///< one per material as read; TextureRef::image is an index in `images`
+    std::string unused;  ///< unused_objects() of the file: what save() leaves out, with a warning
 };
 
 namespace detail {

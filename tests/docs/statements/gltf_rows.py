@@ -302,4 +302,6 @@ def unused(runs):
     for gltf in three(runs):
         expect(len(gltf.list("materials")) == len(gltf.list("images")) == len(gltf.list("textures")) == 1,
                "not written")
+        expect(gltf.warns("1 material and 1 image that no mesh uses: left out"), "a warning counts them")
         expect([m["name"] for m in gltf.list("meshes")] == ["sheet", "hidden"], "meshes that no node shows")
+    expect(not runs.is_strict("a.glb"), "accepted by --strict")

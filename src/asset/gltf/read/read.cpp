@@ -6,6 +6,7 @@
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/pose.hpp"
 #include "asset/gltf/read/checker.hpp"
+#include "asset/gltf/unused_objects.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/affine.hpp"
@@ -144,6 +145,7 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
     read_vertex_bits(loaded, asset);
     if (loaded.source->has_draco) asset.compression = Compression::draco;
     if (loaded.source->has_meshopt) asset.compression = Compression::meshopt;
+    loaded.source->unused = unused_objects(loaded.source->document);
     asset.source = std::move(loaded.source);
     asset.warnings = std::move(loaded.warnings);
     for (const std::string& name : unknown_extensions(asset.source->document))

@@ -143,6 +143,7 @@ GltfWriter make_writer(const Asset& asset) {
     GltfWriter writer{asset, source, start_document(source.document),
                       asset.source ? Vec3{} : local_origin(asset.parts),
                       GltfBufferBuilder(asset.compression, {asset.normal_bits, asset.uv_bits})};
+    if (!source.unused.empty()) writer.warnings.push_back(source.unused + ": left out");
     if (asset.compression == Compression::meshopt && !can_encode_meshopt())
         writer.warnings.push_back("faqem was built without meshoptimizer: the geometry was not compressed");
     if (asset.compression == Compression::draco && !can_encode_draco())
