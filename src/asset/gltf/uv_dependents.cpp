@@ -6,9 +6,7 @@
 #include "asset/gltf/source_document.hpp"
 
 namespace faqem::detail {
-namespace {
 
-// Materials of the document with an animated texture transform.
 std::vector<std::uint8_t> materials_with_moving_textures(const Json& document) {
     std::vector<std::uint8_t> result(array_size(document, "materials"), 0);
     for (const Json& animation : member(document, "animations")) {
@@ -21,8 +19,6 @@ std::vector<std::uint8_t> materials_with_moving_textures(const Json& document) {
     }
     return result;
 }
-
-}  // namespace
 
 std::vector<Index> variant_materials(const Asset& asset, const Part& part) {
     std::vector<Index> result;

@@ -95,13 +95,17 @@ std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> p
     return result;
 }
 
-// Whether animations may move textures, so that other texels are shown than those of the UVs.
-bool may_move_textures(const Asset& source) {
+// Whether an animation moves a texture with an image, so that other texels are shown than those of the UVs.
+bool is_moved(const Asset& source, const Asset& result, Index image) {
     if (!source.source) return false;
-    const Json& document = source.source->document;
-    const auto used = document.find("extensionsUsed");
-    return used != document.end() &&
-           std::find(used->begin(), used->end(), "KHR_animation_pointer") != used->end();
+    const std::vector<std::uint8_t> moving = materials_with_moving_textures(source.source->document);
+    return std::any_of(result.materials.begin(), result.materials.end(), [&](const Material& material) {
+        if (!(material.source < moving.size()) || !moving[material.source] || material.rebaked) return false;
+        bool has_image = false;
+        for_each_texture(material,
+                         [&](const TextureRef& texture) { has_image = has_image || texture.image == image; });
+        return has_image;
+    });
 }
 
 // Whether the variant of a part shows an image. Which faces show it is not known then.
@@ -181,7 +185,7 @@ PendingImage kept_image(const Asset& source, const Asset& result, std::span<cons
     if (!exceeds(pending.pixels, use, texture_size)) pending.original = image;
     while (exceeds(pending.pixels, use, texture_size)) pending.pixels = halved(pending.pixels);
     pending.known = std::make_shared<const std::vector<std::uint8_t>>(
-        may_move_textures(source) || is_in_variant(result, parts, index)
+        is_moved(source, result, index) || is_in_variant(result, parts, index)
             ? std::vector<std::uint8_t>(std::size_t{pending.pixels.width} * pending.pixels.height, 1)
             : texels_of_parts(result, parts, index, pending.pixels));
     return pending;

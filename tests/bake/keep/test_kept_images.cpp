@@ -1,5 +1,11 @@
 // Images of parts that keep their UVs: encoded again where something changed.
 
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "asset/gltf/source_document.hpp"
 #include "asset/image/image.hpp"
 #include "bake/keep/kept_images.hpp"
 #include "support/catch.hpp"
@@ -78,4 +84,28 @@ TEST_CASE("kept images: those of unknown extensions stay as they are") {
     asset.materials[0].extension_textures.push_back(
         {"VENDOR_paint", "paintTexture", asset.materials[0].base_color_texture});
     CHECK(encoded(asset, {}).images[0].encoded == asset.images[0].encoded);
+}
+
+TEST_CASE("kept images: all texels count where an animation moves the texture, and only there") {
+    Asset asset = textured_square(smooth(64));
+    for (Vec2f& uv : asset.parts[0].uvs[0]) uv = {uv[0] / 4, uv[1] / 4};
+    asset.materials[0].source = 1;
+    const auto uncounted = [&](const std::string& pointer) {
+        const auto source = std::make_shared<SourceDocument>();
+        source->document["extensionsUsed"] = {"KHR_animation_pointer"};
+        source->document["materials"] = {detail::Json::object(), detail::Json::object()};
+        source->document["animations"][0]["channels"][0]["target"]["extensions"]["KHR_animation_pointer"] = {
+            {"pointer", pointer}};
+        asset.source = source;
+        detail::UnencodedResult out;
+        out.asset.asset = asset;
+        detail::add_kept_images(asset, {}, std::vector<detail::KeptPart>{{0, false}}, {}, out);
+        const std::vector<std::uint8_t>& known = *out.pending.at(0).known;
+        return std::count(known.begin(), known.end(), 0);
+    };
+    const std::string offset =
+        "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset";
+    CHECK(uncounted("/materials/1" + offset) == 0);
+    CHECK(uncounted("/materials/0" + offset) > 2000);
+    CHECK(uncounted("/nodes/0/translation") > 2000);
 }
