@@ -64,7 +64,8 @@ struct QuantizeOptions {
     Quantize kind = Quantize::source;
     /// Positions are rounded to a grid that all meshes of a scene, and all levels of detail, have in common. Its
     /// spacing is the diagonal of the scene divided by 2 to this power, rounded up to a power of two. In [8, 16].
-    std::uint32_t position_bits = 14;
+    /// Unset: 14, or what a byte budget of the command chooses.
+    std::optional<std::uint32_t> position_bits = {};
     std::uint32_t normal_bits =
         10;  ///< of the two octahedral coordinates of compressed normals and tangents; [8, 16]
     std::uint32_t uv_bits = 13;  ///< of compressed texture coordinates from 0 to 1, in [8, 16]

@@ -130,7 +130,26 @@ struct BudgetPoint {
     std::uint64_t bytes = 0;        ///< of all files
     std::uint32_t image_side = 0;   ///< limit of the sides of images, texels; 0: none was encoded again
     std::optional<double> quality;  ///< BakeOptions::image_quality, dB; empty if the format has none
-    double psnr = 0;                ///< of rendered pictures, dB
+    std::optional<std::uint32_t> position_bits;  ///< QuantizeOptions::position_bits; empty: not chosen
+    double psnr = 0;                             ///< of rendered pictures, dB
+};
+
+/// What a trial of a byte budget changes; the rest is as in the source.
+enum class BudgetTrialKind {
+    faces,
+    positions,  ///< their bits
+    images,
+};
+
+/// One trial of a byte budget, on all faces unless it is about them. Set by the command.
+struct BudgetTrial {
+    BudgetTrialKind kind = BudgetTrialKind::faces;
+    std::uint64_t faces = 0;
+    std::uint64_t bytes = 0;                     ///< of the geometry, or of the images
+    std::uint32_t image_side = 0;                ///< limit of the sides of images, texels; 0: not encoded
+    std::optional<double> quality;               ///< BakeOptions::image_quality, dB; empty: not chosen
+    std::optional<std::uint32_t> position_bits;  ///< QuantizeOptions::position_bits; empty: not chosen
+    double psnr = 0;                             ///< of rendered pictures, dB
 };
 
 /// Summary of one run. Counts are sums if several meshes were simplified.
@@ -170,6 +189,7 @@ struct Report {
     std::vector<std::string> given_up;
     /// For a byte budget without a face target: the results that were compared, in the order in which they were made.
     std::vector<BudgetPoint> budget_points;
+    std::vector<BudgetTrial> budget_trials;  ///< in the order in which they were made
     /// Total size of the files of the model before and after, without those of history and correspondence. Set by
     /// the command; 0: unknown.
     std::uint64_t bytes_in = 0, bytes_out = 0;

@@ -17,10 +17,12 @@ bool leaves_faces_to_budget(const Options& options);
 /// of the result are as near to those of the source as the bytes allow:
 /// 1. One run gives results with 100% to 4.5% of the faces. Each is saved, for its bytes, and rendered with the images of
 ///    the source, for its error.
+///    Where new grids of positions are used, and QuantizeOptions::position_bits is unset, 13 to 16 bits are tried.
 /// 2. The images are encoded with several sizes and qualities and rendered on all faces.
-/// 3. Errors of faces and images are assumed to add up. For each set of images, the face count is what the rest of the
-///    bytes allows.
-/// 4. The most promising choices are made, saved and rendered; the best one is returned. Report::budget_points has all.
+/// 3. Errors of faces, images and rounding are assumed to add up. For each set of images, the face count is what the rest
+///    of the bytes allows.
+/// 4. The most promising choices are made, saved and rendered; the best one is returned. Report::budget_points has
+///    these, budget_trials those of 1 and 2.
 /// Images stay as they are with Bake::keep and ImageFormat::source. BakeOptions::texture_size limits their sides, and
 /// BakeOptions::image_quality is ignored.
 /// \param options  leaves_faces_to_budget() must be true

@@ -61,17 +61,29 @@ PictureError error_of_faces(std::span<const TriedFaces> tried, std::uint64_t fac
     return tried.back().error;
 }
 
+std::uint64_t as_first_rounding(std::span<const TriedRounding> roundings, std::size_t rounding,
+                                std::uint64_t bytes) {
+    if (rounding == 0) return bytes;
+    const double factor =
+        static_cast<double>(roundings[0].bytes) / static_cast<double>(roundings[rounding].bytes);
+    return static_cast<std::uint64_t>(factor * static_cast<double>(bytes));
+}
+
 std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces,
-                                         std::span<const TriedImages> images, std::uint64_t bytes) {
+                                         std::span<const TriedImages> images,
+                                         std::span<const TriedRounding> roundings, std::uint64_t bytes) {
     std::vector<BudgetChoice> result;
     for (std::size_t i = 0; i < images.size(); ++i) {
         if (images[i].bytes >= bytes) continue;
-        const std::optional<std::uint64_t> count = faces_within(faces, bytes - images[i].bytes);
-        if (!count) continue;
-        PictureError error = error_of_faces(faces, *count);
-        error.unlit += images[i].error.unlit;
-        error.lit += images[i].error.lit;
-        result.push_back({i, *count, picture_psnr(error)});
+        for (std::size_t r = 0; r < roundings.size(); ++r) {
+            const std::optional<std::uint64_t> count =
+                faces_within(faces, as_first_rounding(roundings, r, bytes - images[i].bytes));
+            if (!count) continue;
+            PictureError error = error_of_faces(faces, *count);
+            error.unlit += images[i].error.unlit + roundings[r].error.unlit;
+            error.lit += images[i].error.lit + roundings[r].error.lit;
+            result.push_back({i, r, *count, picture_psnr(error)});
+        }
     }
     std::stable_sort(result.begin(), result.end(), [](const BudgetChoice& a, const BudgetChoice& b) {
         if (std::isnan(a.psnr) || std::isnan(b.psnr)) return !std::isnan(a.psnr) && std::isnan(b.psnr);

@@ -12,10 +12,17 @@
 
 namespace faqem::cli {
 
-/// Geometry that was tried, with perfect images.
+/// Geometry that was tried, with perfect images and exact vertices.
 struct TriedFaces {
     std::uint64_t faces = 0;
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = 0;  ///< with the first rounding that was tried
+    PictureError error;
+};
+
+/// Rounding of vertices that was tried, on all faces with perfect images.
+struct TriedRounding {
+    std::optional<std::uint32_t> position_bits;  ///< QuantizeOptions::position_bits
+    std::uint64_t bytes = 0;                     ///< of the geometry
     PictureError error;
 };
 
@@ -27,9 +34,10 @@ struct TriedImages {
     PictureError error;
 };
 
-/// A face count and images that should fit.
+/// A face count, images and a rounding that should fit.
 struct BudgetChoice {
-    std::size_t images = 0;  ///< index
+    std::size_t images = 0;    ///< index
+    std::size_t rounding = 0;  ///< index
     std::uint64_t faces = 0;
     double psnr = 0;  ///< expected, dB
 };
@@ -42,9 +50,15 @@ std::optional<std::uint64_t> faces_within(std::span<const TriedFaces> tried, std
 /// The error of a face count, interpolated. \param tried  as for faces_within() O(tried)
 PictureError error_of_faces(std::span<const TriedFaces> tried, std::uint64_t faces);
 
-/// For each set of images that leaves bytes for faces, the face count that fits; the best first, equal ones in the order
-/// of the images. O(images * (faces + log images))
+/// Bytes of geometry with a rounding, as bytes with the first one, to which it is in proportion. O(1)
+std::uint64_t as_first_rounding(std::span<const TriedRounding> roundings, std::size_t rounding,
+                                std::uint64_t bytes);
+
+/// For each set of images that leaves bytes for faces, and each rounding, the face count that fits; the best first, equal
+/// ones in the order of the images and roundings. O(n (faces + log n)) for n pairs
+/// \param roundings  at least one, with bytes > 0
 std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces,
-                                         std::span<const TriedImages> images, std::uint64_t bytes);
+                                         std::span<const TriedImages> images,
+                                         std::span<const TriedRounding> roundings, std::uint64_t bytes);
 
 }  // namespace faqem::cli

@@ -26,11 +26,12 @@ bool has_normal_map(const Asset& asset) {
                        [](const Material& m) { return bool(m.normal_texture) && !m.unlit; });
 }
 
-std::array<double, 3> shown_color(const Eigen::Vector4f& pixel) {
-    std::array<double, 3> result{};
+// Colour in sRGB before the grey, and alpha.
+Eigen::Vector4f shown_pixel(const Eigen::Vector4f& pixel) {
+    Eigen::Vector4f result = pixel;
     for (int k = 0; k < 3; ++k) {
         const double linear = double{pixel[k]} + (1 - double{pixel[3]}) * grey_behind;
-        result[static_cast<std::size_t>(k)] = detail::srgb_from_linear(std::clamp(linear, 0.0, 1.0));
+        result[k] = static_cast<float>(detail::srgb_from_linear(std::clamp(linear, 0.0, 1.0)));
     }
     return result;
 }
@@ -41,12 +42,16 @@ struct ErrorSum {
     std::uint64_t pixels = 0;
 };
 
-ErrorSum frame_difference(const render::Frame& a, const render::Frame& b) {
+// \param shown  pixels of the source after shown_pixel()
+ErrorSum frame_difference(const render::Frame& shown, const render::Frame& frame) {
     ErrorSum result;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        if (!(a.pixels[i][3] > 0) && !(b.pixels[i][3] > 0)) continue;
-        const std::array<double, 3> first = shown_color(a.pixels[i]), second = shown_color(b.pixels[i]);
-        for (std::size_t k = 0; k < 3; ++k) result.squares += (first[k] - second[k]) * (first[k] - second[k]);
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
+        if (!(shown.pixels[i][3] > 0) && !(frame.pixels[i][3] > 0)) continue;
+        const Eigen::Vector4f pixel = shown_pixel(frame.pixels[i]);
+        for (int k = 0; k < 3; ++k) {
+            const double difference = double{shown.pixels[i][k]} - double{pixel[k]};
+            result.squares += difference * difference;
+        }
         ++result.pixels;
     }
     return result;
@@ -59,12 +64,25 @@ double picture_psnr(const PictureError& error) {
     return (psnr(error.unlit) + psnr(error.lit)) / 2;
 }
 
+template <class Use>
+void PictureMeter::for_each_frame(const render::Scene& scene, const Use& use) const {
+    const std::size_t views = cameras_.size();
+    detail::parallel_blocks(frames_.size(), 1, threads_, [&](std::size_t i, std::size_t) {
+        use(i, render::render(scene, cameras_[i % views], picture_size, shadings_[i / views],
+                              render::Edges::hidden));
+    });
+}
+
 PictureMeter::PictureMeter(Asset source, const detail::Workers& workers)
     : threads_(workers.threads), shadings_{render::Shading::unlit} {
     if (has_normal_map(source)) shadings_.push_back(render::Shading::lit);
     source_ = render::make_scene(std::move(source));
     cameras_ = render::cameras_around(source_, "", picture_views);
-    frames_ = render_all(source_);
+    frames_.resize(shadings_.size() * cameras_.size());
+    for_each_frame(source_, [&](std::size_t i, render::Frame frame) {
+        frames_[i] = std::move(frame);
+        for (Eigen::Vector4f& pixel : frames_[i].pixels) pixel = shown_pixel(pixel);
+    });
 }
 
 PictureError PictureMeter::operator()(Asset model) const {
@@ -84,24 +102,16 @@ PictureError PictureMeter::with_source_images(Asset model) {
     return result;
 }
 
-std::vector<render::Frame> PictureMeter::render_all(const render::Scene& scene) const {
-    const std::size_t views = cameras_.size();
-    std::vector<render::Frame> result(shadings_.size() * views);
-    detail::parallel_blocks(result.size(), 1, threads_, [&](std::size_t i, std::size_t) {
-        result[i] = render::render(scene, cameras_[i % views], picture_size, shadings_[i / views],
-                                   render::Edges::hidden);
-    });
-    return result;
-}
-
 PictureError PictureMeter::compare(const render::Scene& scene) const {
-    const std::vector<render::Frame> frames = render_all(scene);
+    std::vector<ErrorSum> by_frame(frames_.size());
+    for_each_frame(scene, [&](std::size_t i, const render::Frame& frame) {
+        by_frame[i] = frame_difference(frames_[i], frame);
+    });
     std::array<ErrorSum, 2> sums;  // by shading
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        const ErrorSum of_frame = frame_difference(frames_[i], frames[i]);
+    for (std::size_t i = 0; i < by_frame.size(); ++i) {
         ErrorSum& sum = sums[i / cameras_.size()];
-        sum.squares += of_frame.squares;
-        sum.pixels += of_frame.pixels;
+        sum.squares += by_frame[i].squares;
+        sum.pixels += by_frame[i].pixels;
     }
     const auto mean = [](const ErrorSum& sum) {
         return sum.squares / (3 * static_cast<double>(std::max<std::uint64_t>(sum.pixels, 1)));

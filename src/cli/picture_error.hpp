@@ -38,13 +38,16 @@ public:
 
 private:
     PictureError compare(const render::Scene& scene) const;
-    std::vector<render::Frame> render_all(const render::Scene& scene) const;
+
+    // Calls use(index, frame) for each picture, on several threads.
+    template <class Use>
+    void for_each_frame(const render::Scene& scene, const Use& use) const;
 
     std::uint32_t threads_;
     render::Scene source_;
     std::vector<render::Camera> cameras_;
     std::vector<render::Shading> shadings_;
-    std::vector<render::Frame> frames_;  // of the source; by shading and camera
+    std::vector<render::Frame> frames_;  // of the source, in sRGB before grey; by shading and camera
 };
 
 }  // namespace faqem::cli

@@ -2,35 +2,20 @@
 
 #include "cli/best_picture.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/picture_error.hpp"
 #include "support/catch.hpp"
-#include "support/cli_support.hpp"
+#include "support/painted_sheet.hpp"
 
 using namespace tool_test;
 using namespace faqem::cli;
 
 namespace {
-
-// A curved sheet with a smooth image and some noise.
-faqem::Asset painted_sheet(faqem::Index n) {
-    faqem::Asset asset = sheet(n, 0.2);
-    faqem::Pixels pixels{256, 256, {}, false};
-    std::uint32_t state = 1;
-    for (std::uint32_t y = 0; y < 256; ++y) {
-        for (std::uint32_t x = 0; x < 256; ++x) {
-            state = state * 1664525u + 1013904223u;
-            const auto noise = static_cast<std::uint8_t>(state >> 28);
-            const auto wave = static_cast<std::uint8_t>(100 + 80 * std::sin(0.1 * x) * std::cos(0.07 * y));
-            pixels.rgba.insert(pixels.rgba.end(), {wave, static_cast<std::uint8_t>(x / 2 + noise),
-                                                   static_cast<std::uint8_t>(y / 2 + noise), 255});
-        }
-    }
-    asset.images[0] = faqem::encode_png(pixels, "painted");
-    return asset;
-}
 
 double psnr_of(const Folder& folder, const std::string& file) {
     const PictureMeter meter(faqem::load(folder / "in.glb"), 0);
@@ -145,4 +130,54 @@ TEST_CASE("only options that leave the face count open leave it to the budget") 
     options.bake.kind = faqem::Bake::automatic;
     options.history = faqem::Recording::on;
     CHECK_FALSE(leaves_faces_to_budget(options));
+}
+
+TEST_CASE(
+    "--max-bytes sees the rounding of vertices, and chooses finer positions where the bytes are enough") {
+    const Folder folder;
+    faqem::save(painted_sheet(40), folder / "in.glb");
+    const auto written = [&](const std::string& options) {
+        REQUIRE(run(folder, "simplify in.glb out.glb --force --quantize --report r.json " + options).code ==
+                0);
+        const nlohmann::json json = report(folder), points = json["budget_points"];
+        const auto best = std::max_element(
+            points.begin(), points.end(), [](const auto& a, const auto& b) { return a["psnr"] < b["psnr"]; });
+        CHECK(std::abs((*best)["psnr"].get<double>() - psnr_of(folder, "out.glb")) < 0.1);
+        return std::pair(*best, json);
+    };
+    const auto [few, few_json] = written("--max-bytes 6000");
+    const auto [many, many_json] = written("--max-bytes 150000");
+    CHECK(many["position_bits"] == 16);
+    CHECK(few["position_bits"] <= many["position_bits"]);
+    const auto spacing = [](const nlohmann::json& json) {
+        return json["position_rounding"]["spacing"].get<double>();
+    };
+    const auto [given, given_json] = written("--max-bytes 150000 --position-bits 10");
+    CHECK(given["position_bits"] == 10);
+    CHECK(given["psnr"] < many["psnr"]);
+    CHECK(spacing(given_json) == 64 * spacing(many_json));
+
+    REQUIRE(run(folder, "simplify in.glb out.glb --force --report r.json --max-bytes 12000").code == 0);
+    CHECK(report(folder)["budget_points"][0]["position_bits"].is_null());
+}
+
+TEST_CASE("the report of --max-bytes has the faces, positions and images that were tried alone") {
+    const Folder folder;
+    faqem::save(painted_sheet(40), folder / "in.glb");
+    REQUIRE(run(folder, "simplify in.glb out.glb --quantize --report r.json --max-bytes 12000").code == 0);
+    std::map<std::string, std::vector<nlohmann::json>> trials;
+    const nlohmann::json json = report(folder);
+    for (const nlohmann::json& trial : json["budget_trials"]) trials[trial["kind"]].push_back(trial);
+    REQUIRE(trials["faces"].size() == 7);
+    for (std::size_t i = 1; i < 7; ++i) {
+        CHECK(trials["faces"][i]["bytes"] < trials["faces"][i - 1]["bytes"]);
+        CHECK(trials["faces"][i]["psnr"] < trials["faces"][i - 1]["psnr"]);
+    }
+    REQUIRE(trials["positions"].size() == 4);
+    for (const nlohmann::json& trial : trials["positions"]) {
+        const bool is_fine = trial["position_bits"] > trials["positions"][0]["position_bits"];
+        CHECK((trial["psnr"] >= trials["positions"][0]["psnr"]) == (is_fine || trial["position_bits"] == 14));
+        CHECK(trial["faces"] == trials["faces"][0]["faces"]);
+    }
+    CHECK(trials["images"].size() > 3);
 }

@@ -47,6 +47,6 @@ FAQEM_EXPORT void add_histories(const SimplifiedParts& simplified, const Options
                                 SimplifiedAsset& result);
 
 /// Makes the result that of a run whose progress callback has cancelled.
-void set_cancelled(SimplifiedAsset& result);
+FAQEM_EXPORT void set_cancelled(SimplifiedAsset& result);
 
 }  // namespace faqem::detail

@@ -60,7 +60,8 @@ PositionGrids position_grids(const Asset& source, const Options& options) {
                                        [](const Part& part) { return part.position_spacing > 0; });
     if (!is_new && !has_grids) return grids;
     const SceneSize size = scene_size(source);
-    const double steps = std::ldexp(1.0, static_cast<int>(options.quantize.position_bits));
+    const std::uint32_t bits = options.quantize.position_bits.value_or(usual_position_bits);
+    const double steps = std::ldexp(1.0, static_cast<int>(bits));
     const double spacing = power_of_two_above(positive_or(size.diagonal, 1) / steps);
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
         const double own = source.parts[p].position_spacing, scale = positive_or(size.scales[p].largest, 1);

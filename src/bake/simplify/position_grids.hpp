@@ -2,9 +2,11 @@
 /// \file
 /// Grids to which the positions of a result are rounded in glTF files, for Options::quantize.
 
+#include <cstdint>
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 #include "faqem/report.hpp"
 
@@ -22,6 +24,9 @@ struct PositionGrids {
     double max_distance() const;
 };
 
+/// QuantizeOptions::position_bits if it is unset.
+inline constexpr std::uint32_t usual_position_bits = 14;
+
 /// Chooses the grids. With Quantize::on, or with Draco data unless Quantize::off is set, their spacing is the smallest
 /// power of two in scene units that divides the diagonal of the scene into at most 2^position_bits steps: levels of
 /// detail of a source have the same, and so has a result that is read and written again.
@@ -36,6 +41,7 @@ Compression result_compression(const Asset& source, const Options& options);
 /// Sets the members of a result that save() rounds vertices by, and Report::position_rounding.
 /// \param result  has a part for each of the source
 /// Complexity: O(faces log faces + vertices of the result)
-void set_quantization(const Asset& source, const Options& options, Asset& result, Report& report);
+FAQEM_EXPORT void set_quantization(const Asset& source, const Options& options, Asset& result,
+                                   Report& report);
 
 }  // namespace faqem::detail

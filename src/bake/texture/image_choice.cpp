@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,7 +23,8 @@ constexpr double coarsest_step = 2.25, finest_step = 0.35, step_ratio = 0.85;
 constexpr int max_png_difference = 6;
 
 // Qualities of lossy WebP that are tried.
-constexpr std::array<std::uint32_t, 10> webp_qualities = {40, 55, 65, 75, 82, 87, 91, 94, 97, 100};
+constexpr std::array<std::uint32_t, std::tuple_size_v<decltype(WebpEncodings::lossy)>> webp_qualities = {
+    40, 55, 65, 75, 82, 87, 91, 94, 97, 100};
 
 // Near-lossless WebP that changes values by up to 4: normals keep the resolution that lossy WebP halves.
 constexpr int near_lossless_level = 40;
@@ -102,23 +104,30 @@ struct LossyEncoding {
     ImageQuality quality;
     CancellationCheck check_cancelled;
 
-    bool allows(const Image& image) const {
-        return is_within(image_loss(original, decode(image), known), quality);
+    ImageLoss loss(const Image& image) const { return image_loss(original, decode(image), known); }
+    bool allows(const Image& image) const { return is_within(loss(image), quality); }
+
+    // The image of an entry, which `encode` makes if it is new; nothing if it is not sufficient.
+    template <class Encode>
+    std::optional<Image> shared(WebpEncodings::Entry& entry, const Encode& encode) const {
+        std::call_once(entry.once, [&] {
+            entry.image = encode();
+            entry.loss = loss(entry.image);
+        });
+        return is_within(entry.loss, quality) ? std::optional(entry.image) : std::nullopt;
     }
 
-    // The image that encode() makes with the first sufficient of some levels, from coarse to fine, and the index of the
-    // level; nothing if none is sufficient.
+    // The first of some levels, from coarse to fine, with which encode() gives a sufficient image, and its index;
+    // nothing if none does.
     template <class Encode>
-    std::optional<std::pair<Image, std::size_t>> least(std::span<const std::uint32_t> levels,
-                                                       const Encode& encode) const {
+    std::optional<std::pair<Image, std::size_t>> least(std::size_t levels, const Encode& encode) const {
         std::optional<std::pair<Image, std::size_t>> best;
-        std::size_t begin = 0, end = levels.size();
+        std::size_t begin = 0, end = levels;
         while (begin < end) {
             check_cancelled.now();
             const std::size_t middle = begin + (end - begin) / 2;
-            Image image = encode(levels[middle]);
-            if (allows(image)) {
-                best.emplace(std::move(image), middle);
+            if (std::optional<Image> image = encode(middle)) {
+                best.emplace(*std::move(image), middle);
                 end = middle;
             } else {
                 begin = middle + 1;
@@ -148,19 +157,22 @@ std::vector<std::uint32_t> jpeg_steps(double quality) {
 
 // The smallest sufficient JPEG. Chroma of half the resolution needs finer steps for the same error.
 std::optional<Image> smallest_jpeg(const LossyEncoding& lossy, const std::string& name, Content content) {
+    const std::vector<std::uint32_t> steps = jpeg_steps(lossy.quality.whole);
     const auto encode = [&](Chroma chroma) {
-        return [&, chroma](std::uint32_t step) { return write_jpeg(lossy.pixels, name, {step, chroma}); };
+        return [&, chroma](std::size_t i) {
+            Image image = write_jpeg(lossy.pixels, name, {steps[i], chroma});
+            return lossy.allows(image) ? std::optional(std::move(image)) : std::nullopt;
+        };
     };
-    const std::vector<std::uint32_t> all = jpeg_steps(lossy.quality.whole);
-    std::span<const std::uint32_t> steps = all;
+    std::size_t count = steps.size();
     std::optional<Image> best;
     if (content == Content::color) {
-        if (auto half = lossy.least(steps, encode(Chroma::half))) {
+        if (auto half = lossy.least(count, encode(Chroma::half))) {
             best = std::move(half->first);
-            steps = steps.first(half->second + 1);
+            count = half->second + 1;
         }
     }
-    if (auto full = lossy.least(steps, encode(Chroma::full))) keep_smaller(best, std::move(full->first));
+    if (auto full = lossy.least(count, encode(Chroma::full))) keep_smaller(best, std::move(full->first));
     return best;
 }
 
@@ -194,13 +206,17 @@ Image smallest_at(const LossyEncoding& lossy, const std::string& name, Content c
     if (limits.tries_core)
         best = pixels.has_alpha ? near_lossless_png(lossy, name) : smallest_jpeg(lossy, name, content);
     if (limits.tries_webp) {
-        if (auto found = lossy.least(webp_qualities,
-                                     [&](std::uint32_t quality) { return webp(WebpMode::lossy, quality); }))
+        WebpEncodings own;
+        WebpEncodings& all = limits.shared_webp ? *limits.shared_webp : own;
+        const auto encode = [&](std::size_t i) {
+            return lossy.shared(all.lossy[i], [&] { return webp(WebpMode::lossy, webp_qualities[i]); });
+        };
+        if (auto found = lossy.least(webp_qualities.size(), encode))
             keep_smaller(best, std::move(found->first));
-        if (!best || limits.effort == ImageEffort::full) {
-            Image near_lossless = webp(WebpMode::near_lossless, near_lossless_level);
-            if (lossy.allows(near_lossless)) keep_smaller(best, std::move(near_lossless));
-        }
+        if (!best || limits.effort == ImageEffort::full)
+            keep_smaller(best, lossy.shared(all.near_lossless, [&] {
+                return webp(WebpMode::near_lossless, near_lossless_level);
+            }));
     }
     if (!tries_lossless && best) return *std::move(best);
     if (limits.tries_core) keep_smaller(best, encode_png(pixels, name));

@@ -2,8 +2,10 @@
 /// \file
 /// Encoding and resolution of baked images, chosen by the measured loss.
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <span>
 #include <string>
 
@@ -29,6 +31,25 @@ enum class ImageEffort {
     estimate,
 };
 
+/// Peak signal-to-noise ratios, in dB; infinity if nothing differs.
+struct ImageLoss {
+    double psnr;        ///< over all known texels
+    double worst_psnr;  ///< least one of a block of 8 x 8 texels; unknown texels of the block count as equal
+};
+
+/// WebP encodings of one image that calls of encode_smallest() with different qualities have in common, also concurrent
+/// ones.
+struct WebpEncodings {
+    /// The first call makes it.
+    struct Entry {
+        std::once_flag once;
+        Image image;
+        ImageLoss loss = {};
+    };
+    std::array<Entry, 10> lossy;  ///< by quality
+    Entry near_lossless;
+};
+
 /// How far encode_smallest() may go.
 struct ImageLimits {
     ImageQuality quality;
@@ -36,6 +57,7 @@ struct ImageLimits {
     bool tries_core = true;  ///< whether PNG and JPEG are tried, which glTF has without extensions
     bool tries_webp = false;
     ImageEffort effort = ImageEffort::full;
+    WebpEncodings* shared_webp = nullptr;  ///< of the image; not null only if it may not shrink
 };
 
 /// Least PSNR of an image of ImageFormat::automatic: BakeOptions::image_quality, and 4 dB less for roughness and other
@@ -55,12 +77,6 @@ struct PicturePsnr {
 /// By how many dB images should be better than usual, since pictures of the result show their errors, or may be worse,
 /// since these are small beside those of the faces: in [-2, 4]. 0 if pictures were not measured.
 double quality_change(const PicturePsnr& pictures, TextureContent content);
-
-/// Peak signal-to-noise ratios, in dB; infinity if nothing differs.
-struct ImageLoss {
-    double psnr;        ///< over all known texels
-    double worst_psnr;  ///< least one of a block of 8 x 8 texels; unknown texels of the block count as equal
-};
 
 /// Loss of an image that is shown instead of another: the differences at the texels of the other image, where
 /// the first is interpolated bilinearly. Differences of colour are weighted by alpha.

@@ -9,7 +9,7 @@ namespace {
 Content encoded_content(TextureContent content) { return is_color(content) ? Content::color : Content::data; }
 
 Image encoded_image(const PendingImage& pending, const BakeOptions& bake, ImageEffort effort,
-                    CancellationCheck check_cancelled) {
+                    CancellationCheck check_cancelled, WebpEncodings* shared_webp = nullptr) {
     const Pixels& pixels = pending.pixels;
     const Content content = encoded_content(pending.content);
     if (has_image_quality(bake.image_format)) {
@@ -17,8 +17,11 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, ImageE
         const bool may_be_webp = bake.image_format != ImageFormat::png_or_jpeg;
         const ImageLimits limits{
             least_quality(bake, pending.content, pending.roughness, pending.quality_change),
-            pending.may_shrink, !is_webp,
-            bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp), effort};
+            pending.may_shrink,
+            !is_webp,
+            bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp),
+            effort,
+            shared_webp};
         Image smallest =
             encode_smallest(pixels, *pending.known, pending.name, content, limits, check_cancelled);
         const bool was_webp = pending.original && pending.original->mime_type == "image/webp";
@@ -47,6 +50,25 @@ void encode_pending_images(std::span<const PendingImage> pending, const BakeOpti
                         check_cancelled.now();
                         images[pending[i].image] = encoded_image(pending[i], bake, effort, check_cancelled);
                     });
+}
+
+std::vector<std::vector<Image>> encode_alternatives(std::span<const PendingImage> pending,
+                                                    const BakeOptions& bake,
+                                                    std::span<const std::optional<double>> qualities,
+                                                    const Workers& workers, ImageEffort effort) {
+    std::vector<std::vector<Image>> result(qualities.size(), std::vector<Image>(pending.size()));
+    std::vector<WebpEncodings> shared(pending.size());
+    parallel_blocks(qualities.size() * pending.size(), 1, workers,
+                    [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
+                        check_cancelled.now();
+                        const std::size_t image = i / qualities.size(), quality = i % qualities.size();
+                        BakeOptions own = bake;
+                        own.image_quality = qualities[quality];
+                        const PendingImage& at = pending[image];
+                        result[quality][image] = encoded_image(at, own, effort, check_cancelled,
+                                                               at.may_shrink ? nullptr : &shared[image]);
+                    });
+    return result;
 }
 
 }  // namespace faqem::detail

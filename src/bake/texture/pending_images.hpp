@@ -15,6 +15,7 @@
 #include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -57,5 +58,13 @@ bool tries_webp(const Asset& source);
 void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
                            const Workers& workers, std::vector<Image>& images,
                            ImageEffort effort = ImageEffort::full);
+
+/// encode_pending_images() for several qualities, on all threads: encodings that they have in common are made once.
+/// \param qualities  values of BakeOptions::image_quality
+/// \return by quality: the images, in the order of `pending`
+/// \throws engine::Cancelled
+FAQEM_EXPORT std::vector<std::vector<Image>> encode_alternatives(
+    std::span<const PendingImage> pending, const BakeOptions& bake,
+    std::span<const std::optional<double>> qualities, const Workers& workers, ImageEffort effort);
 
 }  // namespace faqem::detail

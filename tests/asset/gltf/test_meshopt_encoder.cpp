@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "asset/gltf/write/meshopt_encoder.hpp"
+#include "asset/scene/rounded_vertices.hpp"
 #include "support/catch.hpp"
 #include "support/curved_grid.hpp"
 #include "support/gltf_builder.hpp"
@@ -119,4 +120,26 @@ TEST_CASE("quantised geometry is smaller still, and is read and written again wi
     CHECK(b.normals == c.normals);
     CHECK(b.tangents == c.tangents);
     CHECK(b.uvs == c.uvs);
+}
+
+TEST_CASE("vertices that are rounded before have the positions and UVs of a file that rounds them") {
+    if (!detail::can_encode_meshopt()) return;
+    for (const std::uint32_t bits : {0u, 9u}) {
+        CAPTURE(bits);
+        Asset asset = curved_grid(FileOrder::for_gpu);
+        asset.compression = Compression::meshopt;
+        asset.parts[0].position_spacing = 0x1p-7;
+        asset.uv_bits = bits;
+        const Asset file = reread(asset);
+        CHECK(detail::round_vertices(asset));
+        asset.compression = Compression::none;
+        asset.parts[0].position_spacing = 0;
+        asset.uv_bits = 0;
+        CHECK_FALSE(detail::round_vertices(asset));
+        Part rounded = reread(asset).parts[0];
+        for (Vec3& position : rounded.positions)
+            for (double& x : position) x /= 0x1p-7;
+        CHECK(rounded.positions == file.parts[0].positions);
+        CHECK(rounded.uvs == file.parts[0].uvs);
+    }
 }

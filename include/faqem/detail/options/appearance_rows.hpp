@@ -118,6 +118,7 @@ inline constexpr OptionRow appearance_rows[] = {
         {.name = "position-bits",
          .range = {.min = 8, .max = 16},
          .value_name = "N",
+         .default_text = "14",
          .help = "Bits of quantised positions: steps of the grid along the diagonal of the scene",
          .entry_points = in_all}),
     option_row<&Options::quantize, &QuantizeOptions::normal_bits>(

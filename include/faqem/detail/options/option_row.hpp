@@ -92,6 +92,9 @@ constexpr auto& member_at(Struct& options) {
 inline OptionValue option_value(double number) { return {number, true}; }
 inline OptionValue option_value(std::uint32_t number) { return {static_cast<double>(number), true}; }
 inline OptionValue option_value(const std::optional<double>& number) { return {number, number.has_value()}; }
+inline OptionValue option_value(const std::optional<std::uint32_t>& number) {
+    return number ? option_value(*number) : OptionValue{};
+}
 inline OptionValue option_value(const std::optional<Length>& length) {
     return length ? OptionValue{length->value, true, length->unit} : OptionValue{};
 }
@@ -101,6 +104,10 @@ requires std::is_enum_v<Enum> OptionValue option_value(Enum choice) {
 }
 
 inline void assign_option(std::optional<double>& member, const OptionValue& value) { member = value.number; }
+inline void assign_option(std::optional<std::uint32_t>& member, const OptionValue& value) {
+    member.reset();
+    if (value.number) member = static_cast<std::uint32_t>(*value.number);
+}
 inline void assign_option(std::optional<Length>& member, const OptionValue& value) {
     member.reset();
     if (value.number) member = Length{*value.number, value.unit};
@@ -122,7 +129,8 @@ template <auto... path>
 constexpr OptionRow option_row(OptionRow row) {
     using Member = std::remove_cvref_t<decltype(member_at<path...>(std::declval<Options&>()))>;
     if constexpr (std::is_enum_v<Member>) row.kind = OptionKind::choice;
-    if constexpr (std::is_integral_v<Member>) row.kind = OptionKind::integer;
+    if constexpr (std::is_integral_v<Member> || std::is_same_v<Member, std::optional<std::uint32_t>>)
+        row.kind = OptionKind::integer;
     if constexpr (std::is_same_v<Member, std::optional<Length>>) row.kind = OptionKind::length;
     row.get = [](const Options& options) { return option_value(member_at<path...>(options)); };
     row.set = [](Options& options, const OptionValue& value) {

@@ -89,19 +89,24 @@ inline nlohmann::ordered_json buffer_views_json(const Report& report) {
     return json;
 }
 
-inline nlohmann::ordered_json budget_points_json(const Report& report) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const BudgetPoint& point : report.budget_points) {
-        nlohmann::ordered_json quality;
-        if (point.quality) quality = *point.quality;
-        json.push_back({{"kind", bake_name(point.kind)},
-                        {"faces", point.faces},
-                        {"bytes", point.bytes},
-                        {"image_side", point.image_side},
-                        {"image_quality", quality},
-                        {"psnr", point.psnr}});
-    }
-    return json;
+inline std::string_view trial_name(BudgetTrialKind kind) {
+    constexpr std::array<std::string_view, 3> names = {"faces", "positions", "images"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+// The members that BudgetPoint and BudgetTrial have in common.
+template <class Point>
+nlohmann::ordered_json budget_json(const Point& point, std::string_view kind) {
+    nlohmann::ordered_json quality, bits;
+    if (point.quality) quality = *point.quality;
+    if (point.position_bits) bits = *point.position_bits;
+    return {{"kind", kind},
+            {"faces", point.faces},
+            {"bytes", point.bytes},
+            {"image_side", point.image_side},
+            {"image_quality", quality},
+            {"position_bits", bits},
+            {"psnr", point.psnr}};
 }
 
 }  // namespace detail
@@ -146,7 +151,12 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["bytes_in"] = report.bytes_in;
     json["bytes_out"] = report.bytes_out;
     json["given_up"] = report.given_up;
-    json["budget_points"] = detail::budget_points_json(report);
+    json["budget_points"] = nlohmann::ordered_json::array();
+    for (const BudgetPoint& point : report.budget_points)
+        json["budget_points"].push_back(detail::budget_json(point, detail::bake_name(point.kind)));
+    json["budget_trials"] = nlohmann::ordered_json::array();
+    for (const BudgetTrial& trial : report.budget_trials)
+        json["budget_trials"].push_back(detail::budget_json(trial, detail::trial_name(trial.kind)));
     json["untouched_parts"] = report.untouched_parts;
     json["kept_uvs"] = report.kept_uvs;
     json["warnings"] = report.warnings;
