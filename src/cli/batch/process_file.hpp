@@ -18,6 +18,7 @@ struct BatchContext {
     Options options;
     std::string options_key;  ///< everything except the input files that results depend on
     Strictness strictness = Strictness::lenient;
+    std::uint64_t max_bytes = 0;  ///< of the files of one model; 0: unlimited
     bool strict_target = false;
     bool allow_larger = false;
     bool resume = false;

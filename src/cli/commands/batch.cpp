@@ -28,6 +28,7 @@ struct BatchArguments : SimplifyArguments {
     std::string in, out, format = default_format();
     std::uint32_t jobs = 0;
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
+    std::uint64_t max_bytes = 0;   ///< 0: unlimited
     bool resume = false, allow_larger = false, force = false;
 };
 
@@ -62,13 +63,15 @@ int run(const BatchArguments& arguments) {
     return_freed_memory();
     limit_process_memory(allowed, jobs * (1 + options.threads) + detail::thread_count(0));
     options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
-    const std::string key = std::string(version()) + " " + extension + " " + detail::options_key(options) +
-                            (arguments.strict ? " strict" : "") +
-                            (arguments.strict_target ? " strict-target" : "") +
-                            (arguments.allow_larger ? " allow-larger" : "");
+    const std::string key =
+        std::string(version()) + " " + extension + " " + detail::options_key(options) +
+        (arguments.strict ? " strict" : "") + (arguments.strict_target ? " strict-target" : "") +
+        (arguments.allow_larger ? " allow-larger" : "") +
+        (arguments.max_bytes > 0 ? " max-bytes " + std::to_string(arguments.max_bytes) : "");
     const BatchContext work = {options,
                                key,
                                arguments.strictness(),
+                               arguments.max_bytes,
                                arguments.strict_target,
                                arguments.allow_larger,
                                arguments.resume,
@@ -104,8 +107,13 @@ CommandInfo batch_command() {
     command.positionals = {
         positional("DIR", arguments->in, "Directory of the models; subdirectories are included"),
         positional("OUTDIR", arguments->out, "Directory for the results; created if necessary")};
+    OptionInfo max_bytes = size_option(
+        "--max-bytes", arguments->max_bytes,
+        "Maximum total size of the files of each model, as 2MB or 500KB; without a face count, faces "
+        "and images are chosen for the best picture, otherwise reduced until they fit");
+    max_bytes.excludes = {"--max-error"};
     command.options = {
-        format_option(arguments->format),
+        format_option(arguments->format), max_bytes,
         number_option("--jobs", "N", arguments->jobs, {.max = 1024},
                       "Models at a time; 0: the number of threads (default)"),
         size_option("--max-memory", arguments->max_memory,

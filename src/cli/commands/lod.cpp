@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "cli/commands/lod_manifest.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/level_budget.hpp"
 #include "cli/no_larger.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/builtin_profiles.hpp"
@@ -38,6 +40,7 @@ struct LodArguments : SimplifyArguments {
     std::string in, out, history, format = default_format(), textures = "each";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     ViewSettings view_settings;
+    std::uint64_t max_bytes = 0;  ///< of the files of each level; 0: unlimited
     bool without_original = false, one_file = false, allow_larger = false, force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
@@ -79,6 +82,15 @@ void check_shared_textures(const LodArguments& a, const Options& options) {
     if (options.topology.group_boundaries == GroupBoundaries::kept)
         throw OptionError(
             "--keep-groups: cannot be used with --textures shared, where the new atlas may merge materials");
+}
+
+/// Checks the options of --max-bytes.
+void check_budget(const LodArguments& a) {
+    if (a.max_bytes == 0) return;
+    if (a.level_textures() == LevelTextures::shared)
+        throw OptionError(
+            "--max-bytes: cannot be used with --textures shared, where levels have the same images");
+    if (a.one_file) throw OptionError("--max-bytes: cannot be used with --one-file");
 }
 
 /// Checks all output files and creates their folder.
@@ -186,13 +198,26 @@ private:
                        count = static_cast<double>(levels.size());
             const Options step =
                 detail::step_options(options_, Phase::bake, before / count, (before + 1) / count);
-            SimplifiedAsset simplified = with_file_in_errors(
-                arguments_.in, [&] { return bake_no_larger(source_, level.result, step, rule); });
+            SimplifiedAsset simplified = with_file_in_errors(arguments_.in, [&] {
+                return arguments_.max_bytes > 0 ? baked_within_bytes(level.result, step)
+                                                : bake_no_larger(source_, level.result, step, rule);
+            });
             level.result = {};
             if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return exit_cancelled;
             write_level(std::move(simplified), level.distance, level.error);
         }
         return exit_ok;
+    }
+
+    /// \throws BudgetError  names the file of the level
+    SimplifiedAsset baked_within_bytes(const SimplifiedParts& parts, const Options& step) {
+        if (!meter_) meter_.emplace(source_, detail::Workers{step.threads});
+        const fs::path& file = outputs_.models[written_.size()];
+        try {
+            return bake_within_bytes(source_, parts, step, {arguments_.max_bytes, file}, *meter_);
+        } catch (const BudgetError& error) {
+            throw BudgetError(file.string() + ": " + error.what());
+        }
     }
 
     ExitCode write_with_shared_texture() {
@@ -271,6 +296,7 @@ private:
     std::vector<WrittenLevel> written_;
     std::vector<SavedLevel> one_file_levels_;  // with --one-file
     detail::SceneSize size_;
+    std::optional<PictureMeter> meter_;  // with --max-bytes
     detail::FileSet set_;
 };
 
@@ -280,6 +306,7 @@ int run(const LodArguments& arguments) {
     for (const std::string& text : arguments.levels)
         levels.push_back(parse_lod_level(text, arguments.view_settings));
     check_shared_textures(arguments, options);
+    check_budget(arguments);
     const Outputs outputs(arguments);
     prepare_outputs(arguments, outputs);
     install_signal_handlers();
@@ -320,6 +347,10 @@ std::vector<OptionInfo> chain_options(LodArguments& a) {
                     "New textures: each (one for every level; default), shared (one for all levels, baked "
                     "for the finest)"),
         format_option(a.format),
+        size_option(
+            "--max-bytes", a.max_bytes,
+            "Maximum total size of the files of each level but the original, as 2MB or 500KB; images get "
+            "the sizes and qualities of the best picture"),
         text_option("--history", "FILE", a.history,
                     "Write the collapse history of all levels to this file, for faqem truncate"),
         number_option("--pixel-error", "N", a.view_settings.pixel_error, above_zero,

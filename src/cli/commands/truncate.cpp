@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/level_budget.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
@@ -27,6 +29,7 @@ struct TruncateArguments {
     GivenOptions options;
     std::string history, out, source;
     std::uint64_t faces = 0;
+    std::uint64_t max_bytes = 0;  ///< 0: unlimited
     bool strict = false, force = false, quiet = false;
 
     Strictness strictness() const { return strict ? Strictness::strict : Strictness::lenient; }
@@ -74,7 +77,12 @@ SimplifiedAsset baked_model(const TruncateArguments& arguments, const Simplified
     bake_options.quantize = resolve_quantize(bake_options.quantize, arguments.out);
     return with_file_in_errors(arguments.source, [&] {
         detail::check_source_matches_histories(source, simplified_parts);
-        SimplifiedAsset baked = bake(source, simplified_parts, bake_options);
+        SimplifiedAsset baked =
+            arguments.max_bytes > 0
+                ? bake_within_bytes(source, simplified_parts, bake_options,
+                                    {arguments.max_bytes, arguments.out},
+                                    PictureMeter(source, detail::Workers{options.threads}))
+                : bake(source, simplified_parts, bake_options);
         baked.report.warnings.insert(baked.report.warnings.begin(), source.warnings.begin(),
                                      source.warnings.end());
         return baked;
@@ -86,6 +94,8 @@ int run(const TruncateArguments& arguments) {
     if (options.bake.kind == Bake::keep)
         throw OptionError("--bake keep: cannot be used, because a history does not contain UVs");
     if (arguments.strict && arguments.source.empty()) throw OptionError("--strict: requires --source");
+    if (arguments.max_bytes > 0 && arguments.source.empty())
+        throw OptionError("--max-bytes: requires --source");
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.history);
     if (!arguments.source.empty()) protect_input(arguments.source);
@@ -137,9 +147,14 @@ CommandInfo truncate_command() {
         positional("OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write))};
     OptionInfo faces = number_option("--faces", "N", arguments->faces, from_one(), "Maximum number of faces");
     faces.is_required = true;
-    command.options = {faces, text_option("--source", "FILE", arguments->source,
-                                          "The original model, from which the appearance is baked with the "
-                                          "options below. Without it: geometry only")};
+    command.options = {
+        faces,
+        text_option("--source", "FILE", arguments->source,
+                    "The original model, from which the appearance is baked with the "
+                    "options below. Without it: geometry only"),
+        size_option("--max-bytes", arguments->max_bytes,
+                    "Maximum total size of all output files, as 2MB or 500KB; images get the sizes "
+                    "and qualities of the best picture. Requires --source")};
     add_options(command.options, table_options(detail::in_truncate, arguments->options));
     add_options(command.options, {strict_option(arguments->strict),
                                   flag_option("--force", arguments->force, "Overwrite an existing file"),
