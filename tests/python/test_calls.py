@@ -18,6 +18,8 @@ from test_compatible import bumpy_grid
 class Interrupt(unittest.TestCase):
     def setUp(self):
         self.mesh = bumpy_grid(60)
+        # A shell starts background processes with SIGINT ignored, and Python then installs no handler.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         self.before = signal.getsignal(signal.SIGINT)
 
     def interrupted_at(self, call, calls):
