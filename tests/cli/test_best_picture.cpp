@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/picture_error.hpp"
 #include "support/catch.hpp"
 #include "support/painted_sheet.hpp"
 
@@ -16,11 +15,6 @@ using namespace tool_test;
 using namespace faqem::cli;
 
 namespace {
-
-double psnr_of(const Folder& folder, const std::string& file) {
-    const PictureMeter meter(faqem::load(folder / "in.glb"), 0);
-    return picture_psnr(meter(faqem::load(folder / file)));
-}
 
 nlohmann::json report(const Folder& folder) { return nlohmann::json::parse(read(folder / "r.json")); }
 

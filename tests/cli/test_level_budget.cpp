@@ -6,19 +6,12 @@
 #include <sstream>
 #include <string>
 
-#include "cli/picture_error.hpp"
 #include "support/catch.hpp"
 #include "support/painted_sheet.hpp"
 
 using namespace tool_test;
-using namespace faqem::cli;
 
 namespace {
-
-double level_psnr(const Folder& folder, const std::string& file) {
-    const PictureMeter meter(faqem::load(folder / "in.glb"), 0);
-    return picture_psnr(meter(faqem::load(folder / file)));
-}
 
 /// The number of bytes that a message says the smallest result has.
 std::string size_in_message(const Outcome& outcome) {
@@ -50,7 +43,7 @@ TEST_CASE(
             CHECK(fs::file_size(folder / file) <= bytes);
         CHECK(faces(1) == first);
         CHECK(faces(2) == second);
-        const double psnr = level_psnr(folder, "out/in_LOD1.glb");
+        const double psnr = psnr_of(folder, "out/in_LOD1.glb");
         CHECK(psnr > last);
         last = psnr;
     }

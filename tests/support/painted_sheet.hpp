@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 
+#include "cli/picture_error.hpp"
 #include "support/cli_support.hpp"
 
 namespace tool_test {
@@ -23,6 +25,12 @@ inline faqem::Asset painted_sheet(faqem::Index n) {
     }
     asset.images[0] = faqem::encode_png(pixels, "painted");
     return asset;
+}
+
+/// PSNR of the pictures of a result, beside those of `in.glb` in the same folder, dB.
+inline double psnr_of(const Folder& folder, const std::string& file) {
+    const faqem::cli::PictureMeter meter(faqem::load(folder / "in.glb"), 0);
+    return faqem::cli::picture_psnr(meter(faqem::load(folder / file)));
 }
 
 }  // namespace tool_test
