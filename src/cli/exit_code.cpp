@@ -2,7 +2,7 @@
 
 #include <new>
 
-#include "cli/byte_budget.hpp"
+#include "cli/budget/byte_budget.hpp"
 
 namespace faqem::cli {
 

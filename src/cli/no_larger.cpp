@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bake/scene/unencoded_result.hpp"
-#include "cli/byte_budget.hpp"
+#include "cli/budget/byte_budget.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 
 namespace faqem::cli {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/byte_budget.hpp"
+#include "cli/budget/byte_budget.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/no_larger.hpp"
 #include "faqem/bake.hpp"

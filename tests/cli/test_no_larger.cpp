@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cli/byte_budget.hpp"
+#include "cli/budget/byte_budget.hpp"
 #include "faqem/bake.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/picture_error.hpp"
+#include "cli/budget/picture_error.hpp"
 #include "support/cli_support.hpp"
 
 namespace tool_test {

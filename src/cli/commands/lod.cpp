@@ -15,7 +15,7 @@
 #include "cli/commands/lod_manifest.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/level_budget.hpp"
+#include "cli/budget/level_budget.hpp"
 #include "cli/no_larger.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/builtin_profiles.hpp"

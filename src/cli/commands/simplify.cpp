@@ -10,7 +10,7 @@
 #include "asset/file_format.hpp"
 #include "asset/gltf/buffer_views.hpp"
 #include "asset/model_files.hpp"
-#include "cli/byte_budget.hpp"
+#include "cli/budget/byte_budget.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/file_stamp.hpp"

@@ -12,7 +12,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/level_budget.hpp"
+#include "cli/budget/level_budget.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/byte_budget.hpp"
+#include "cli/budget/byte_budget.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 

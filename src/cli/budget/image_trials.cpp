@@ -1,4 +1,4 @@
-#include "cli/image_trials.hpp"
+#include "cli/budget/image_trials.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bake/scene/unencoded_result.hpp"
-#include "cli/budget_choices.hpp"
-#include "cli/search_steps.hpp"
+#include "cli/budget/budget_choices.hpp"
+#include "cli/budget/search_steps.hpp"
 
 namespace faqem::cli {
 

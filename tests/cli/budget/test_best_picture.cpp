@@ -1,6 +1,6 @@
 // --max-bytes without a face target: faces and images with the best pictures for the bytes.
 
-#include "cli/best_picture.hpp"
+#include "cli/budget/best_picture.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cli/best_picture.hpp"
+#include "cli/budget/best_picture.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +13,9 @@
 #include "bake/simplify/position_grids.hpp"
 #include "bake/simplify/simplify_parts.hpp"
 #include "bake/simplify/step_progress.hpp"
-#include "cli/budget_choices.hpp"
-#include "cli/image_trials.hpp"
-#include "cli/search_steps.hpp"
+#include "cli/budget/budget_choices.hpp"
+#include "cli/budget/image_trials.hpp"
+#include "cli/budget/search_steps.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/simplify/run.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/byte_budget.hpp"
+#include "cli/budget/byte_budget.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -7,7 +7,7 @@
 
 #include "asset/file_format.hpp"
 #include "asset/io/file_names.hpp"
-#include "cli/best_picture.hpp"
+#include "cli/budget/best_picture.hpp"
 #include "cli/output_file.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 

@@ -2,8 +2,8 @@
 /// \file
 /// `--max-bytes` with a face count that stays: `faqem lod` and `truncate`.
 
-#include "cli/byte_budget.hpp"
-#include "cli/picture_error.hpp"
+#include "cli/budget/byte_budget.hpp"
+#include "cli/budget/picture_error.hpp"
 #include "faqem/bake.hpp"
 
 namespace faqem::cli {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "cli/picture_error.hpp"
+#include "cli/budget/picture_error.hpp"
 
 namespace faqem::cli {
 

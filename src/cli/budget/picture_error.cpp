@@ -1,4 +1,4 @@
-#include "cli/picture_error.hpp"
+#include "cli/budget/picture_error.hpp"
 
 #include <algorithm>
 #include <array>

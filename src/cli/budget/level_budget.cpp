@@ -1,4 +1,4 @@
-#include "cli/level_budget.hpp"
+#include "cli/budget/level_budget.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bake/scene/unencoded_result.hpp"
-#include "cli/image_trials.hpp"
+#include "cli/budget/image_trials.hpp"
 
 namespace faqem::cli {
 

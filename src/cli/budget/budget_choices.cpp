@@ -1,4 +1,4 @@
-#include "cli/budget_choices.hpp"
+#include "cli/budget/budget_choices.hpp"
 
 #include <algorithm>
 #include <cmath>

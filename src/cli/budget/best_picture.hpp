@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "cli/byte_budget.hpp"
+#include "cli/budget/byte_budget.hpp"
 #include "faqem/bake.hpp"
 
 namespace faqem::cli {
