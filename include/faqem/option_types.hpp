@@ -144,7 +144,7 @@ enum class Normals {
     transfer,  ///< normals of the original at the mapped points
     smooth,    ///< normals of the result's faces, averaged up to BakeOptions::crease_angle
     flat,      ///< normals of the result's faces, not averaged
-    none,      ///< no normals; only with Bake::none
+    none,      ///< no normals, so that faces are shown flat; only with Bake::none and Bake::keep
 };
 
 /// What bake() does with untouched parts: those of which the simplification changed nothing, except that it

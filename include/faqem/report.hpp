@@ -127,9 +127,8 @@ struct ResultView {
 struct BudgetPoint {
     Bake kind = Bake::keep;  ///< `keep`: with the UVs of the source
     std::uint64_t faces = 0;
-    std::uint64_t bytes = 0;        ///< of all files
-    std::uint32_t image_side = 0;   ///< limit of the sides of images, texels; 0: none was encoded again
-    std::optional<double> quality;  ///< BakeOptions::image_quality, dB; empty if the format has none
+    std::uint64_t bytes = 0;       ///< of all files
+    std::uint32_t image_side = 0;  ///< longest side of the images, texels; 0: none was encoded again
     std::optional<std::uint32_t> position_bits;  ///< QuantizeOptions::position_bits; empty: not chosen
     double psnr = 0;                             ///< of rendered pictures, dB
 };
@@ -146,8 +145,7 @@ struct BudgetTrial {
     BudgetTrialKind kind = BudgetTrialKind::faces;
     std::uint64_t faces = 0;
     std::uint64_t bytes = 0;                     ///< of the geometry, or of the images
-    std::uint32_t image_side = 0;                ///< limit of the sides of images, texels; 0: not encoded
-    std::optional<double> quality;               ///< BakeOptions::image_quality, dB; empty: not chosen
+    std::uint32_t image_side = 0;                ///< longest side of the images, texels; 0: not encoded
     std::optional<std::uint32_t> position_bits;  ///< QuantizeOptions::position_bits; empty: not chosen
     double psnr = 0;                             ///< of rendered pictures, dB
 };

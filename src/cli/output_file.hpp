@@ -1,17 +1,14 @@
 #pragma once
 /// \file
-/// Checks of output files before the work starts, writing of files, and temporary directories.
+/// Checks of output files before the work starts, and writing of files.
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "asset/io/file_set.hpp"
 #include "faqem/asset.hpp"
-#include "faqem/error.hpp"
 
 namespace faqem::cli {
 
@@ -58,28 +55,5 @@ void commit_outputs(detail::FileSet& set);
 
 /// Writes the only file of a command, with write_output() and commit_outputs().
 void write_only_output(const std::filesystem::path& file, std::string_view content, Overwrite overwrite);
-
-/// Creates a directory in the system's temporary directory, and deletes it with its contents at destruction.
-class TemporaryFolder {
-public:
-    /// \param name  prefix of the directory's name
-    /// \throws WriteError  the directory cannot be created
-    explicit TemporaryFolder(const std::string& name) {
-        std::string path = (std::filesystem::temp_directory_path() / (name + "-XXXXXX")).string();
-        if (mkdtemp(path.data()) == nullptr) throw WriteError(path + ": cannot create a temporary directory");
-        path_ = path;
-    }
-    ~TemporaryFolder() {
-        std::error_code error;
-        std::filesystem::remove_all(path_, error);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 }  // namespace faqem::cli

@@ -28,14 +28,24 @@ struct Corner {
     Index vertex;
 };
 
+/// What a face shows of a texture.
+struct FaceTexture {
+    const Texture* texture = nullptr;  ///< null: none
+    std::array<Vector2d, 3> uv;        ///< with the texture transform applied
+    double mip_level = 0;
+};
+
 /// A projected triangle with its constant attributes.
 struct ScreenTriangle {
     std::array<Corner, 3> corners;
     const Part* part;
     const Material* material;
-    Vector3 normal;      ///< face normal, towards the eye
-    double facing;       ///< 1: front-facing, -1: back-facing
-    double screen_area;  ///< twice the signed area in screen space
+    Index material_index;  ///< the number of materials for the default material
+    Vector3 normal;        ///< face normal, towards the eye
+    double facing;         ///< 1: front-facing, -1: back-facing
+    double screen_area;    ///< twice the signed area in screen space
+    /// Made with the first pixel that shows them.
+    mutable std::optional<FaceTexture> base_color, normal_map, emissive;
 };
 
 const Material default_material;
@@ -46,8 +56,9 @@ struct RenderTarget {
     const Camera& camera;
     Shading shading;
     Edges edges;
-    SurfelImage surfels;          ///< depth and normals
-    std::vector<Vector4f> color;  ///< linear RGBA, premultiplied
+    SurfelImage surfels;           ///< depth and normals
+    std::vector<Vector4f> color;   ///< linear RGBA, premultiplied
+    std::vector<Index> materials;  ///< that of the nearest surface
 };
 
 /// Converts screen-space barycentric coordinates to perspective-correct ones.
@@ -87,22 +98,32 @@ double mip_level(const ScreenTriangle& face, const Texture& texture, const std::
     return ratio > 1 ? 0.5 * std::log2(ratio) : 0;
 }
 
-/// RGBA of a texture at the barycentric coordinates w; empty if there is no texture.
-std::optional<Vector4f> sample_texture(const ScreenTriangle& face, const TextureRef& texture_ref,
-                                       const std::vector<Texture>& textures, const Vector3& w) {
+FaceTexture make_face_texture(const ScreenTriangle& face, const TextureRef& texture_ref,
+                              const std::vector<Texture>& textures) {
+    FaceTexture result;
     if (!has_uvs(face, texture_ref) || texture_ref.image >= textures.size() || !textures[texture_ref.image])
-        return std::nullopt;
-    const Texture& texture = textures[texture_ref.image];
-    const std::array<Vector2d, 3> uv = {corner_uv(face, texture_ref, 0), corner_uv(face, texture_ref, 1),
-                                        corner_uv(face, texture_ref, 2)};
-    const Vector2d at = w[0] * uv[0] + w[1] * uv[1] + w[2] * uv[2];
-    return sample(texture, texture_ref, at, mip_level(face, texture, uv));
+        return result;
+    result.texture = &textures[texture_ref.image];
+    for (std::size_t k = 0; k < 3; ++k) result.uv[k] = corner_uv(face, texture_ref, k);
+    result.mip_level = mip_level(face, *result.texture, result.uv);
+    return result;
+}
+
+/// RGBA of a texture at the barycentric coordinates w; empty if there is no texture.
+/// \param of_face  the texture of the face, which is made if it is empty
+std::optional<Vector4f> sample_texture(const ScreenTriangle& face, std::optional<FaceTexture>& of_face,
+                                       const TextureRef& texture_ref, const std::vector<Texture>& textures,
+                                       const Vector3& w) {
+    if (!of_face) of_face = make_face_texture(face, texture_ref, textures);
+    if (!of_face->texture) return std::nullopt;
+    const Vector2d at = w[0] * of_face->uv[0] + w[1] * of_face->uv[1] + w[2] * of_face->uv[2];
+    return sample(*of_face->texture, texture_ref, at, of_face->mip_level);
 }
 
 Vector4f base_color(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w) {
     Vector4f color(face.material->base_color.data());
-    if (const auto texel =
-            sample_texture(face, face.material->base_color_texture, target.scene.color_textures, w)) {
+    if (const auto texel = sample_texture(face, face.base_color, face.material->base_color_texture,
+                                          target.scene.color_textures, w)) {
         color = color.cwiseProduct(*texel);
     }
     if (!face.part->colors.empty()) {
@@ -120,7 +141,7 @@ Vector4f base_color(const RenderTarget& target, const ScreenTriangle& face, cons
 Vector3 normal_mapped(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w,
                       const Vector3& normal) {
     const TextureRef& texture_ref = face.material->normal_texture;
-    const auto texel = sample_texture(face, texture_ref, target.scene.normal_maps, w);
+    const auto texel = sample_texture(face, face.normal_map, texture_ref, target.scene.normal_maps, w);
     if (!texel) return normal;
     const auto uv = [&](std::size_t k) {
         const Vec2f& p = face.part->uvs[texture_ref.uv_set][face.corners[k].vertex];
@@ -179,15 +200,15 @@ std::optional<Vector4f> shade(const RenderTarget& target, const ScreenTriangle& 
     if (material.alpha_mode == AlphaMode::mask && !(color[3] >= material.alpha_cutoff)) return std::nullopt;
     if (material.alpha_mode != AlphaMode::blend) color[3] = 1;
     normal = face.normal;
-    if (target.shading == Shading::lit && !material.unlit) {
+    if (target.shading != Shading::unlit && !material.unlit) {
         normal = shading_normal(target, face, w);
         const Vector3 world = interpolate(face, w, [](const Corner& c) -> const Vector3& { return c.world; });
         const Vector3f glow(material.emissive.data());
         Vector3f rgb =
             lighting(target.camera, color.head<3>(), normal, (target.camera.eye - world).normalized());
         if (glow.maxCoeff() > 0) {
-            const auto texel =
-                sample_texture(face, material.emissive_texture, target.scene.color_textures, w);
+            const auto texel = sample_texture(face, face.emissive, material.emissive_texture,
+                                              target.scene.color_textures, w);
             rgb += texel ? Vector3f(glow.cwiseProduct(texel->head<3>())) : glow;
         }
         color.head<3>() = rgb;
@@ -224,6 +245,7 @@ void draw_pixel(RenderTarget& target, const ScreenTriangle& face, std::size_t pi
     Vector4f premultiplied = *color * alpha;
     premultiplied[3] = alpha;
     target.color[pixel] = premultiplied + (1 - alpha) * target.color[pixel];
+    target.materials[pixel] = face.material_index;
     if (face.material->alpha_mode == AlphaMode::blend) return;  // blended faces do not write depth
     surfel.inverse_depth = static_cast<float>(inverse_depth);
     surfel.normal = normal.cast<float>();
@@ -256,8 +278,9 @@ std::optional<ScreenTriangle> project_triangle(const RenderTarget& target,
     ScreenTriangle face;
     face.part = &target.scene.asset.parts[instance.part];
     const Index material = face.part->face_material.empty() ? no_index : face.part->face_material[f];
-    face.material = material < target.scene.asset.materials.size() ? &target.scene.asset.materials[material]
-                                                                   : &default_material;
+    const std::vector<Material>& materials = target.scene.asset.materials;
+    face.material = material < materials.size() ? &materials[material] : &default_material;
+    face.material_index = std::min(material, static_cast<Index>(materials.size()));
     const Camera& camera = target.camera;
     const double half = target.surfels.size / 2.0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -284,31 +307,44 @@ std::optional<ScreenTriangle> project_triangle(const RenderTarget& target,
     return face;
 }
 
-/// Draws opaque and masked faces in any order, then blended faces from back to front.
+/// A face to draw.
+struct DrawnFace {
+    double nearness;  ///< sum of the inverse depths of its corners
+    std::uint32_t instance;
+    Index face;
+};
+
+/// Draws opaque and masked faces from front to back, so that few pixels are shaded that are hidden in the end, then
+/// blended faces from back to front.
 void draw_scene(RenderTarget& target) {
-    std::vector<std::pair<double, ScreenTriangle>> blended;
-    for (const Scene::PartInstance& instance : target.scene.parts) {
-        for (std::size_t f = 0; f < target.scene.asset.parts[instance.part].triangles.size(); ++f) {
-            const auto face = project_triangle(target, instance, f);
+    const std::vector<Scene::PartInstance>& instances = target.scene.parts;
+    std::vector<DrawnFace> opaque, blended;
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+        const std::size_t faces = target.scene.asset.parts[instances[i].part].triangles.size();
+        for (Index f = 0; f < faces; ++f) {
+            const auto face = project_triangle(target, instances[i], f);
             if (!face) continue;
-            if (face->material->alpha_mode != AlphaMode::blend) {
-                draw_face(target, *face);
-                continue;
-            }
             double nearness = 0;
             for (const Corner& corner : face->corners) nearness += corner.inverse_depth;
-            blended.emplace_back(nearness, *face);
+            const bool is_blended = face->material->alpha_mode == AlphaMode::blend;
+            (is_blended ? blended : opaque).push_back({nearness, i, f});
         }
     }
+    std::stable_sort(opaque.begin(), opaque.end(),
+                     [](const DrawnFace& a, const DrawnFace& b) { return a.nearness > b.nearness; });
     std::stable_sort(blended.begin(), blended.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [nearness, face] : blended) draw_face(target, face);
+                     [](const DrawnFace& a, const DrawnFace& b) { return a.nearness < b.nearness; });
+    for (const std::vector<DrawnFace>* const faces : {&opaque, &blended})
+        for (const DrawnFace& face : *faces)
+            draw_face(target, *project_triangle(target, instances[face.instance], face.face));
 }
 
-Frame downsample(const std::vector<Vector4f>& color, std::uint32_t size) {
+Frame downsample(const std::vector<Vector4f>& color, const std::vector<Index>& materials,
+                 std::uint32_t size) {
     Frame frame;
     frame.size = size;
     frame.pixels.assign(std::size_t{size} * size, Vector4f::Zero());
+    frame.materials.resize(frame.pixels.size());
     const std::uint32_t fine = size * samples_per_axis;
     for (std::uint32_t y = 0; y < fine; ++y) {
         for (std::uint32_t x = 0; x < fine; ++x) {
@@ -317,6 +353,9 @@ Frame downsample(const std::vector<Vector4f>& color, std::uint32_t size) {
             for (int k = 0; k < 3; ++k) c[k] = std::min(c[k], 1.0f);
             frame.pixels[std::size_t{y / samples_per_axis} * size + x / samples_per_axis] +=
                 c / static_cast<float>(samples_per_axis * samples_per_axis);
+            if (x % samples_per_axis == 0 && y % samples_per_axis == 0)
+                frame.materials[std::size_t{y / samples_per_axis} * size + x / samples_per_axis] =
+                    materials[std::size_t{y} * fine + x];
         }
     }
     return frame;
@@ -326,17 +365,18 @@ Frame downsample(const std::vector<Vector4f>& color, std::uint32_t size) {
 
 Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shading shading, Edges edges) {
     const std::uint32_t fine = size * samples_per_axis;
-    RenderTarget target{scene, camera, shading, edges, {}, {}};
+    RenderTarget target{scene, camera, shading, edges, {}, {}, {}};
     target.surfels.size = fine;
     target.surfels.tan_half_fov = camera.tan_half_fov;
     target.surfels.pixels.resize(std::size_t{fine} * fine);
     target.color.assign(std::size_t{fine} * fine, Vector4f::Zero());
+    target.materials.assign(std::size_t{fine} * fine, no_index);
     draw_scene(target);
     if (shading == Shading::lit) {
         const std::vector<float> accessibility = ambient_accessibility(target.surfels, camera);
         for (std::size_t i = 0; i < accessibility.size(); ++i) target.color[i].head<3>() *= accessibility[i];
     }
-    return downsample(target.color, size);
+    return downsample(target.color, target.materials, size);
 }
 
 }  // namespace faqem::render

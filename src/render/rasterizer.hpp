@@ -54,8 +54,12 @@ double fitting_distance(const Scene& scene, const Camera& camera, const Vector3&
 /// Computes the axis-aligned bounding box of all faces. Returns false if there are no faces.
 bool bounding_box(const Scene& scene, Vector3& low, Vector3& high);
 
-/// Whether lights are used, or the base colour is drawn.
-enum class Shading { lit, unlit };
+/// How surfaces are drawn.
+enum class Shading {
+    lit,
+    lit_without_occlusion,  ///< all ambient light reaches each point: takes a third of the time
+    unlit,                  ///< the base colour
+};
 
 /// Whether the edges of the triangles are drawn.
 enum class Edges { hidden, drawn };
@@ -64,6 +68,9 @@ enum class Edges { hidden, drawn };
 struct Frame {
     std::uint32_t size = 0;               ///< width and height in pixels
     std::vector<Eigen::Vector4f> pixels;  ///< size * size, row 0 at the top
+    /// By pixel: material of the nearest surface at its first sample, an index into Asset::materials or their number
+    /// for the default material; no_index without a surface.
+    std::vector<Index> materials;
 };
 
 /// Renders a scene with 2 x 2 samples per pixel. Back-facing triangles are drawn with flipped normals.

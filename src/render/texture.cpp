@@ -63,6 +63,7 @@ Texture::Level downsampled(const Texture& texture, const Texture::Level& from) {
 
 std::uint32_t wrap_index(std::int64_t i, std::uint32_t size, Wrap wrap) {
     const auto n = static_cast<std::int64_t>(size);
+    if (i >= 0 && i < n) return static_cast<std::uint32_t>(i);
     if (wrap == Wrap::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, n - 1));
     const std::int64_t period = wrap == Wrap::mirror ? 2 * n : n;
     std::int64_t r = i % period;

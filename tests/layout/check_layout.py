@@ -49,6 +49,7 @@ ORDER = [
     ["src/bake/scene"],
     ["src/capi"],
     ["src/python/native"],
+    ["src/cli/budget"],
     ["src/cli"],
     ["src/cli/memory"],
     ["src/cli/shell"],

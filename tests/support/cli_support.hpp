@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "cli/output_file.hpp"
+#include "asset/io/temporary_file.hpp"
 #include "faqem/asset.hpp"
 #include "support/cli_paths.hpp"
 
@@ -23,9 +23,9 @@ namespace tool_test {
 namespace fs = std::filesystem;
 
 /// A temporary folder that is removed by the destructor.
-class Folder : public faqem::cli::TemporaryFolder {
+class Folder : public faqem::detail::ScratchFolder {
 public:
-    Folder() : TemporaryFolder("faqem-tool") {}
+    Folder() : ScratchFolder("faqem-tool") {}
     fs::path operator/(const std::string& name) const { return path() / name; }
 };
 

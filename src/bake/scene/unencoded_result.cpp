@@ -58,14 +58,13 @@ bool needs_tangents(const Asset& asset, const Part& part) {
 }
 
 // Encodes the pending images. Without time for the choice of ImageFormat::automatic, they get the format of the source.
-void encode_in_time(UnencodedResult& result, const Options& options, ImageEffort effort,
-                    engine::ProgressMonitor& monitor) {
+void encode_in_time(UnencodedResult& result, const Options& options, engine::ProgressMonitor& monitor) {
     const Workers workers{options.threads, CancellationCheck(monitor)};
     std::vector<Image>& images = result.asset.asset.images;
     BakeOptions bake = options.bake;
     if (bake.image_format == ImageFormat::automatic) monitor.set_deadline(deadline_of(options));
     try {
-        return encode_pending_images(result.pending, bake, workers, images, effort);
+        return encode_pending_images(result.pending, bake, workers, images);
     } catch (const engine::Cancelled& stopped) {
         if (stopped.reason == StopReason::cancelled) throw;
     }
@@ -109,14 +108,14 @@ void set_cancelled(SimplifiedAsset& result) {
     result.report.stop = StopReason::cancelled;
 }
 
-void encode_images(UnencodedResult& result, const Options& options, ImageEffort effort) {
+void encode_images(UnencodedResult& result, const Options& options) {
     Report& report = result.asset.report;
     if (report.stop == StopReason::cancelled) return;
     const Stopwatch watch;
     engine::ProgressMonitor monitor(
         [&] { return options.progress ? options.progress(Phase::bake, 1) : Continue::yes; });
     try {
-        encode_in_time(result, options, effort, monitor);
+        encode_in_time(result, options, monitor);
         report_images(result.asset.asset, report);
     } catch (const engine::Cancelled&) {
         set_cancelled(result.asset);

@@ -24,9 +24,7 @@ FAQEM_EXPORT UnencodedResult bake_with_uvs(const Asset& source, const Simplified
 /// \param options  those of BakeOptions that are about the encoding, the threads, the progress callback, and
 ///     max_seconds, which counts from the call: if it is over, images that ImageFormat::automatic is about get
 ///     the format of the source
-/// \param effort   ImageEffort::estimate: for the size only
-FAQEM_EXPORT void encode_images(UnencodedResult& result, const Options& options,
-                                ImageEffort effort = ImageEffort::full);
+FAQEM_EXPORT void encode_images(UnencodedResult& result, const Options& options);
 
 /// Halves pending images that have a side of more than `side` texels, as long as their sides are even. Images that are
 /// shown without filter keep their resolution.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,8 +22,7 @@ constexpr double coarsest_step = 2.25, finest_step = 0.35, step_ratio = 0.85;
 constexpr int max_png_difference = 6;
 
 // Qualities of lossy WebP that are tried.
-constexpr std::array<std::uint32_t, std::tuple_size_v<decltype(WebpEncodings::lossy)>> webp_qualities = {
-    40, 55, 65, 75, 82, 87, 91, 94, 97, 100};
+constexpr std::array<std::uint32_t, 10> webp_qualities = {40, 55, 65, 75, 82, 87, 91, 94, 97, 100};
 
 // Near-lossless WebP that changes values by up to 4: normals keep the resolution that lossy WebP halves.
 constexpr int near_lossless_level = 40;
@@ -106,16 +104,6 @@ struct LossyEncoding {
 
     ImageLoss loss(const Image& image) const { return image_loss(original, decode(image), known); }
     bool allows(const Image& image) const { return is_within(loss(image), quality); }
-
-    // The image of an entry, which `encode` makes if it is new; nothing if it is not sufficient.
-    template <class Encode>
-    std::optional<Image> shared(WebpEncodings::Entry& entry, const Encode& encode) const {
-        std::call_once(entry.once, [&] {
-            entry.image = encode();
-            entry.loss = loss(entry.image);
-        });
-        return is_within(entry.loss, quality) ? std::optional(entry.image) : std::nullopt;
-    }
 
     // The first of some levels, from coarse to fine, with which encode() gives a sufficient image, and its index;
     // nothing if none does.
@@ -206,17 +194,14 @@ Image smallest_at(const LossyEncoding& lossy, const std::string& name, Content c
     if (limits.tries_core)
         best = pixels.has_alpha ? near_lossless_png(lossy, name) : smallest_jpeg(lossy, name, content);
     if (limits.tries_webp) {
-        WebpEncodings own;
-        WebpEncodings& all = limits.shared_webp ? *limits.shared_webp : own;
-        const auto encode = [&](std::size_t i) {
-            return lossy.shared(all.lossy[i], [&] { return webp(WebpMode::lossy, webp_qualities[i]); });
+        const auto sufficient = [&](WebpMode mode, std::uint32_t level) {
+            Image image = webp(mode, level);
+            return lossy.allows(image) ? std::optional(std::move(image)) : std::nullopt;
         };
+        const auto encode = [&](std::size_t i) { return sufficient(WebpMode::lossy, webp_qualities[i]); };
         if (auto found = lossy.least(webp_qualities.size(), encode))
             keep_smaller(best, std::move(found->first));
-        if (!best || limits.effort == ImageEffort::full)
-            keep_smaller(best, lossy.shared(all.near_lossless, [&] {
-                return webp(WebpMode::near_lossless, near_lossless_level);
-            }));
+        keep_smaller(best, sufficient(WebpMode::near_lossless, near_lossless_level));
     }
     if (!tries_lossless && best) return *std::move(best);
     if (limits.tries_core) keep_smaller(best, encode_png(pixels, name));
@@ -312,9 +297,8 @@ Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known,
         return smallest_at({pixels, at, known, limits.quality, check_cancelled}, name, content, limits,
                            tries_lossless);
     };
-    const bool is_estimate = limits.effort == ImageEffort::estimate;
-    Image best = encoded(smaller.empty() ? pixels : smaller.back(), !is_estimate);
-    if (smaller.empty() || is_estimate) return best;
+    Image best = encoded(smaller.empty() ? pixels : smaller.back(), true);
+    if (smaller.empty()) return best;
     // Lossless encodings are tried there too if one may have been the smallest: images with few colours stay so at
     // any resolution.
     const bool was_lossless = best.mime_type != "image/jpeg";

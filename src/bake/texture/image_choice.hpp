@@ -2,10 +2,8 @@
 /// \file
 /// Encoding and resolution of baked images, chosen by the measured loss.
 
-#include <array>
 #include <cstdint>
 #include <limits>
-#include <mutex>
 #include <span>
 #include <string>
 
@@ -13,6 +11,7 @@
 #include "asset/scene/material_textures.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -23,31 +22,10 @@ struct ImageQuality {
     double whole, block;
 };
 
-/// How much encode_smallest() tries.
-enum class ImageEffort {
-    full,
-    /// For the size of an image, up to a few percent: one resolution, and lossless encodings only where no other is
-    /// within the limits.
-    estimate,
-};
-
 /// Peak signal-to-noise ratios, in dB; infinity if nothing differs.
 struct ImageLoss {
     double psnr;        ///< over all known texels
     double worst_psnr;  ///< least one of a block of 8 x 8 texels; unknown texels of the block count as equal
-};
-
-/// WebP encodings of one image that calls of encode_smallest() with different qualities have in common, also concurrent
-/// ones.
-struct WebpEncodings {
-    /// The first call makes it.
-    struct Entry {
-        std::once_flag once;
-        Image image;
-        ImageLoss loss = {};
-    };
-    std::array<Entry, 10> lossy;  ///< by quality
-    Entry near_lossless;
 };
 
 /// How far encode_smallest() may go.
@@ -56,8 +34,6 @@ struct ImageLimits {
     bool may_shrink = true;  ///< whether the result may have fewer texels
     bool tries_core = true;  ///< whether PNG and JPEG are tried, which glTF has without extensions
     bool tries_webp = false;
-    ImageEffort effort = ImageEffort::full;
-    WebpEncodings* shared_webp = nullptr;  ///< of the image; not null only if it may not shrink
 };
 
 /// Least PSNR of an image of ImageFormat::automatic: BakeOptions::image_quality, and 4 dB less for roughness and other
@@ -84,7 +60,8 @@ double quality_change(const PicturePsnr& pictures, TextureContent content);
 /// \param shown     its sides are those of `original`, divided by the same power of two
 /// \param known     by texel of `original`: nonzero for those that count
 /// Complexity: O(texels of `original`).
-ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known);
+FAQEM_EXPORT ImageLoss image_loss(const Pixels& original, const Pixels& shown,
+                                  std::span<const std::uint8_t> known);
 
 /// Whether a loss is acceptable. NaN is not.
 bool is_within(const ImageLoss& loss, const ImageQuality& quality);

@@ -8,8 +8,7 @@ namespace {
 
 Content encoded_content(TextureContent content) { return is_color(content) ? Content::color : Content::data; }
 
-Image encoded_image(const PendingImage& pending, const BakeOptions& bake, ImageEffort effort,
-                    CancellationCheck check_cancelled, WebpEncodings* shared_webp = nullptr) {
+Image encoded_image(const PendingImage& pending, const BakeOptions& bake, CancellationCheck check_cancelled) {
     const Pixels& pixels = pending.pixels;
     const Content content = encoded_content(pending.content);
     if (has_image_quality(bake.image_format)) {
@@ -17,11 +16,8 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, ImageE
         const bool may_be_webp = bake.image_format != ImageFormat::png_or_jpeg;
         const ImageLimits limits{
             least_quality(bake, pending.content, pending.roughness, pending.quality_change),
-            pending.may_shrink,
-            !is_webp,
-            bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp),
-            effort,
-            shared_webp};
+            pending.may_shrink, !is_webp,
+            bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp)};
         Image smallest =
             encode_smallest(pixels, *pending.known, pending.name, content, limits, check_cancelled);
         const bool was_webp = pending.original && pending.original->mime_type == "image/webp";
@@ -29,11 +25,7 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, ImageE
                                     smallest.encoded.size() >= pending.original->encoded.size();
         return keeps_original ? *pending.original : std::move(smallest);
     }
-    if (bake.image_format == ImageFormat::source && pending.original) return *pending.original;
-    const bool is_jpeg =
-        bake.image_format == ImageFormat::source ? pending.was_jpeg : bake.image_format == ImageFormat::jpeg;
-    return is_jpeg && !pixels.has_alpha ? encode_jpeg(pixels, pending.name, bake.jpeg_quality, content)
-                                        : encode_png(pixels, pending.name);
+    return encode_in_format(pending, bake);
 }
 
 }  // namespace
@@ -44,31 +36,21 @@ bool tries_webp(const Asset& source) {
 }
 
 void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
-                           const Workers& workers, std::vector<Image>& images, ImageEffort effort) {
+                           const Workers& workers, std::vector<Image>& images) {
     parallel_blocks(pending.size(), 1, workers,
                     [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
                         check_cancelled.now();
-                        images[pending[i].image] = encoded_image(pending[i], bake, effort, check_cancelled);
+                        images[pending[i].image] = encoded_image(pending[i], bake, check_cancelled);
                     });
 }
 
-std::vector<std::vector<Image>> encode_alternatives(std::span<const PendingImage> pending,
-                                                    const BakeOptions& bake,
-                                                    std::span<const std::optional<double>> qualities,
-                                                    const Workers& workers, ImageEffort effort) {
-    std::vector<std::vector<Image>> result(qualities.size(), std::vector<Image>(pending.size()));
-    std::vector<WebpEncodings> shared(pending.size());
-    parallel_blocks(qualities.size() * pending.size(), 1, workers,
-                    [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
-                        check_cancelled.now();
-                        const std::size_t image = i / qualities.size(), quality = i % qualities.size();
-                        BakeOptions own = bake;
-                        own.image_quality = qualities[quality];
-                        const PendingImage& at = pending[image];
-                        result[quality][image] = encoded_image(at, own, effort, check_cancelled,
-                                                               at.may_shrink ? nullptr : &shared[image]);
-                    });
-    return result;
+Image encode_in_format(const PendingImage& pending, const BakeOptions& bake) {
+    if (bake.image_format == ImageFormat::source && pending.original) return *pending.original;
+    const bool is_jpeg =
+        bake.image_format == ImageFormat::source ? pending.was_jpeg : bake.image_format == ImageFormat::jpeg;
+    return is_jpeg && !pending.pixels.has_alpha ? encode_jpeg(pending.pixels, pending.name, bake.jpeg_quality,
+                                                              encoded_content(pending.content))
+                                                : encode_png(pending.pixels, pending.name);
 }
 
 }  // namespace faqem::detail

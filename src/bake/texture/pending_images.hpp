@@ -52,19 +52,13 @@ bool tries_webp(const Asset& source);
 
 /// Encodes images as BakeOptions::image_format says.
 /// \param images  Asset::images of the result; receives the encoded images
-/// \param effort  of formats with has_image_quality()
 /// \throws engine::Cancelled
 /// Complexity: at most about ten encodings of each image.
 void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
-                           const Workers& workers, std::vector<Image>& images,
-                           ImageEffort effort = ImageEffort::full);
+                           const Workers& workers, std::vector<Image>& images);
 
-/// encode_pending_images() for several qualities, on all threads: encodings that they have in common are made once.
-/// \param qualities  values of BakeOptions::image_quality
-/// \return by quality: the images, in the order of `pending`
-/// \throws engine::Cancelled
-FAQEM_EXPORT std::vector<std::vector<Image>> encode_alternatives(
-    std::span<const PendingImage> pending, const BakeOptions& bake,
-    std::span<const std::optional<double>> qualities, const Workers& workers, ImageEffort effort);
+/// Encodes an image in a format without has_image_quality().
+/// Complexity: that of one encoding.
+Image encode_in_format(const PendingImage& pending, const BakeOptions& bake);
 
 }  // namespace faqem::detail

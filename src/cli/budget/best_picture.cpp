@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -29,11 +30,15 @@ constexpr std::array<double, 7> first_ratios = {1, 0.7, 0.45, 0.28, 0.16, 0.09, 
 // Bits of positions that are tried if none are given; the usual ones first.
 constexpr std::array<std::uint32_t, 4> tried_position_bits = {detail::usual_position_bits, 13, 15, 16};
 
-// A choice is made again if all effort makes its images smaller by more than this factor.
-constexpr double worthwhile_effort = 0.97;
-
-// Number of choices that are made and compared.
+// Number of choices that are made and compared, and by which factor the bytes of their images differ at least.
 constexpr std::size_t compared_choices = 2;
+constexpr double different_bytes = 1.15;
+
+// More faces than a model has.
+constexpr std::uint64_t no_faces = std::numeric_limits<std::uint64_t>::max();
+
+// Number of points of the images in the report.
+constexpr std::size_t reported_images = 16;
 
 // How often a choice that is too large is made again with fewer faces, and a factor on the estimated number.
 constexpr int most_attempts = 4;
@@ -48,6 +53,12 @@ std::uint64_t total_faces(const Asset& asset) {
     return result;
 }
 
+// Whether no part has normals, so that viewers show its faces flat (glTF 2.0, "Meshes").
+bool is_shown_flat(const Asset& asset) {
+    return std::all_of(asset.parts.begin(), asset.parts.end(),
+                       [](const Part& part) { return part.normals.empty(); });
+}
+
 /// One search, see best_picture_within_bytes().
 class BestPictureSearch {
 public:
@@ -58,6 +69,9 @@ public:
             options_.bake.kind = Bake::keep;
             options_.bake.untouched = UntouchedParts::baked;  // their images would stay as they are
         }
+        may_omit_normals_ = options_.bake.normals == Normals::transfer &&
+                            (options_.bake.kind == Bake::keep || options_.bake.kind == Bake::none) &&
+                            is_shown_flat(source);
     }
 
     std::optional<SimplifiedAsset> operator()() try {
@@ -72,7 +86,7 @@ public:
         meter_.emplace(source_, detail::Workers{options_.threads});
         try_faces(std::move(levels));
         if (tried_faces_.back().bytes >= budget_.bytes) return std::nullopt;
-        images_->try_all(tried_faces_, tried_roundings_, budget_.bytes, begin_of_images, begin_of_choices);
+        images_->try_all(tried_faces_, tried_roundings_, bytes_to_share(), begin_of_images, begin_of_choices);
         try_choices();
         return reported_best();
     } catch (const engine::Cancelled& stopped) {
@@ -99,6 +113,26 @@ private:
     detail::UnencodedResult made(const SimplifiedParts& parts, bool pending) {
         Options own = steps_.step();
         if (!pending) own.bake.image_format = ImageFormat::source;
+        if (parts.report.faces_out >= least_flat_faces_) own.bake.normals = Normals::none;
+        return baked(parts, own);
+    }
+
+    // The same for a level that is tried, which are in descending order. As long as it looks better, normals are left
+    // out.
+    detail::UnencodedResult made_level(const SimplifiedParts& parts, bool pending) {
+        if (!may_omit_normals_) return made(parts, pending);
+        const std::uint64_t before = std::exchange(least_flat_faces_, no_faces);
+        detail::UnencodedResult with_normals = made(parts, pending);
+        least_flat_faces_ = parts.report.faces_out;
+        detail::UnencodedResult flat = made(parts, pending);
+        const double error = meter_->lit_with_source_images(flat.asset.asset);
+        if (error <= meter_->lit_with_source_images(with_normals.asset.asset)) return flat;
+        least_flat_faces_ = before;
+        may_omit_normals_ = false;
+        return with_normals;
+    }
+
+    detail::UnencodedResult baked(const SimplifiedParts& parts, const Options& own) {
         detail::UnencodedResult result = own.bake.kind == Bake::keep
                                              ? detail::bake_with_uvs(source_, parts, own)
                                              : detail::bake_unencoded(source_, parts, own);
@@ -111,8 +145,8 @@ private:
         const Image placeholder = encode_png({1, 1, {0, 0, 0, 255}, false}, "");
         for (std::size_t i = 0; i < levels.size(); ++i) {
             steps_.report(begin_of_images * static_cast<double>(i) / static_cast<double>(levels.size()));
-            detail::UnencodedResult result = made(levels[i], i == 0 && !keeps_images_);
-            if (i == 0) images_.emplace(result, *meter_, steps_);
+            detail::UnencodedResult result = made_level(levels[i], i == 0 && !keeps_images_);
+            if (i == 0) images_.emplace(result, steps_);
             Asset& asset = result.asset.asset;
             const PictureError error = meter_->with_source_images(asset);
             for (Image& image : asset.images) image.encoded = placeholder.encoded;
@@ -154,19 +188,22 @@ private:
         detail::set_quantization(source_, own, asset, unused);
     }
 
-    std::vector<BudgetChoice> choices() const {
-        return budget_choices(tried_faces_, images_->tried(), tried_roundings_, budget_.bytes);
+    // Bytes of the budget for geometry and encoded images.
+    std::uint64_t bytes_to_share() const {
+        return budget_.bytes - std::min(budget_.bytes, images_->kept_bytes());
     }
 
-    // The best choices, of which no two have images of the same size.
+    // The best choices, whose images have different numbers of bytes.
     std::vector<BudgetChoice> different_choices() const {
         std::vector<BudgetChoice> result;
-        for (const BudgetChoice& choice : choices()) {
-            const auto is_same_size = [&](const BudgetChoice& other) {
-                return images_->tried()[other.images].side == images_->tried()[choice.images].side;
+        for (BudgetChoice& choice :
+             budget_choices(tried_faces_, images_->tried(), tried_roundings_, bytes_to_share())) {
+            const auto is_similar = [&](const BudgetChoice& other) {
+                const auto [less, more] = std::minmax(choice.image_bytes, other.image_bytes);
+                return static_cast<double>(more) <= different_bytes * static_cast<double>(less);
             };
-            if (std::any_of(result.begin(), result.end(), is_same_size)) continue;
-            result.push_back(choice);
+            if (std::any_of(result.begin(), result.end(), is_similar)) continue;
+            result.push_back(std::move(choice));
             if (result.size() == compared_choices) break;
         }
         return result;
@@ -174,14 +211,12 @@ private:
 
     void try_choices() {
         double done = 0;
-        BudgetChoice best;
         const std::vector<BudgetChoice> all = different_choices();
         for (const BudgetChoice& choice : all) {
             steps_.report(begin_of_choices +
                           (1 - begin_of_choices) * done++ / static_cast<double>(all.size()));
-            if (try_choice(choice, detail::ImageEffort::estimate)) best = choice;
+            try_choice(choice);
         }
-        if (best_ && images_->are_encoded()) try_choice(best, detail::ImageEffort::full);
     }
 
     std::optional<SimplifiedAsset> reported_best() {
@@ -199,36 +234,21 @@ private:
         std::vector<BudgetTrial> result;
         for (const TriedFaces& tried : tried_faces_)
             result.push_back(
-                {BudgetTrialKind::faces, tried.faces, tried.bytes, 0, {}, {}, picture_psnr(tried.error)});
+                {BudgetTrialKind::faces, tried.faces, tried.bytes, 0, {}, picture_psnr(tried.error)});
         for (const TriedRounding& tried : tried_roundings_)
-            result.push_back({BudgetTrialKind::positions,
-                              faces_,
-                              tried.bytes,
-                              0,
-                              {},
-                              tried.position_bits,
+            result.push_back({BudgetTrialKind::positions, faces_, tried.bytes, 0, tried.position_bits,
                               picture_psnr(tried.error)});
         if (!images_->are_encoded()) return result;
-        for (const TriedImages& tried : images_->tried())
-            result.push_back({BudgetTrialKind::images,
-                              faces_,
-                              tried.bytes,
-                              tried.side,
-                              tried.quality,
-                              {},
-                              picture_psnr(tried.error)});
+        for (const ImagesPoint& point : images_curve(images_->tried(), reported_images))
+            result.push_back(
+                {BudgetTrialKind::images, faces_, point.bytes, point.side, {}, picture_psnr(point.error)});
         return result;
     }
 
-    // Makes the images, and then as many faces as fit.
-    // \return whether the result is the best one so far
-    bool try_choice(const BudgetChoice& choice, detail::ImageEffort effort) {
-        const TriedImages& tried = images_->tried()[choice.images];
-        const std::vector<Image> images = images_->encoded(choice.images, effort);
+    // Makes as many faces as fit beside the images of the choice.
+    void try_choice(const BudgetChoice& choice) {
+        const std::vector<Image> images = images_->chosen_images(choice.images);
         const std::uint64_t bytes = encoded_bytes(images);
-        const bool is_again = effort == detail::ImageEffort::full;
-        if (is_again && static_cast<double>(bytes) > worthwhile_effort * static_cast<double>(tried.bytes))
-            return false;
         options_.quantize.position_bits = tried_roundings_[choice.rounding].position_bits;
         std::optional<std::uint64_t> faces =
             bytes < budget_.bytes
@@ -250,28 +270,33 @@ private:
                     static_cast<double>(budget_.bytes - std::min(budget_.bytes, size.images)) /
                     static_cast<double>(size.geometry);
                 faces = static_cast<std::uint64_t>(share * static_cast<double>(target));
-                if (*faces < detail::min_target_faces) return false;
+                if (*faces < detail::min_target_faces) return;
                 continue;
             }
-            return finish(std::move(result), parts, tried, size);
+            return finish(std::move(result), parts, longest_side(choice), size);
         }
-        return false;
     }
 
-    bool finish(detail::UnencodedResult result, const SimplifiedParts& parts, const TriedImages& images,
+    std::uint32_t longest_side(const BudgetChoice& choice) const {
+        std::uint32_t result = 0;
+        for (std::size_t i = 0; i < choice.images.size(); ++i)
+            result = std::max(result, images_->tried()[i][choice.images[i]].side);
+        return result;
+    }
+
+    void finish(detail::UnencodedResult result, const SimplifiedParts& parts, std::uint32_t image_side,
                 const ModelBytes& size) {
         detail::encode_images(result, steps_.step());  // none is pending, but all are reported
         if (result.asset.report.stop == StopReason::cancelled) throw engine::Cancelled{};
         Asset shown = result.asset.asset;
         detail::round_vertices(shown);
         const double psnr = picture_psnr((*meter_)(std::move(shown)));
-        points_.push_back({options_.bake.kind, result.asset.report.faces_out, size.total(), images.side,
-                           images.quality, options_.quantize.position_bits, psnr});
-        if (best_ && !(psnr > best_psnr_)) return false;
+        points_.push_back({options_.bake.kind, result.asset.report.faces_out, size.total(), image_side,
+                           options_.quantize.position_bits, psnr});
+        if (best_ && !(psnr > best_psnr_)) return;
         detail::add_histories(parts, options_, result.asset);
         best_ = std::move(result.asset);
         best_psnr_ = psnr;
-        return true;
     }
 
     const Asset& source_;
@@ -280,6 +305,8 @@ private:
     const ByteBudget& budget_;
     const std::uint64_t faces_;
     bool keeps_images_ = false;
+    bool may_omit_normals_ = false;
+    std::uint64_t least_flat_faces_ = no_faces;  // that are shown flat, as in the source
     detail::Stopwatch watch_;
     double seconds_of_simplify_ = 0;
     std::optional<PictureMeter> meter_;

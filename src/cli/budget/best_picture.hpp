@@ -9,25 +9,24 @@
 
 namespace faqem::cli {
 
-/// Whether the options leave the face count to best_picture_within_bytes(): no target is set, and the kind of baking is
-/// Bake::automatic, without options that are about a new atlas or the collapses, or Bake::keep, vertex or none.
+/// Whether the options leave the face count to best_picture_within_bytes(): no target is set, and the kind of baking
+/// is Bake::automatic, without options that are about a new atlas or the collapses, or Bake::keep, vertex or none.
 bool leaves_faces_to_budget(const Options& options);
 
-/// Simplifies with the UVs of the source (Bake::automatic and Bake::keep) or as BakeOptions::kind says, so that pictures
-/// of the result are as near to those of the source as the bytes allow:
-/// 1. One run gives results with 100% to 4.5% of the faces. Each is saved, for its bytes, and rendered with the images of
-///    the source, for its error.
+/// Simplifies with the UVs of the source (Bake::automatic and Bake::keep) or as BakeOptions::kind says, so that
+/// pictures of the result are as near to those of the source as the bytes allow:
+/// 1. One run gives results with 100% to 4.5% of the faces. Each is saved, for its bytes, and rendered with the images
+///    of the source, for its error. If the source has no normals, they are left out where that looks better.
 ///    Where new grids of positions are used, and QuantizeOptions::position_bits is unset, 13 to 16 bits are tried.
-/// 2. The images are encoded with several sizes and qualities and rendered on all faces.
-/// 3. Errors of faces, images and rounding are assumed to add up. For each set of images, the face count is what the rest
-///    of the bytes allows.
-/// 4. The most promising choices are made, saved and rendered; the best one is returned. Report::budget_points has
-///    these, budget_trials those of 1 and 2.
+/// 2. ImageTrials has the bytes and errors of the images.
+/// 3. Errors of faces, images and rounding are assumed to add up, see budget_choices().
+/// 4. The two most promising choices are made, saved and rendered; the better one is returned. Report::budget_points
+///    has these, budget_trials those of 1 and 2.
 /// Images stay as they are with Bake::keep and ImageFormat::source. BakeOptions::texture_size limits their sides, and
 /// BakeOptions::image_quality is ignored.
 /// \param options  leaves_faces_to_budget() must be true
-/// \return nothing if no choice fits, or Options::max_seconds was over before one was complete. If the progress callback
-///     cancels, the report has StopReason::cancelled
+/// \return nothing if no choice fits, or Options::max_seconds was over before one was complete. If the progress
+///     callback cancels, the report has StopReason::cancelled
 /// \throws whatever simplify() and save() throw
 /// Complexity: two to six simplifications, about 20 encodings of each image with fewer texels than it has, and 40
 /// renderings from six sides.

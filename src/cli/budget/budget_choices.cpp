@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace faqem::cli {
 
@@ -24,6 +25,147 @@ double power_between(double a, double b, double share) {
     const double from = std::log(std::max(a, smallest_error)), to = std::log(std::max(b, smallest_error));
     return std::exp(from + share * (to - from));
 }
+
+// Of the bytes of the geometry from one choice to the next.
+constexpr double geometry_ratio = 0.97;
+
+// How often images are chosen again with the weights of unlit and lit errors of the choice before.
+constexpr int allocation_rounds = 3;
+
+/// An exchange of an encoding for a larger one.
+struct ImageStep {
+    std::size_t image = 0, encoding = 0;  // the larger one
+    std::uint64_t bytes = 0;              // more
+    PictureError less;
+};
+
+struct Allocation {
+    std::vector<std::size_t> chosen;
+    std::uint64_t bytes = 0;
+    PictureError error;  // with those of geometry
+};
+
+/// Chooses encodings for numbers of bytes.
+class ImageAllocator {
+public:
+    // \param images  outlives this
+    explicit ImageAllocator(const TriedImages& images) : images_(images) {
+        for (std::size_t i = 0; i < images.size(); ++i) add(i, images[i]);
+        for (const ImageStep& step : steps_) most_bytes_ += step.bytes;
+        most_bytes_ += least_.bytes;
+    }
+
+    std::uint64_t least_bytes() const { return least_.bytes; }
+    std::uint64_t most_bytes() const { return most_bytes_; }
+
+    // \param bytes  not less than least_bytes()
+    // \param other  errors that do not depend on the images
+    Allocation within(std::uint64_t bytes, const PictureError& other) const {
+        Allocation result;
+        PictureError total = least_.error;
+        total += other;
+        for (int round = 0; round < allocation_rounds; ++round) {
+            result = chosen_by(bytes, {1 / (total.unlit + smallest_error), 1 / (total.lit + smallest_error)});
+            result.error += other;
+            total = result.error;
+        }
+        return result;
+    }
+
+    PictureError error_of(const std::vector<std::size_t>& chosen) const {
+        PictureError result;
+        for (std::size_t i = 0; i < chosen.size(); ++i) result += images_[i][chosen[i]].error;
+        return result;
+    }
+
+private:
+    static double sum(const PictureError& error) { return error.unlit + error.lit; }
+
+    // Adds the steps along the lower convex hull of an image's bytes and errors.
+    void add(std::size_t image, const std::vector<TriedImage>& tried) {
+        std::vector<std::size_t> order(tried.size());
+        for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return std::pair(tried[a].bytes, sum(tried[a].error)) <
+                   std::pair(tried[b].bytes, sum(tried[b].error));
+        });
+        std::size_t at = order[0];
+        least_.chosen.push_back(at);
+        least_.bytes += tried[at].bytes;
+        least_.error += tried[at].error;
+        for (;;) {
+            std::size_t next = tried.size();
+            double best = 0;
+            for (const std::size_t k : order) {
+                if (!(tried[k].bytes > tried[at].bytes)) continue;
+                const double gain = (sum(tried[at].error) - sum(tried[k].error)) /
+                                    static_cast<double>(tried[k].bytes - tried[at].bytes);
+                if (!(gain > best)) continue;
+                best = gain;
+                next = k;
+            }
+            if (next == tried.size()) return;
+            steps_.push_back({image,
+                              next,
+                              tried[next].bytes - tried[at].bytes,
+                              {tried[at].error.unlit - tried[next].error.unlit,
+                               tried[at].error.lit - tried[next].error.lit}});
+            at = next;
+        }
+    }
+
+    Allocation chosen_by(std::uint64_t bytes, const PictureError& weights) const {
+        std::vector<std::pair<double, std::size_t>> order(steps_.size());
+        for (std::size_t s = 0; s < steps_.size(); ++s) {
+            const double gain = weights.unlit * steps_[s].less.unlit + weights.lit * steps_[s].less.lit;
+            order[s] = {gain / static_cast<double>(steps_[s].bytes), s};
+        }
+        // The steps of an image have falling gains, so that they stay in their order.
+        std::stable_sort(order.begin(), order.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        Allocation result = least_;
+        std::vector<std::uint8_t> is_full(least_.chosen.size(), 0);
+        std::vector<std::size_t> full;  // images, in the order of their gains
+        for (const auto& [gain, s] : order) {
+            const ImageStep& step = steps_[s];
+            if (is_full[step.image]) continue;
+            if (step.bytes > bytes - result.bytes) {
+                is_full[step.image] = 1;
+                full.push_back(step.image);
+                continue;
+            }
+            exchange(step.image, step.encoding, result);
+        }
+        for (const std::size_t image : full) fill(image, bytes, weights, result);
+        return result;
+    }
+
+    void exchange(std::size_t image, std::size_t encoding, Allocation& result) const {
+        const TriedImage &before = images_[image][result.chosen[image]], &after = images_[image][encoding];
+        result.chosen[image] = encoding;
+        result.bytes = result.bytes - before.bytes + after.bytes;
+        result.error.unlit += after.error.unlit - before.error.unlit;
+        result.error.lit += after.error.lit - before.error.lit;
+    }
+
+    // Takes the encoding with the least error that fits, which is not on the hull.
+    void fill(std::size_t image, std::uint64_t bytes, const PictureError& weights, Allocation& result) const {
+        const std::vector<TriedImage>& tried = images_[image];
+        const auto weighted = [&](std::size_t k) {
+            return weights.unlit * tried[k].error.unlit + weights.lit * tried[k].error.lit;
+        };
+        std::size_t best = result.chosen[image];
+        const std::uint64_t most = bytes - result.bytes + tried[best].bytes;
+        for (std::size_t k = 0; k < tried.size(); ++k)
+            if (tried[k].bytes <= most && weighted(k) < weighted(best)) best = k;
+        exchange(image, best, result);
+    }
+
+    const TriedImages& images_;
+    Allocation least_;
+    std::vector<ImageStep> steps_;
+    std::uint64_t most_bytes_ = 0;
+};
 
 }  // namespace
 
@@ -69,26 +211,61 @@ std::uint64_t as_first_rounding(std::span<const TriedRounding> roundings, std::s
     return static_cast<std::uint64_t>(factor * static_cast<double>(bytes));
 }
 
-std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces,
-                                         std::span<const TriedImages> images,
+std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, const TriedImages& images,
                                          std::span<const TriedRounding> roundings, std::uint64_t bytes) {
+    const ImageAllocator allocator(images);
     std::vector<BudgetChoice> result;
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        if (images[i].bytes >= bytes) continue;
-        for (std::size_t r = 0; r < roundings.size(); ++r) {
+    for (std::size_t r = 0; r < roundings.size(); ++r) {
+        const auto rounded = [&](std::uint64_t first) {
+            const double factor =
+                static_cast<double>(roundings[r].bytes) / static_cast<double>(roundings[0].bytes);
+            return r == 0 ? first : static_cast<std::uint64_t>(factor * static_cast<double>(first));
+        };
+        if (allocator.least_bytes() > bytes) break;
+        const std::uint64_t most = rounded(faces.front().bytes), least = rounded(faces.back().bytes);
+        double geometry = static_cast<double>(std::min(most, bytes - allocator.least_bytes()));
+        for (; geometry >= static_cast<double>(least); geometry *= geometry_ratio) {
+            const auto taken = static_cast<std::uint64_t>(geometry);
             const std::optional<std::uint64_t> count =
-                faces_within(faces, as_first_rounding(roundings, r, bytes - images[i].bytes));
-            if (!count) continue;
-            PictureError error = error_of_faces(faces, *count);
-            error.unlit += images[i].error.unlit + roundings[r].error.unlit;
-            error.lit += images[i].error.lit + roundings[r].error.lit;
-            result.push_back({i, r, *count, picture_psnr(error)});
+                faces_within(faces, as_first_rounding(roundings, r, taken));
+            if (!count) break;
+            const auto error_with = [&](std::uint64_t n) {
+                PictureError error = error_of_faces(faces, n);
+                error += roundings[r].error;
+                return error;
+            };
+            Allocation chosen = allocator.within(bytes - taken, error_with(*count));
+            // Images that do not use all their bytes leave more for faces.
+            const std::uint64_t more =
+                *faces_within(faces, as_first_rounding(roundings, r, bytes - chosen.bytes));
+            PictureError error = allocator.error_of(chosen.chosen);
+            error += error_with(more);
+            result.push_back({std::move(chosen.chosen), chosen.bytes, r, more, picture_psnr(error)});
+            if (least == most) break;
         }
     }
     std::stable_sort(result.begin(), result.end(), [](const BudgetChoice& a, const BudgetChoice& b) {
         if (std::isnan(a.psnr) || std::isnan(b.psnr)) return !std::isnan(a.psnr) && std::isnan(b.psnr);
         return a.psnr > b.psnr;
     });
+    return result;
+}
+
+std::vector<ImagesPoint> images_curve(const TriedImages& images, std::size_t count) {
+    const ImageAllocator allocator(images);
+    const std::uint64_t least = allocator.least_bytes(), most = allocator.most_bytes();
+    std::vector<ImagesPoint> result;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+        const double bytes = std::exp(log_of(least) + share * (log_of(most) - log_of(least)));
+        const Allocation point =
+            allocator.within(i + 1 == count ? most : std::max(least, static_cast<std::uint64_t>(bytes)), {});
+        if (!result.empty() && result.back().bytes == point.bytes) continue;
+        std::uint32_t side = 0;
+        for (std::size_t k = 0; k < images.size(); ++k)
+            side = std::max(side, images[k][point.chosen[k]].side);
+        result.push_back({point.bytes, point.error, side});
+    }
     return result;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which face counts and images to try for a byte budget, from the bytes and errors of both apart.
+/// Which face counts and images to try for a byte budget, from the bytes and errors of each apart.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,20 +26,30 @@ struct TriedRounding {
     PictureError error;
 };
 
-/// Images that were tried, on all faces.
-struct TriedImages {
-    std::uint32_t side = 0;         ///< limit of the sides, texels
-    std::optional<double> quality;  ///< BakeOptions::image_quality
+/// An encoding of one image that was tried.
+struct TriedImage {
     std::uint64_t bytes = 0;
-    PictureError error;
+    PictureError error;      ///< that it adds
+    std::uint32_t side = 0;  ///< the longer one, texels
 };
+
+/// By image: the encodings that were tried.
+using TriedImages = std::vector<std::vector<TriedImage>>;
 
 /// A face count, images and a rounding that should fit.
 struct BudgetChoice {
-    std::size_t images = 0;    ///< index
+    std::vector<std::size_t> images;  ///< by image: index of its encoding
+    std::uint64_t image_bytes = 0;
     std::size_t rounding = 0;  ///< index
     std::uint64_t faces = 0;
     double psnr = 0;  ///< expected, dB
+};
+
+/// Encodings of the images alone.
+struct ImagesPoint {
+    std::uint64_t bytes = 0;
+    PictureError error;
+    std::uint32_t side = 0;  ///< the longest one
 };
 
 /// The largest face count whose geometry has at most `bytes`, interpolated between those that were tried; nothing if
@@ -54,11 +64,19 @@ PictureError error_of_faces(std::span<const TriedFaces> tried, std::uint64_t fac
 std::uint64_t as_first_rounding(std::span<const TriedRounding> roundings, std::size_t rounding,
                                 std::uint64_t bytes);
 
-/// For each set of images that leaves bytes for faces, and each rounding, the face count that fits; the best first, equal
-/// ones in the order of the images and roundings. O(n (faces + log n)) for n pairs
+/// For face counts from few to as many as fit, and each rounding, the images with the least error in the bytes that are
+/// left: encodings are exchanged for larger ones where that lowers the expected error most for a byte (Shoham and
+/// Gersho, "Efficient bit allocation for an arbitrary set of quantizers", 1988). The best choice comes first, equal
+/// ones in the order of the roundings, with more faces first.
+/// \param images     nothing, or at least one encoding of each
 /// \param roundings  at least one, with bytes > 0
-std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces,
-                                         std::span<const TriedImages> images,
+/// Complexity: O(100 roundings n log n) for n encodings.
+std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, const TriedImages& images,
                                          std::span<const TriedRounding> roundings, std::uint64_t bytes);
+
+/// The expected errors of the images alone for growing numbers of bytes, at most `count` of them.
+/// \param images  as for budget_choices()
+/// \param count   at least 2
+std::vector<ImagesPoint> images_curve(const TriedImages& images, std::size_t count);
 
 }  // namespace faqem::cli

@@ -7,8 +7,8 @@
 
 #include "asset/file_format.hpp"
 #include "asset/io/file_names.hpp"
+#include "asset/io/temporary_file.hpp"
 #include "cli/budget/best_picture.hpp"
-#include "cli/output_file.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 
 namespace faqem::cli {
@@ -146,7 +146,7 @@ private:
 }  // namespace
 
 ModelBytes model_bytes(const Asset& asset, const fs::path& file) {
-    const TemporaryFolder folder("faqem-size");
+    const detail::ScratchFolder folder("faqem-size");
     save(asset, folder.path() / file.filename());
     ModelBytes result;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder.path())) {

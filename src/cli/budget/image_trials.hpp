@@ -1,16 +1,17 @@
 #pragma once
 /// \file
-/// The images of a result, encoded with several sizes and qualities.
+/// The images of a result, each encoded in several sizes and ways.
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "bake/scene/unencoded_result.hpp"
+#include "bake/texture/image_encodings.hpp"
 #include "cli/budget/budget_choices.hpp"
+#include "cli/budget/image_error.hpp"
 #include "cli/budget/search_steps.hpp"
 
 namespace faqem::cli {
@@ -22,40 +23,77 @@ std::uint64_t encoded_bytes(const std::vector<Image>& images);
 class ImageTrials {
 public:
     /// \param full   all faces, with pending images unless those of the source are kept
-    /// \param meter  of the source
-    /// \param steps, meter  outlive this
-    ImageTrials(detail::UnencodedResult full, const PictureMeter& meter, SearchSteps& steps);
+    /// \param steps  outlives this
+    ImageTrials(detail::UnencodedResult full, SearchSteps& steps);
 
-    /// Tries images from the smallest to those that do not fit, and after that qualities around the best choice.
+    /// Tries each image in a small size with encodings of all rungs. Then it tries what is next to the choices that are
+    /// best for the budget: larger images, and finer encodings.
     /// \param geometry    tried geometry
     /// \param bytes       the budget
     /// \param begin, end  of the progress, shares of Phase::bake
     /// \throws engine::Cancelled
-    /// Complexity: about ten encodings of each image for each size, on several threads.
+    /// Complexity: about ten encodings of each image, on several threads, and pictures for each size.
     void try_all(std::span<const TriedFaces> faces, std::span<const TriedRounding> roundings,
                  std::uint64_t bytes, double begin, double end);
 
-    const std::vector<TriedImages>& tried() const { return tried_; }
+    /// By pending image; empty if none is encoded.
+    const TriedImages& tried() const { return tried_; }
 
     /// Whether images are encoded again.
     bool are_encoded() const { return !sizes_.empty(); }
 
-    /// All images, with those of a trial. \param trial  index into tried() \throws engine::Cancelled
-    std::vector<Image> encoded(std::size_t trial, detail::ImageEffort effort);
+    /// Bytes of the images that stay as they are.
+    std::uint64_t kept_bytes() const { return encoded_bytes(full_.asset.asset.images); }
+
+    /// All images of the result, with the encodings of a choice. \param chosen  BudgetChoice::images
+    std::vector<Image> chosen_images(const std::vector<std::size_t>& chosen) const;
 
 private:
+    /// An image in one size.
+    struct Size {
+        detail::PendingImage pending;
+        std::vector<detail::ImageEncoding> encodings;  // in the order of their rungs
+        std::vector<std::uint8_t> is_tried;            // by encoding
+
+        bool has_trials() const;
+        std::uint32_t last_tried_rung() const;  // \pre has_trials()
+    };
+    /// What an entry of tried_ is.
+    struct Trial {
+        std::size_t size = 0;
+        std::uint32_t rung = 0;
+        double difference = 0;  // mean_square_error()
+        Image image;
+    };
+    /// Encodings of an image in one size that are to be tried: with rungs from `first` to `last` in steps.
+    struct Request {
+        std::size_t image = 0, size = 0;
+        std::uint32_t first = 0, last = 0, step = detail::whole_rung;
+    };
+
     void make_sizes();
-    void try_qualities(std::size_t size, std::span<const std::optional<double>> qualities);
-    std::vector<std::vector<Image>> encoded(std::size_t size,
-                                            std::span<const std::optional<double>> qualities,
-                                            detail::ImageEffort effort);
+    void encode(std::span<const Request> requests);
+    void measure(std::span<const Request> requests);
+    std::vector<Request> smaller_requests() const;
+    std::vector<Request> next_requests(const BudgetChoice& choice) const;
+    std::vector<Request> refining_requests(const BudgetChoice& choice, std::uint32_t distance,
+                                           std::uint64_t least_bytes) const;
+    PictureError unseen_error(double error) const;
 
     detail::UnencodedResult full_;
-    const PictureMeter& meter_;
     SearchSteps& steps_;
-    std::vector<std::pair<std::uint32_t, std::vector<detail::PendingImage>>> sizes_;  // from large to small
-    std::vector<TriedImages> tried_;
-    std::vector<std::size_t> size_of_tried_;  // indices into sizes_, by tried images
+    std::optional<ImageErrorMeter> meter_;
+    std::vector<std::vector<Size>> sizes_;  // by pending image, from small to large
+    std::vector<std::vector<Trial>> trials_;
+    TriedImages tried_;
+    /// Errors of pictures for the size alone, and for a squared difference of encoded texels.
+    struct SizeError {
+        PictureError own, by_difference;
+    };
+    std::vector<std::vector<std::optional<SizeError>>> size_errors_;  // by pending image and size
+    double seen_gain_ =
+        0;  // sum over the sizes of seen images: error of pictures for that of texels, where seen
+    int seen_sizes_ = 0;
 };
 
 }  // namespace faqem::cli

@@ -1,7 +1,6 @@
 #include "cli/budget/picture_error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -12,8 +11,6 @@
 namespace faqem::cli {
 
 namespace {
-
-constexpr std::uint32_t picture_views = 6, picture_size = 320;
 
 // Grey behind the model, so that neither dark nor bright silhouettes stand out.
 constexpr double grey_behind = 0.2;  // linear
@@ -42,14 +39,13 @@ struct ErrorSum {
     std::uint64_t pixels = 0;
 };
 
-// \param shown  pixels of the source after shown_pixel()
+// \param shown, frame  of pictures()
 ErrorSum frame_difference(const render::Frame& shown, const render::Frame& frame) {
     ErrorSum result;
     for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
         if (!(shown.pixels[i][3] > 0) && !(frame.pixels[i][3] > 0)) continue;
-        const Eigen::Vector4f pixel = shown_pixel(frame.pixels[i]);
         for (int k = 0; k < 3; ++k) {
-            const double difference = double{shown.pixels[i][k]} - double{pixel[k]};
+            const double difference = double{shown.pixels[i][k]} - double{frame.pixels[i][k]};
             result.squares += difference * difference;
         }
         ++result.pixels;
@@ -59,37 +55,36 @@ ErrorSum frame_difference(const render::Frame& shown, const render::Frame& frame
 
 }  // namespace
 
+std::vector<render::Frame> pictures(const render::Scene& scene, const std::vector<render::Camera>& cameras,
+                                    render::Shading shading, std::uint32_t threads) {
+    std::vector<render::Frame> result(cameras.size());
+    const Eigen::Vector4f behind = shown_pixel(Eigen::Vector4f::Zero());
+    detail::parallel_blocks(cameras.size(), 1, threads, [&](std::size_t i, std::size_t) {
+        result[i] = render::render(scene, cameras[i], picture_size, shading, render::Edges::hidden);
+        for (Eigen::Vector4f& pixel : result[i].pixels) pixel = pixel.isZero(0) ? behind : shown_pixel(pixel);
+    });
+    return result;
+}
+
 double picture_psnr(const PictureError& error) {
     const auto psnr = [](double mean_square) { return -10 * std::log10(mean_square + least_difference); };
     return (psnr(error.unlit) + psnr(error.lit)) / 2;
 }
 
-template <class Use>
-void PictureMeter::for_each_frame(const render::Scene& scene, const Use& use) const {
-    const std::size_t views = cameras_.size();
-    detail::parallel_blocks(frames_.size(), 1, threads_, [&](std::size_t i, std::size_t) {
-        use(i, render::render(scene, cameras_[i % views], picture_size, shadings_[i / views],
-                              render::Edges::hidden));
-    });
-}
-
 PictureMeter::PictureMeter(Asset source, const detail::Workers& workers)
-    : threads_(workers.threads), shadings_{render::Shading::unlit} {
-    if (has_normal_map(source)) shadings_.push_back(render::Shading::lit);
+    : threads_(workers.threads), has_normal_map_(has_normal_map(source)) {
     source_ = render::make_scene(std::move(source));
     cameras_ = render::cameras_around(source_, "", picture_views);
-    frames_.resize(shadings_.size() * cameras_.size());
-    for_each_frame(source_, [&](std::size_t i, render::Frame frame) {
-        frames_[i] = std::move(frame);
-        for (Eigen::Vector4f& pixel : frames_[i].pixels) pixel = shown_pixel(pixel);
-    });
+    unlit_ = pictures(source_, cameras_, render::Shading::unlit, threads_);
+    if (has_normal_map_) lit_ = pictures(source_, cameras_, render::Shading::lit_without_occlusion, threads_);
 }
 
 PictureError PictureMeter::operator()(Asset model) const {
     return compare(render::make_scene(std::move(model)));
 }
 
-PictureError PictureMeter::with_source_images(Asset model) {
+template <class Use>
+void PictureMeter::use_source_images(Asset model, const Use& use) {
     model.images.clear();
     render::Scene scene = render::make_scene(std::move(model));
     const auto exchange_textures = [&] {
@@ -97,26 +92,40 @@ PictureError PictureMeter::with_source_images(Asset model) {
         std::swap(scene.normal_maps, source_.normal_maps);
     };
     exchange_textures();
-    const PictureError result = compare(scene);
+    use(scene);
     exchange_textures();
+}
+
+PictureError PictureMeter::with_source_images(Asset model) {
+    PictureError result;
+    use_source_images(std::move(model), [&](const render::Scene& scene) { result = compare(scene); });
     return result;
 }
 
-PictureError PictureMeter::compare(const render::Scene& scene) const {
-    std::vector<ErrorSum> by_frame(frames_.size());
-    for_each_frame(scene, [&](std::size_t i, const render::Frame& frame) {
-        by_frame[i] = frame_difference(frames_[i], frame);
+double PictureMeter::lit_with_source_images(Asset model) {
+    if (lit_.empty()) lit_ = pictures(source_, cameras_, render::Shading::lit_without_occlusion, threads_);
+    double result = 0;
+    use_source_images(std::move(model), [&](const render::Scene& scene) {
+        result = difference(scene, render::Shading::lit_without_occlusion, lit_);
     });
-    std::array<ErrorSum, 2> sums;  // by shading
-    for (std::size_t i = 0; i < by_frame.size(); ++i) {
-        ErrorSum& sum = sums[i / cameras_.size()];
-        sum.squares += by_frame[i].squares;
-        sum.pixels += by_frame[i].pixels;
+    return result;
+}
+
+double PictureMeter::difference(const render::Scene& scene, render::Shading shading,
+                                const std::vector<render::Frame>& of_source) const {
+    const std::vector<render::Frame> own = pictures(scene, cameras_, shading, threads_);
+    ErrorSum sum;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const ErrorSum one = frame_difference(of_source[i], own[i]);
+        sum.squares += one.squares;
+        sum.pixels += one.pixels;
     }
-    const auto mean = [](const ErrorSum& sum) {
-        return sum.squares / (3 * static_cast<double>(std::max<std::uint64_t>(sum.pixels, 1)));
-    };
-    return {mean(sums[0]), mean(sums[shadings_.size() - 1])};
+    return sum.squares / (3 * static_cast<double>(std::max<std::uint64_t>(sum.pixels, 1)));
+}
+
+PictureError PictureMeter::compare(const render::Scene& scene) const {
+    const double unlit = difference(scene, render::Shading::unlit, unlit_);
+    return {unlit, has_normal_map_ ? difference(scene, render::Shading::lit_without_occlusion, lit_) : unlit};
 }
 
 }  // namespace faqem::cli

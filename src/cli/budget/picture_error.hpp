@@ -15,7 +15,22 @@ namespace faqem::cli {
 struct PictureError {
     double unlit = 0;
     double lit = 0;  ///< equal to `unlit` where lit pictures are not compared
+
+    /// Errors of different causes add up.
+    PictureError& operator+=(const PictureError& other) {
+        unlit += other.unlit;
+        lit += other.lit;
+        return *this;
+    }
 };
+
+/// Number of pictures, and their side in pixels.
+inline constexpr std::uint32_t picture_views = 6, picture_size = 256;
+
+/// Pictures of a scene in sRGB, and before grey where the model does not cover them, by camera.
+/// Complexity: O(faces + pixels) for each, on several threads.
+std::vector<render::Frame> pictures(const render::Scene& scene, const std::vector<render::Camera>& cameras,
+                                    render::Shading shading, std::uint32_t threads);
 
 /// PSNR in dB, the mean of unlit and lit pictures; 90 if nothing differs.
 double picture_psnr(const PictureError& error);
@@ -23,7 +38,7 @@ double picture_psnr(const PictureError& error);
 /// Renders models from the same cameras as their source.
 class PictureMeter {
 public:
-    /// Renders the source: six views around it of 320 x 320 pixels, unlit and, if a material has a normal map, lit.
+    /// Renders the source: six views around it of 256 x 256 pixels, unlit and, if a material has a normal map, lit.
     /// \param source   at least one face; its images are decoded and kept
     /// \param workers  threads; the cancellation check is not used
     /// Complexity: O(faces + texels of the source).
@@ -36,18 +51,22 @@ public:
     /// that the model holds are ignored.
     PictureError with_source_images(Asset model);
 
-private:
-    PictureError compare(const render::Scene& scene) const;
+    /// Mean squared difference of lit pictures, also where the others are unlit. Otherwise as with_source_images().
+    double lit_with_source_images(Asset model);
 
-    // Calls use(index, frame) for each picture, on several threads.
+private:
+    // Calls use(scene) with a scene of the model that has the textures of the source.
     template <class Use>
-    void for_each_frame(const render::Scene& scene, const Use& use) const;
+    void use_source_images(Asset model, const Use& use);
+    PictureError compare(const render::Scene& scene) const;
+    double difference(const render::Scene& scene, render::Shading shading,
+                      const std::vector<render::Frame>& of_source) const;
 
     std::uint32_t threads_;
     render::Scene source_;
+    bool has_normal_map_;
     std::vector<render::Camera> cameras_;
-    std::vector<render::Shading> shadings_;
-    std::vector<render::Frame> frames_;  // of the source, in sRGB before grey; by shading and camera
+    std::vector<render::Frame> unlit_, lit_;  // of the source, by camera; `lit_` is empty until it is needed
 };
 
 }  // namespace faqem::cli

@@ -10,12 +10,12 @@
 #include "bake/simplify/level_coverage.hpp"
 #include "bake/simplify/scene_size.hpp"
 #include "bake/simplify/step_progress.hpp"
+#include "cli/budget/level_budget.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/lod_level.hpp"
 #include "cli/commands/lod_manifest.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/budget/level_budget.hpp"
 #include "cli/no_larger.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/builtin_profiles.hpp"
@@ -211,10 +211,9 @@ private:
 
     /// \throws BudgetError  names the file of the level
     SimplifiedAsset baked_within_bytes(const SimplifiedParts& parts, const Options& step) {
-        if (!meter_) meter_.emplace(source_, detail::Workers{step.threads});
         const fs::path& file = outputs_.models[written_.size()];
         try {
-            return bake_within_bytes(source_, parts, step, {arguments_.max_bytes, file}, *meter_);
+            return bake_within_bytes(source_, parts, step, {arguments_.max_bytes, file});
         } catch (const BudgetError& error) {
             throw BudgetError(file.string() + ": " + error.what());
         }
@@ -296,7 +295,6 @@ private:
     std::vector<WrittenLevel> written_;
     std::vector<SavedLevel> one_file_levels_;  // with --one-file
     detail::SceneSize size_;
-    std::optional<PictureMeter> meter_;  // with --max-bytes
     detail::FileSet set_;
 };
 

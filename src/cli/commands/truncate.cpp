@@ -9,10 +9,10 @@
 #include "asset/file_format.hpp"
 #include "asset/io/recovery.hpp"
 #include "bake/simplify/parts_from_histories.hpp"
+#include "cli/budget/level_budget.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/budget/level_budget.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/output_file.hpp"
@@ -77,12 +77,10 @@ SimplifiedAsset baked_model(const TruncateArguments& arguments, const Simplified
     bake_options.quantize = resolve_quantize(bake_options.quantize, arguments.out);
     return with_file_in_errors(arguments.source, [&] {
         detail::check_source_matches_histories(source, simplified_parts);
-        SimplifiedAsset baked =
-            arguments.max_bytes > 0
-                ? bake_within_bytes(source, simplified_parts, bake_options,
-                                    {arguments.max_bytes, arguments.out},
-                                    PictureMeter(source, detail::Workers{options.threads}))
-                : bake(source, simplified_parts, bake_options);
+        SimplifiedAsset baked = arguments.max_bytes > 0
+                                    ? bake_within_bytes(source, simplified_parts, bake_options,
+                                                        {arguments.max_bytes, arguments.out})
+                                    : bake(source, simplified_parts, bake_options);
         baked.report.warnings.insert(baked.report.warnings.begin(), source.warnings.begin(),
                                      source.warnings.end());
         return baked;

@@ -67,7 +67,7 @@ TEST_CASE("a result with UVs has pending images, which can be halved and encoded
     CHECK(limit_image_sides(result, 20));
     CHECK(result.pending[0].pixels.width == 16);
     CHECK(result.pending[0].known->size() == 16 * 16);
-    encode_images(result, keeping(), ImageEffort::estimate);
+    encode_images(result, keeping());
     const Pixels pixels = decode(result.asset.asset.images.at(0));
     CHECK(pixels.width <= 16);
     CHECK(result.asset.report.images.at(0).width == pixels.width);

@@ -175,3 +175,39 @@ TEST_CASE("the report of --max-bytes has the faces, positions and images that we
     }
     CHECK(trials["images"].size() > 3);
 }
+
+TEST_CASE(
+    "--max-bytes leaves out normals that the source does not have where faces are shown better without "
+    "them") {
+    const Folder folder;
+    faqem::Asset asset = painted_sheet(40);
+    asset.parts[0].normals.clear();
+    faqem::save(asset, folder / "in.glb");
+    const auto has_normals = [&](const std::string& bytes) {
+        REQUIRE(run(folder, "simplify in.glb out.glb --force --max-bytes " + bytes).code == 0);
+        return !faqem::load(folder / "out.glb").parts[0].normals.empty();
+    };
+    CHECK_FALSE(has_normals("400000"));  // enough for all faces
+
+    for (faqem::Vec3& position : asset.parts[0].positions) position[2] *= 10;  // more light and shade
+    asset.parts[0].normals.assign(asset.parts[0].positions.size(), {0, 0, 1});
+    fs::remove(folder / "in.glb");
+    faqem::save(asset, folder / "in.glb");
+    CHECK(has_normals("400000"));
+}
+
+TEST_CASE("--max-bytes gives an image that is seen ten times as much more bytes than the other") {
+    const Folder folder;
+    faqem::Asset asset = painted_sheet(40);
+    asset.images.push_back(asset.images[0]);
+    asset.materials.push_back(asset.materials[0]);
+    asset.materials[1].base_color_texture.image = 1;
+    faqem::Part& part = asset.parts[0];
+    part.face_material.assign(part.triangles.size(), 0);
+    for (std::size_t f = 0; f < part.triangles.size() / 20; ++f) part.face_material[f] = 1;
+    faqem::save(asset, folder / "in.glb");
+    REQUIRE(run(folder, "simplify in.glb out.glb --max-bytes 14000").code == 0);
+    const faqem::Asset out = faqem::load(folder / "out.glb");
+    REQUIRE(out.images.size() == 2);
+    CHECK(2 * out.images[0].encoded.size() > 3 * out.images[1].encoded.size());
+}

@@ -39,35 +39,69 @@ TEST_CASE("error of faces: a power between those that were tried, and what is mi
     CHECK(error_of_faces(tried, 3200).unlit == Approx(1e-4 / 3));
 }
 
-TEST_CASE("choices: images that leave no bytes for faces are left out, and the least error comes first") {
-    const std::vector<TriedImages> images = {
-        {1024, 40.0, 60000, {0, 0}}, {512, 34.0, 4000, {1e-5, 1e-5}}, {256, 28.0, 1000, {1e-2, 1e-2}}};
+TEST_CASE("choices: the images that leave enough bytes for faces have the least error in all") {
+    const TriedImages images = {
+        {{60000, {0, 0}, 1024}, {4000, {1e-5, 1e-5}, 512}, {1000, {1e-2, 1e-2}, 256}}};
     const std::vector<BudgetChoice> choices = budget_choices(quartered(), images, exact, 20000);
-    REQUIRE(choices.size() == 2);
-    CHECK(choices[0].images == 1);
+    REQUIRE(!choices.empty());
+    CHECK(choices[0].images == std::vector<std::size_t>{1});
+    CHECK(choices[0].image_bytes == 4000);
     CHECK(choices[0].faces == 1600);
     const double unlit = 1e-4 + 1e-5, lit = 2e-4 + 1e-5;
     CHECK(choices[0].psnr == Approx(-5 * (std::log10(unlit) + std::log10(lit))).epsilon(1e-4));
-    CHECK(choices[1].images == 2);
-    CHECK(choices[1].faces > 1600);
-    CHECK(budget_choices(quartered(), images, exact, 4500).size() == 0);
+    for (std::size_t i = 1; i < choices.size(); ++i) CHECK(choices[i].psnr <= choices[i - 1].psnr);
+    CHECK(budget_choices(quartered(), images, exact, 4500).empty());
 }
 
-TEST_CASE("choices: equal ones are in the order of the images, and errors that are no numbers come last") {
+TEST_CASE("choices: bytes go to the image whose error they lower most") {
+    // The second image is seen ten times as much.
+    const TriedImages images = {{{1000, {4e-5, 4e-5}, 64}, {2000, {1e-5, 1e-5}, 128}},
+                                {{1000, {4e-4, 4e-4}, 64}, {2000, {1e-4, 1e-4}, 128}}};
+    const auto chosen = [&](std::uint64_t bytes) {
+        const std::vector<TriedFaces> faces = {{100, 500, {0, 0}}};
+        return budget_choices(faces, images, exact, bytes).at(0).images;
+    };
+    CHECK(chosen(2500) == std::vector<std::size_t>{0, 0});
+    CHECK(chosen(3500) == std::vector<std::size_t>{0, 1});
+    CHECK(chosen(4500) == std::vector<std::size_t>{1, 1});
+}
+
+TEST_CASE("choices: the bytes that are left are used for an encoding between the best ones") {
+    // The middle one is above the line between the others, so that it is never the best for a byte.
+    const TriedImages images = {
+        {{1000, {1e-2, 1e-2}, 64}, {2000, {9e-3, 9e-3}, 64}, {3000, {1e-4, 1e-4}, 64}}};
+    const std::vector<TriedFaces> faces = {{100, 500, {0, 0}}};
+    CHECK(budget_choices(faces, images, exact, 3000).at(0).images.at(0) == 1);
+    CHECK(budget_choices(faces, images, exact, 3500).at(0).images.at(0) == 2);
+}
+
+TEST_CASE("choices: without images all bytes go to faces, and errors that are no numbers are not chosen") {
+    CHECK(budget_choices(quartered(), {}, exact, 16000).at(0).faces == 1600);
     const double nan = std::nan("");
-    const std::vector<TriedImages> images = {
-        {64, 30.0, 1000, {nan, nan}}, {128, 30.0, 1000, {1e-4, 1e-4}}, {128, 34.0, 1000, {1e-4, 1e-4}}};
-    const std::vector<BudgetChoice> choices = budget_choices(quartered(), images, exact, 20000);
-    REQUIRE(choices.size() == 3);
-    CHECK(choices[0].images == 1);
-    CHECK(choices[1].images == 2);
-    CHECK(choices[2].images == 0);
+    const TriedImages images = {
+        {{1000, {1e-4, 1e-4}, 64}, {2000, {nan, nan}, 128}, {3000, {1e-5, 1e-5}, 128}}};
+    const BudgetChoice best = budget_choices(quartered(), images, exact, 70000).at(0);
+    CHECK(best.images.at(0) == 2);
+    CHECK(best.faces == 6400);
+}
+
+TEST_CASE("the curve of images has growing bytes, falling errors, and the least and the best encodings") {
+    const TriedImages images = {{{1000, {4e-5, 4e-5}, 64}, {2000, {1e-5, 1e-5}, 128}},
+                                {{1500, {4e-4, 4e-4}, 64}, {2000, {1e-4, 1e-4}, 256}}};
+    const std::vector<ImagesPoint> curve = images_curve(images, 9);
+    REQUIRE(curve.size() == 3);
+    CHECK(curve[0].bytes == 2500);
+    CHECK(curve[0].side == 64);
+    CHECK(curve[1].bytes == 3000);
+    CHECK(curve[1].side == 256);
+    CHECK(curve[2].bytes == 4000);
+    CHECK(curve[2].error.unlit == Approx(1.1e-4));
 }
 
 TEST_CASE(
     "choices: finer positions where the bytes are enough for all faces, coarser ones where faces are "
     "missing") {
-    const std::vector<TriedImages> images = {{512, 34.0, 4000, {1e-6, 1e-6}}};
+    const TriedImages images = {{{4000, {1e-6, 1e-6}, 512}}};
     const std::vector<TriedRounding> roundings = {
         {14, 64000, {1e-5, 1e-5}}, {13, 60000, {4e-5, 4e-5}}, {16, 72000, {1e-6, 1e-6}}};
     const auto best = [&](std::uint64_t bytes) {

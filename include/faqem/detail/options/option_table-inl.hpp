@@ -28,8 +28,10 @@ inline constexpr OptionRule option_rules[] = {
      },
      "{visibility} must be ignored if {max-error} is given without {ratio} or {faces}: distances are not "
      "weighted"},
-    {[](const Options& o) { return o.bake.normals != Normals::none || o.bake.kind == Bake::none; },
-     "{normals} may be none only if {bake} is none"},
+    {[](const Options& o) {
+         return o.bake.normals != Normals::none || o.bake.kind == Bake::none || o.bake.kind == Bake::keep;
+     },
+     "{normals} may be none only if {bake} is none or keep"},
 };
 
 FAQEM_INLINE OptionTable option_table() {

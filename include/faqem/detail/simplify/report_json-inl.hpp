@@ -97,16 +97,11 @@ inline std::string_view trial_name(BudgetTrialKind kind) {
 // The members that BudgetPoint and BudgetTrial have in common.
 template <class Point>
 nlohmann::ordered_json budget_json(const Point& point, std::string_view kind) {
-    nlohmann::ordered_json quality, bits;
-    if (point.quality) quality = *point.quality;
+    nlohmann::ordered_json bits;
     if (point.position_bits) bits = *point.position_bits;
-    return {{"kind", kind},
-            {"faces", point.faces},
-            {"bytes", point.bytes},
-            {"image_side", point.image_side},
-            {"image_quality", quality},
-            {"position_bits", bits},
-            {"psnr", point.psnr}};
+    return {{"kind", kind},          {"faces", point.faces},
+            {"bytes", point.bytes},  {"image_side", point.image_side},
+            {"position_bits", bits}, {"psnr", point.psnr}};
 }
 
 }  // namespace detail

@@ -1,0 +1,127 @@
+#include "bake/texture/image_encodings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <unordered_set>
+
+#include "asset/image/jpeg.hpp"
+#include "asset/image/png_writer.hpp"
+#include "bake/texture/image_choice.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using Codec = ImageEncoding::Codec;
+
+// Levels by whole rung. A JPEG with the step has about the bytes and the error of a WebP with the quality.
+constexpr std::array<std::uint32_t, 8> webp_levels = {20, 40, 55, 68, 80, 88, 94, 98};
+constexpr std::array<std::uint32_t, 8> jpeg_levels = {45, 30, 20, 13, 9, 6, 4, 2};
+constexpr std::array<std::uint32_t, 4> png_levels = {6, 3, 1, 0};
+
+// The rung after those of lossy encodings.
+constexpr std::uint32_t last_rung = 8 * whole_rung;
+
+// JPEGs of colours with larger steps have chroma of half the resolution.
+constexpr std::uint32_t full_chroma_step = 9;
+
+// Lossless encodings are small for images with at most so many colours, as a palette has.
+constexpr std::size_t few_colors = 256;
+
+// Largest sides of the formats, texels.
+constexpr std::uint32_t webp_side = 16383, jpeg_side = 65500;
+
+bool has_few_colors(const Pixels& pixels) {
+    std::unordered_set<std::uint32_t> colors;
+    for (std::size_t i = 0; i < pixels.rgba.size(); i += 4) {
+        std::uint32_t color = 0;
+        std::memcpy(&color, &pixels.rgba[i], 4);
+        if (colors.insert(color).second && colors.size() > few_colors) return false;
+    }
+    return true;
+}
+
+// Adds levels and what is between them.
+template <std::size_t n>
+void add_rungs(std::vector<ImageEncoding>& result, Codec codec, const std::array<std::uint32_t, n>& levels) {
+    for (std::uint32_t rung = 0; rung <= (n - 1) * whole_rung; ++rung) {
+        const std::uint32_t before = levels[rung / whole_rung], part = rung % whole_rung;
+        const std::uint32_t after = part > 0 ? levels[rung / whole_rung + 1] : before;
+        const std::uint32_t level = (before * (whole_rung - part) + after * part) / whole_rung;
+        const bool is_new = level != after && level != result.back().level;
+        if (part == 0 || is_new) result.push_back({codec, level, rung});
+    }
+}
+
+}  // namespace
+
+std::vector<ImageEncoding> image_encodings(const PendingImage& pending, const BakeOptions& bake) {
+    if (!has_image_quality(bake.image_format)) return {{}};
+    const Pixels& pixels = pending.pixels;
+    const std::uint32_t side = std::max(pixels.width, pixels.height);
+    const bool is_webp = bake.image_format == ImageFormat::webp;
+    const bool may_be_webp = is_webp || (bake.image_format != ImageFormat::png_or_jpeg && pending.tries_webp);
+    const bool may_be_core = !(is_webp && is_color(pending.content));
+    std::vector<ImageEncoding> result;
+    constexpr auto last_rung = static_cast<std::uint32_t>(webp_levels.size()) + 1;
+    if (may_be_webp && side <= webp_side) {
+        add_rungs(result, Codec::webp, webp_levels);
+        result.push_back({Codec::near_lossless_webp, 40, last_rung});
+    }
+    if (may_be_core) {
+        if (pixels.has_alpha) {
+            for (std::uint32_t i = 0; i < png_levels.size(); ++i)
+                result.push_back({Codec::png, png_levels[i], 2 * i * whole_rung});
+        } else if (side <= jpeg_side) {
+            add_rungs(result, Codec::jpeg, jpeg_levels);
+        }
+    }
+    if (has_few_colors(pixels)) {
+        if (may_be_core && !pixels.has_alpha) result.push_back({Codec::png, 0, 0});
+        if (may_be_webp && side <= webp_side) result.push_back({Codec::lossless_webp, 100, 0});
+    }
+    if (pending.original) {
+        const bool was_webp = pending.original->mime_type == "image/webp";
+        const bool is_allowed = was_webp ? bake.image_format != ImageFormat::png_or_jpeg : may_be_core;
+        if (is_allowed) result.push_back({Codec::original, 0, 0});
+    }
+    if (result.empty()) result.push_back({Codec::png, 0, 0});
+    std::stable_sort(result.begin(), result.end(),
+                     [](const ImageEncoding& a, const ImageEncoding& b) { return a.rung < b.rung; });
+    return result;
+}
+
+Image encode_as(const PendingImage& pending, const BakeOptions& bake, const ImageEncoding& encoding) {
+    const auto webp = [&](WebpMode mode) {
+        return encode_webp(pending.pixels, pending.name,
+                           {.mode = mode, .level = static_cast<int>(encoding.level)});
+    };
+    switch (encoding.codec) {
+        case Codec::standard:
+            break;
+        case Codec::original:
+            return *pending.original;
+        case Codec::jpeg: {
+            const bool has_half_chroma = is_color(pending.content) && encoding.level > full_chroma_step;
+            return write_jpeg(pending.pixels, pending.name,
+                              {encoding.level, has_half_chroma ? Chroma::half : Chroma::full});
+        }
+        case Codec::png:
+            return write_png(pending.pixels, pending.name, static_cast<int>(encoding.level));
+        case Codec::webp:
+            return webp(WebpMode::lossy);
+        case Codec::near_lossless_webp:
+            return webp(WebpMode::near_lossless);
+        case Codec::lossless_webp:
+            return webp(WebpMode::lossless);
+    }
+    return encode_in_format(pending, bake);
+}
+
+double mean_square_error(const PendingImage& pending, const Image& encoded) {
+    return std::pow(10, -image_loss(pending.pixels, decode(encoded), *pending.known).psnr / 10);
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,145 @@
+#include "cli/budget/image_error.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "asset/scene/material_textures.hpp"
+#include "faqem/error.hpp"
+#include "render/views.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+using render::ColorSpace;
+using render::Texture;
+
+// The texture of an image that stays as it is; empty, which is drawn white, if it cannot be decoded.
+Texture decoded_texture(const Image& image, ColorSpace color_space) {
+    try {
+        return render::make_texture(decode(image), color_space);
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+// Marks the images that materials have as base colours, or as normal maps.
+std::vector<std::uint8_t> images_in_role(const Asset& model, TextureRef Material::*role) {
+    std::vector<std::uint8_t> result(model.images.size(), 0);
+    for (const Material& material : model.materials) {
+        const TextureRef& texture = material.*role;
+        if (texture && texture.image < result.size()) result[texture.image] = 1;
+    }
+    return result;
+}
+
+std::vector<Texture> textures(const Asset& model, std::span<const detail::PendingImage> pending,
+                              TextureRef Material::*role, ColorSpace color_space) {
+    const std::vector<std::uint8_t> is_used = images_in_role(model, role);
+    std::vector<std::uint8_t> is_pending(is_used.size(), 0);
+    std::vector<Texture> result(is_used.size());
+    for (const detail::PendingImage& image : pending) {
+        is_pending[image.image] = 1;
+        if (is_used[image.image]) result[image.image] = render::make_texture(image.pixels, color_space);
+    }
+    for (std::size_t i = 0; i < result.size(); ++i)
+        if (is_used[i] && !is_pending[i]) result[i] = decoded_texture(model.images[i], color_space);
+    return result;
+}
+
+bool has_any(const std::vector<Texture>& all) {
+    return std::any_of(all.begin(), all.end(), [](const Texture& texture) { return bool(texture); });
+}
+
+}  // namespace
+
+ImageErrorMeter::ImageErrorMeter(const Asset& model, std::span<const detail::PendingImage> pending,
+                                 const detail::Workers& workers)
+    : threads_(workers.threads) {
+    std::vector<Texture> colors = textures(model, pending, &Material::base_color_texture, ColorSpace::srgb);
+    std::vector<Texture> normals = textures(model, pending, &Material::normal_texture, ColorSpace::linear);
+    Asset shown = model;
+    shown.images.clear();
+    scene_ = render::make_scene(std::move(shown));
+    scene_.color_textures = std::move(colors);
+    scene_.normal_maps = std::move(normals);
+    cameras_ = render::cameras_around(scene_, "", picture_views);
+    unlit_ = pictures(scene_, cameras_, render::Shading::unlit, threads_);
+    if (has_any(scene_.normal_maps))
+        lit_ = pictures(scene_, cameras_, render::Shading::lit_without_occlusion, threads_);
+
+    std::vector<std::uint64_t> pixels(model.materials.size() + 1, 0);  // by material
+    for (const render::Frame& frame : unlit_) {
+        for (const Index material : frame.materials) {
+            if (material == no_index) continue;
+            ++pixels[material];
+            ++pixels_;
+        }
+    }
+    for (const detail::PendingImage& image : pending) {
+        images_.push_back(image.image);
+        std::uint64_t own = 0;
+        for (std::size_t m = 0; m < model.materials.size(); ++m) {
+            bool has_it = false;
+            detail::for_each_texture(model.materials[m], [&](const TextureRef& texture) {
+                has_it |= texture.image == image.image;
+            });
+            if (has_it) own += pixels[m];
+        }
+        shares_.push_back(static_cast<double>(own) /
+                          static_cast<double>(std::max<std::uint64_t>(pixels_, 1)));
+    }
+}
+
+std::vector<double> ImageErrorMeter::errors_by_material(const std::vector<render::Frame>& perfect,
+                                                        const std::vector<render::Frame>& frames) const {
+    std::vector<double> result(scene_.asset.materials.size() + 1, 0);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        for (std::size_t k = 0; k < frames[i].pixels.size(); ++k) {
+            const Index material = std::min(perfect[i].materials[k], frames[i].materials[k]);
+            if (material == no_index) continue;
+            result[material] +=
+                (perfect[i].pixels[k] - frames[i].pixels[k]).head<3>().cast<double>().squaredNorm();
+        }
+    }
+    for (double& sum : result) sum /= 3 * static_cast<double>(std::max<std::uint64_t>(pixels_, 1));
+    return result;
+}
+
+std::vector<std::optional<PictureError>> ImageErrorMeter::operator()(std::vector<Pixels> shown) {
+    std::vector<std::optional<PictureError>> result(images_.size());
+    // Errors of one role: the other has perfect images, so that they are not mixed up.
+    const auto measure = [&](std::vector<Texture>& all, TextureRef Material::*role, render::Shading shading,
+                             ColorSpace color_space, auto&& error_of) {
+        std::vector<std::pair<std::size_t, Texture>> replaced;
+        for (std::size_t i = 0; i < images_.size(); ++i) {
+            if (shown[i].rgba.empty() || !all[images_[i]]) continue;
+            replaced.emplace_back(i, render::make_texture(shown[i], color_space));
+            std::swap(all[images_[i]], replaced.back().second);
+        }
+        if (replaced.empty()) return;
+        const bool is_lit = shading == render::Shading::lit_without_occlusion;
+        const std::vector<double> errors =
+            errors_by_material(is_lit ? lit_ : unlit_, pictures(scene_, cameras_, shading, threads_));
+        for (auto& [i, perfect] : replaced) {
+            double sum = 0;
+            for (std::size_t m = 0; m < scene_.asset.materials.size(); ++m)
+                if ((scene_.asset.materials[m].*role).image == images_[i]) sum += errors[m];
+            const PictureError before = result[i].value_or(PictureError{}), added = error_of(sum);
+            result[i] = {before.unlit + added.unlit, before.lit + added.lit};
+            std::swap(all[images_[i]], perfect);
+        }
+    };
+    // Light changes an error of colours little.
+    measure(scene_.color_textures, &Material::base_color_texture, render::Shading::unlit, ColorSpace::srgb,
+            [](double sum) {
+                return PictureError{sum, sum};
+            });
+    measure(scene_.normal_maps, &Material::normal_texture, render::Shading::lit_without_occlusion,
+            ColorSpace::linear, [](double sum) {
+                return PictureError{0, sum};
+            });
+    return result;
+}
+
+}  // namespace faqem::cli
