@@ -111,6 +111,24 @@ def call_file(random_number):
         faqem.bake(model, ratio=0.5, bake="none", normals="flat")
 
 
+def call_objects(random_number, points, triangles):
+    """Passes objects to functions that expect others: the library would take one for another."""
+    out = faqem.simplify(points, triangles, ratio=0.5, history=True)
+    model = faqem.Model.from_arrays(points, triangles)
+    things = [out, model, faqem.History.of([out]), None, "a", 5, 0.5, points, (points, triangles), [out], [model, out], []]
+    a, b, c = (random_number.choice(things) for _ in range(3))
+    with tempfile.TemporaryDirectory() as folder:
+        file = random_number.choice([pathlib.Path(folder, "a.glb"), pathlib.Path(folder, "a.ply"), a])
+        random_number.choice([
+            lambda: faqem.bake(a, ratio=0.5, bake="none"), lambda: faqem.bake_levels(a, b, bake="none"),
+            lambda: faqem.bake_truncated(a, b, 5, bake="none"), lambda: faqem.History.of(a), lambda: faqem.load(a),
+            lambda: faqem.History.load(a), lambda: faqem.save(b, file, overwrite=c), lambda: faqem.save(b, file),
+            lambda: faqem.save_levels(b, file), lambda: faqem.simplify(a, b), lambda: faqem.simplify_levels(a, b, c),
+            lambda: faqem.Model.from_arrays(a, b), lambda: faqem.replay_simplification(a, b, c), lambda: out.map(a, b, c),
+            lambda: faqem.simplify(points, triangles, progress=a, history=b), lambda: faqem.simplify_levels(points, triangles, a),
+        ])()
+
+
 def call(random_number):
     """Makes one random call."""
     count = random_number.choice([0, 1, 3, 8, 30])
@@ -121,11 +139,13 @@ def call(random_number):
         values = numpy.random.default_rng(random_number.getrandbits(32))
         given[random_number.choice(["groups", "locks", "weights", "uvs"])] = values.random(
             random_number.choice([count, (count, 3, 2), 5, 0]))
-    kind = random_number.choice([0, 1, 2, 3, 4] * 4 + [5] * 3 + [6])
+    kind = random_number.choice([0, 1, 2, 3, 4] * 4 + [5] * 3 + [6] + [7] * 2)
     if kind == 5:
         call_model(random_number, points, triangles, given)
     elif kind == 6:
         call_file(random_number)
+    elif kind == 7:
+        call_objects(random_number, points, triangles)
     elif kind == 0:
         faqem.simplify_levels(points, triangles, random_number.choice([[0.5, 0.1], [5], ["error:1%"], [], [-1], "0.5"]), **given)
     elif kind == 1:

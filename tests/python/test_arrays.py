@@ -167,7 +167,7 @@ class Arrays(unittest.TestCase):
         nan[3, 1] = numpy.nan
         beyond = triangles.copy()
         beyond[2, 2] = 25
-        for v, t, name in [(vertices[:, :2], triangles, "vertices"), (nan, triangles, "vertex 3"),
+        for v, t, name in [(vertices[:, :2], triangles, "points"), (nan, triangles, "vertex 3"),
                            (vertices, triangles[:, :2], "triangles"), (vertices, triangles * 1.0, "triangles"),
                            (vertices, triangles.astype(int) - 1, "triangles"), (vertices, beyond, "face 2"),
                            (vertices, triangles.astype(int) + 2**32, "triangles")]:

@@ -42,23 +42,36 @@ def _strided(array: ArrayLike, kind: DTypeLike) -> Array:
     return converted if fits else numpy.ascontiguousarray(converted)
 
 
-def checked_array(values: ArrayLike, name: str, kind: DTypeLike | None = None) -> Array:
-    """Returns an array, of a type if given. Raises InputError with the name of the argument if it is none."""
+def _converted(values: ArrayLike, name: str, kind: DTypeLike | None) -> Array:
     try:
-        array: Array = numpy.asarray(values, dtype=kind)
+        with numpy.errstate(over="ignore"):  # the library rejects what becomes infinite, and names the element
+            return numpy.asarray(values, dtype=kind)
     except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{name}: {error}") from None
-    if array.dtype.kind not in "biufO":
+
+
+def checked_array(values: ArrayLike, name: str, kind: DTypeLike | None = None) -> Array:
+    """Returns an array, of a type if given. Raises InputError with the name of the argument if it is none."""
+    array = _converted(values, name, None)
+    if array.dtype.kind not in "biufO":  # numpy would convert texts and complex numbers, too
         raise InputError(f"{name}: numbers are expected, but the type is {array.dtype}")
-    return array
+    return array if kind is None else _converted(array, name, kind)
 
 
-def _positions(vertices: ArrayLike) -> Array:
-    array = checked_array(vertices, "vertices")
-    kind: DTypeLike = numpy.float32 if array.dtype == numpy.float32 else numpy.float64
-    if array.size == 0:
-        array = array.reshape(0, 3)
-    return check_shape(_strided(checked_array(array, "vertices", kind), kind), 3, "vertices")
+def checked_positions(values: ArrayLike, name: str, kind: DTypeLike | None = None) -> Array:
+    """Returns positions (n, 3) as float32 if they are of that type and `kind` is None, else as float64.
+
+    Raises InputError if a value has no float64, or they are of a wider type.
+    """
+    array = checked_array(values, name)
+    if kind is None:
+        kind = numpy.float32 if array.dtype == numpy.float32 else numpy.float64
+    is_integer = array.dtype.kind in "iu" and array.size > 0
+    if array.dtype.kind == "f" and array.dtype.itemsize > 8:
+        raise InputError(f"{name}: the type {array.dtype} has more digits than float64; convert the array")
+    if is_integer and not (array.min() >= -(2**53) and array.max() <= 2**53):
+        raise InputError(f"{name}: an integer is beyond 2^53, and would be rounded")
+    return check_rows(checked_array(array, name, kind), 3, name)
 
 
 def checked_indices(values: ArrayLike, name: str) -> Array:
@@ -81,6 +94,14 @@ def _indices(values: ArrayLike, name: str) -> Array:
     return _strided(array, numpy.uint16 if array.dtype == numpy.uint16 else numpy.uint32)
 
 
+def _locks(values: ArrayLike, count: int) -> Array:
+    array = checked_array(values, "locks")
+    is_flag = array.dtype.kind == "b" or (array.dtype.kind in "iu" and ((array == 0) | (array == 1)).all())
+    if array.size and not is_flag:
+        raise InputError(f"locks: booleans (or 0 and 1) are expected, but the type is {array.dtype}")
+    return _per_element(array, count, numpy.uint8, "locks")
+
+
 def _per_element(values: ArrayLike, count: int, kind: DTypeLike, name: str) -> Array:
     array: Array = numpy.ascontiguousarray(checked_array(values, name, kind))
     if array.shape != (count,):
@@ -91,7 +112,7 @@ def _per_element(values: ArrayLike, count: int, kind: DTypeLike, name: str) -> A
 class MeshArrays:
     """A mesh for the C API. `mesh` is valid as long as this object exists; `kind` is the type of the positions.
 
-    Arrays of the right type are not copied.
+    Arrays of the right type are not copied. `name` is what messages call the positions.
     """
 
     def __init__(
@@ -102,15 +123,16 @@ class MeshArrays:
         locks: ArrayLike | None = None,
         weights: ArrayLike | None = None,
         uvs: ArrayLike | None = None,
+        name: str = "vertices",
     ) -> None:
-        positions = _positions(vertices)
+        positions = checked_positions(vertices, name)
+        positions = _strided(positions, positions.dtype)
         corners = _indices(triangles, "triangles")
         corners = check_rows(corners, 3, "triangles")
         self.kind = positions.dtype
         self.mesh = Mesh(vertex_count=len(positions), face_count=len(corners))
         self._arrays: list[Array] = []
-        name = "positions" if positions.dtype == numpy.float32 else "double_positions"
-        self._set_array(name, positions)
+        self._set_array("positions" if positions.dtype == numpy.float32 else "double_positions", positions)
         self._set_array("short_triangles" if corners.dtype == numpy.uint16 else "triangles", corners)
         self.mesh.position_stride, self.mesh.position_step = positions.strides
         self.mesh.triangle_stride, self.mesh.triangle_step = corners.strides
@@ -118,8 +140,7 @@ class MeshArrays:
             of_faces = _per_element(_indices(groups, "groups"), len(corners), numpy.uint32, "groups")
             self._set_array("face_groups", of_faces)
         if locks is not None:
-            of_vertices = _per_element(checked_array(locks, "locks", bool), len(positions), numpy.uint8, "locks")
-            self._set_array("vertex_locks", of_vertices)
+            self._set_array("vertex_locks", _locks(locks, len(positions)))
         if weights is not None:
             self._set_array("vertex_weights", _per_element(weights, len(positions), numpy.float32, "weights"))
         if uvs is not None:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar, overload
 from numpy.typing import ArrayLike
 
 from ._compatible import Collapses, Faces, Points, simplify_compatibly, triangle_rows
-from ._simplify import Simplified, simplify_arrays
+from ._options import option_names, unknown_keyword
+from ._simplify import Simplified, simplify_arrays, simplify_keywords
 from ._trimesh import is_trimesh, simplify_trimesh
 from .errors import InputError, OptionError
 
@@ -152,6 +153,8 @@ def simplify(
     """
     if triangles is None:
         if not is_trimesh(points):
+            for keyword in options.keys() - {*option_names(), *simplify_keywords, "progress"}:
+                raise unknown_keyword(keyword, [*option_names(), *simplify_keywords, "progress"])
             raise InputError("triangles: missing; only a Trimesh or a Scene of trimesh can be simplified alone")
         positional = (target_reduction, target_count, agg, verbose, return_collapses, lossless, preserve_border)
         if positional != (None, None, None, False, False, False, False):

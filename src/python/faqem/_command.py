@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from ._levels import Path
 from ._library import exceptions
-from ._model import Model, save
+from ._model import Model, as_model, save
 from ._options import checked_integer, names_keywords, parse_length
 from .errors import Error, InternalError, OptionError
 
@@ -49,7 +49,7 @@ def _file(model: Comparable, folder: str, name: str) -> str:
     if isinstance(model, (str, os.PathLike)):
         return os.fspath(model)
     file = os.path.join(folder, name + (".glb" if isinstance(model, Model) else ".ply"))
-    save(model, file)
+    save(as_model(model, name), file)
     return file
 
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import check_rows, check_shape, checked_array, checked_indices
+from ._arrays import check_rows, checked_array, checked_indices, checked_positions
 from ._levels import History
-from ._options import checked_integer
+from ._options import checked_integer, names_keywords
 from ._simplify import Simplified, simplify_arrays
 from .errors import InputError, OptionError
 
@@ -78,14 +78,14 @@ def simplify_compatibly(
     **options: Any,
 ) -> tuple[Points, Faces] | tuple[Points, Faces, Collapses]:
     """See simplify(); the options are those of the C API."""
-    positions = check_shape(checked_array(points, "points", numpy.float64), 3, "points")
+    positions = checked_positions(points, "points", numpy.float64)
     rows = triangle_rows(triangles)
     if lossless:
         options["max_error"] = _lossless_error
     else:
         options["faces"] = _target(target_reduction, target_count, len(rows))
     # Vertices at one position are not merged, as there: the collapses are of the vertices that were given.
-    out = simplify_arrays(positions, rows, history=return_collapses, **{"welding": "none", **options})
+    out = simplify_arrays(positions, rows, history=bool(return_collapses), **{"welding": "none", **options})
     result = out.vertices.astype(numpy.float64, copy=False), out.triangles.astype(numpy.int32)
     return (*result, _collapses(out, positions)) if return_collapses else result
 
@@ -135,6 +135,7 @@ def _collapses(out: Simplified, positions: Points) -> Collapses:
     return array
 
 
+@names_keywords
 def replay_simplification(
     points: ArrayLike, triangles: ArrayLike, collapses: ArrayLike
 ) -> tuple[Points, Faces, NDArray[numpy.int64]]:
@@ -150,7 +151,7 @@ def replay_simplification(
     collapse (duplicates that stood in its way) remain. Raises InputError if an index is out of range, or a vertex is
     used after it was merged. O((n + f) log n)
     """
-    positions = check_shape(checked_array(points, "points", numpy.float64), 3, "points")
+    positions = checked_positions(points, "points", numpy.float64)
     rows = checked_indices(triangle_rows(triangles), "triangles").astype(numpy.int64)
     pairs = checked_indices(collapses, "collapses")
     pairs = check_rows(pairs, 2, "collapses").astype(numpy.int64)

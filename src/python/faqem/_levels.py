@@ -5,16 +5,16 @@ from __future__ import annotations
 import ctypes
 import os
 import weakref
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
 from numpy.typing import ArrayLike
 
 from ._arrays import MeshArrays, mesh_pointer
 from ._library import Level, call, create, library
-from ._options import Options, parse_length, checked_integer
+from ._options import Options, checked_integer, checked_switch, names_keywords, parse_length
 from ._simplify import Simplified, array_keywords
-from .errors import OptionError
+from .errors import InputError, OptionError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -28,20 +28,40 @@ Path = Union[str, "os.PathLike[str]"]
 _ratio, _faces, _distance = 0, 1, 2  # faqem_level_kind; 3 is a distance as a share of the diagonal
 
 
+def file_name(path: Path) -> str:
+    """Returns a file name as text. Raises TypeError with the name of the argument if it is none."""
+    try:
+        return os.fsdecode(path)
+    except TypeError as error:
+        raise TypeError(f"path: {error}") from None
+
+
 def _level(level: Target) -> Level:
     if isinstance(level, str):
         if not level.startswith("error:"):
             raise OptionError(f"levels: {level!r} is not a level (expected: 0.5, 5000, 'error:0.01', 'error:0.1%')")
         value, unit = parse_length(level[len("error:"):], "levels")
         return Level(_distance + unit, value)
-    if 0 < level <= 1:
-        return Level(_ratio, float(level))
+    try:
+        ratio = float(level)
+    except (TypeError, ValueError, OverflowError):
+        raise OptionError(f"levels: {level!r} is not a level (expected: 0.5, 5000, 'error:0.01', 'error:0.1%')") from None
+    if 0 < ratio <= 1:
+        return Level(_ratio, ratio)
     return Level(_faces, checked_integer(level, "levels", 53))
 
 
 def level_array(levels: Sequence[Target]) -> Any:
-    """Converts levels to an array of faqem_level."""
-    return (Level * len(levels))(*map(_level, levels))
+    """Converts levels to an array of faqem_level. Raises TypeError if they are no list."""
+    targets = as_list(levels)
+    return (Level * len(targets))(*map(_level, targets))
+
+
+def as_list(levels: Any) -> list[Any]:
+    """Returns the elements of the argument `levels`. Raises TypeError if it is a single one."""
+    if isinstance(levels, str) or not isinstance(levels, Iterable):
+        raise TypeError(f"levels: a list is expected, not {type(levels).__name__}")
+    return list(levels)
 
 
 def simplify_levels(
@@ -69,17 +89,23 @@ def simplify_levels(
     arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
     chosen = Options(array_keywords, **options)
     wanted = level_array(levels)
-    made = (ctypes.c_void_p * len(levels))()
+    made = (ctypes.c_void_p * len(wanted))()
 
     def run() -> list[Simplified]:
-        call(library.faqem_simplify_levels, mesh_pointer(arrays), chosen.object, wanted, len(levels), made)
+        call(library.faqem_simplify_levels, mesh_pointer(arrays), chosen.object, wanted, len(wanted), made)
         return [Simplified(ctypes.c_void_p(one), arrays.kind) for one in made]
 
     return chosen.run(run)
 
 
-def handle_array(levels: Sequence[Simplified] | Sequence[Model]) -> Any:
-    """Returns the C objects of a list of Simplified or Model as an array."""
+def handle_array(levels: list[Any], kind: type) -> Any:
+    """Returns the C objects of a list as an array, which does not keep them alive.
+
+    Raises TypeError if an element is not of the type `kind`: Simplified or Model.
+    """
+    for level in levels:
+        if not isinstance(level, kind):
+            raise TypeError(f"levels: a list of {kind.__name__} is expected, but one is {type(level).__name__}")
     return (ctypes.c_void_p * len(levels))(*(level._handle.value for level in levels))
 
 
@@ -99,21 +125,29 @@ class History:
 
         Raises OptionError if a level has no history, and InputError if the levels are not of one run.
         """
-        objects = handle_array(levels)
-        of_arrays = all(isinstance(level, Simplified) for level in levels)
-        make = library.faqem_history_create if of_arrays else library.faqem_asset_history_create
-        return cls(create(make, objects, len(levels)))
+        from ._model import Model
+
+        listed = as_list(levels)
+        if any(isinstance(level, Model) for level in listed):
+            return cls(create(library.faqem_asset_history_create, handle_array(listed, Model), len(listed)))
+        objects = handle_array(listed, Simplified)
+        return cls(create(library.faqem_history_create, objects, len(listed)))
 
     @classmethod
     def load(cls, path: Path) -> History:
         """Reads a history file of save() or of the command. Raises InputError, OSError."""
-        with open(path, "rb") as file:
+        name = file_name(path)
+        with open(name, "rb") as file:
             content = file.read()
-        return cls(create(library.faqem_history_read, content, len(content)))
+        try:
+            return cls(create(library.faqem_history_read, content, len(content)))
+        except InputError as error:
+            raise type(error)(f"{name}: {error}") from None
 
+    @names_keywords
     def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Writes the history in the format of docs/history-format.md. Raises OSError."""
-        with open(os.fspath(path), "wb" if overwrite else "xb") as file:
+        with open(file_name(path), "wb" if checked_switch(overwrite, "overwrite") else "xb") as file:
             file.write(self.to_bytes())
 
     def to_bytes(self) -> bytes:

@@ -15,9 +15,9 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import MeshArrays, mesh_pointer, view_array
-from ._levels import History, Path, Target, handle_array, level_array
+from ._levels import History, Path, Target, as_list, file_name, handle_array, level_array
 from ._library import call, create, library
-from ._options import Options, checked_integer, names_keywords
+from ._options import Options, checked_integer, checked_switch, enum_value, names_keywords, parse_length
 from ._textures import Image, Material, images, materials
 from .errors import InputError, OptionError, ReadError, UnsupportedError
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from ._types import BakeOptions, CommonBakeOptions
 
-_level_textures = {"each": 0, "shared": 1}
+_level_textures = ["each", "shared"]  # faqem_level_textures
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,6 +49,7 @@ class Model:
         weakref.finalize(self, library.faqem_asset_destroy, handle)
 
     @classmethod
+    @names_keywords
     def from_arrays(cls, vertices: ArrayLike, triangles: ArrayLike) -> Model:
         """Creates a model of one part without materials; the arrays are copied. Raises InputError."""
         arrays = MeshArrays(vertices, triangles)
@@ -108,8 +109,27 @@ class Model:
         )
 
 
+def as_model(model: Model | tuple[ArrayLike, ArrayLike], name: str) -> Model:
+    """Returns a model, made of a pair of arrays if it is one. Raises TypeError with the name of the argument."""
+    if isinstance(model, Model):
+        return model
+    if not isinstance(model, (tuple, list)) or len(model) != 2:
+        raise TypeError(f"{name}: a Model or a pair of arrays is expected, not {type(model).__name__}")
+    return Model.from_arrays(*model)
+
+
+def _source(model: Model) -> ctypes.c_void_p:
+    """Returns the C object of a model that is simplified. Raises TypeError if it is none, InputError without faces."""
+    if not isinstance(model, Model):
+        raise TypeError(f"model: a Model is expected, not {type(model).__name__}")
+    parts = range(library.faqem_asset_part_count(model._handle))
+    if not any(library.faqem_asset_face_count(model._handle, part) for part in parts):
+        raise InputError("model: has no triangles")
+    return model._handle
+
+
 def _path(path: Path) -> bytes:
-    encoded = os.fsencode(path)
+    encoded = os.fsencode(file_name(path))
     if b"\0" in encoded:
         raise InputError(f"{path!r}: the file name contains a zero byte")
     return encoded
@@ -141,8 +161,8 @@ def bake(model: Model, /, **options: Unpack[BakeOptions]) -> Model:
     Returns a Model. Raises OptionError, InputError, UnsupportedError, MemoryError, and the exceptions of
     `progress`.
     """
-    chosen = Options(**options)
-    return chosen.run(lambda: Model(create(library.faqem_asset_simplify, model._handle, chosen.object)))
+    source, chosen = _source(model), Options(**options)
+    return chosen.run(lambda: Model(create(library.faqem_asset_simplify, source, chosen.object)))
 
 
 def bake_levels(
@@ -156,15 +176,13 @@ def bake_levels(
 
     Returns a list of Model, whose `error` never decreases. Raises the exceptions of bake().
     """
-    if textures not in _level_textures:
-        raise OptionError(f"textures: unknown value {textures!r} (expected: each, shared)")
-    chosen = Options(["textures"], **options)
+    source, chosen = _source(model), Options(["textures"], **options)
+    shared = enum_value(_level_textures, textures, "textures")
     wanted = level_array(levels)
-    made = (ctypes.c_void_p * len(levels))()
-    shared = _level_textures[textures]
+    made = (ctypes.c_void_p * len(wanted))()
 
     def run() -> list[Model]:
-        call(library.faqem_asset_simplify_levels, model._handle, chosen.object, wanted, len(levels), shared, made)
+        call(library.faqem_asset_simplify_levels, source, chosen.object, wanted, len(wanted), shared, made)
         return [Model(ctypes.c_void_p(one)) for one in made]
 
     return chosen.run(run)
@@ -180,12 +198,13 @@ def bake_truncated(model: Model, history: History, faces: int, /, **options: Unp
 
     Returns a Model. Raises the exceptions of bake(), and InputError if the history is of another model.
     """
-    chosen = Options(**options)
+    source, chosen = _source(model), Options(**options)
     count = checked_integer(faces, "faces", 53)
+    if not isinstance(history, History):
+        raise TypeError(f"history: a History is expected, not {type(history).__name__}")
 
     def run() -> Model:
-        return Model(
-            create(library.faqem_asset_bake_truncated, model._handle, history._handle, count, chosen.object))
+        return Model(create(library.faqem_asset_bake_truncated, source, history._handle, count, chosen.object))
 
     return chosen.run(run)
 
@@ -211,10 +230,13 @@ def save_levels(
     What the format cannot store is added to the warnings of the first level. Raises OptionError, and the
     exceptions of save().
     """
-    if not (pixel_error > 0 and screen_height > 0):
+    listed, replace = as_list(levels), checked_switch(overwrite, "overwrite")
+    lengths = [parse_length(pixel_error, "pixel_error"), parse_length(screen_height, "screen_height")]
+    if not all(value > 0 and unit == 0 for value, unit in lengths):
         raise OptionError("pixel_error and screen_height must be > 0")
-    share = float(pixel_error) / float(screen_height)
-    call(library.faqem_asset_save_levels, handle_array(levels), len(levels), share, _path(path), 1 if overwrite else 0)
+    share = lengths[0][0] / lengths[1][0]
+    handles = handle_array(listed, Model)
+    call(library.faqem_asset_save_levels, handles, len(handles), share, _path(path), int(replace))
 
 
 @names_keywords
@@ -227,6 +249,5 @@ def save(model: Model | tuple[ArrayLike, ArrayLike], path: Path, *, overwrite: b
 
     What the format cannot store is added to model.warnings. Raises WriteError, UnsupportedError, InputError.
     """
-    if not isinstance(model, Model):
-        model = Model.from_arrays(*model)
-    call(library.faqem_asset_save, model._handle, _path(path), 1 if overwrite else 0)
+    source, replace = as_model(model, "model"), checked_switch(overwrite, "overwrite")
+    call(library.faqem_asset_save, source._handle, _path(path), int(replace))

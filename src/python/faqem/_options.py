@@ -10,6 +10,8 @@ import weakref
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar, Union, cast
 
+import numpy
+
 from ._interrupt import HeldInterrupt
 from ._library import Progress as Callback
 from ._library import call, library
@@ -25,7 +27,7 @@ _phases = ["load", "weld", "simplify", "map", "bake", "save"]
 
 def enum_value(names: Sequence[str], name: str, option: str) -> int:
     """Returns the value of an enumerator of the C API. Raises OptionError if the name is unknown."""
-    if name not in names:
+    if not isinstance(name, str) or name not in names:
         raise OptionError(f"{option}: unknown value {name!r} (expected: {', '.join(names)})")
     return names.index(name)
 
@@ -36,8 +38,15 @@ def parse_length(value: float | str, option: str) -> tuple[float, int]:
         if isinstance(value, str) and value.endswith("%"):
             return float(value[:-1]) / 100, 1
         return float(value), 0
-    except ValueError:
+    except (TypeError, ValueError, OverflowError):
         raise OptionError(f"{option}: {value!r} is not a length, such as 0.01 or '0.1%'") from None
+
+
+def checked_switch(value: Any, option: str) -> bool:
+    """Returns True or False. Raises OptionError for other values, whose truth would be a guess."""
+    if not isinstance(value, (bool, numpy.bool_)):
+        raise OptionError(f"{option}: {value!r} is not True or False")
+    return bool(value)
 
 
 def checked_integer(value: Any, option: str, bits: int) -> int:
@@ -60,7 +69,7 @@ def _text(value: Any) -> str | None:
     """Converts the value of an option to text. None if it is neither a number nor a text."""
     if isinstance(value, str):
         return {"automatic": "auto"}.get(value, value).replace("_", "-")
-    if isinstance(value, bool):
+    if isinstance(value, (bool, numpy.bool_)):
         return "on" if value else "off"
     conversions: list[Callable[[], str]] = [lambda: str(operator.index(value)), lambda: repr(float(value))]
     for convert in conversions:
@@ -80,7 +89,8 @@ def unknown_keyword(keyword: str, known: Iterable[str]) -> TypeError:
 def names_keywords(function: Function) -> Function:
     """Decorator: a misspelt keyword is a TypeError that suggests the right one."""
     parameters = inspect.signature(function).parameters.values()
-    known = [parameter.name for parameter in parameters if parameter.kind != parameter.POSITIONAL_ONLY]
+    known = [parameter.name for parameter in parameters
+             if parameter.kind != parameter.POSITIONAL_ONLY and parameter.name not in ("self", "cls")]
 
     @functools.wraps(function)
     def checked(*arguments: Any, **keywords: Any) -> Any:
@@ -110,7 +120,7 @@ class Options:
         for keyword in options.keys() - set(option_names()):
             raise unknown_keyword(keyword, [*option_names(), "progress", *also])
         for keyword, value in given.items():
-            self._set(keyword, bool(value) if keyword == "history" else value)
+            self._set(keyword, checked_switch(value, keyword) if keyword == "history" else value)
         self._set_progress(progress)
 
     def _set(self, keyword: str, value: Any) -> None:
@@ -127,6 +137,8 @@ class Options:
 
         Exceptions cannot pass through C: they cancel the run, and run() raises them.
         """
+        if progress is not None and not callable(progress):
+            progress = checked_switch(progress, "progress")
         self._line = ProgressLine() if progress is True else None
         show = self._line or (progress if callable(progress) else None)
 

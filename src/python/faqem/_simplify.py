@@ -10,15 +10,16 @@ from typing import Any
 import numpy
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._arrays import MeshArrays, checked_indices, copy_array, mesh_pointer
+from ._arrays import MeshArrays, checked_array, checked_indices, copy_array, mesh_pointer
 from ._library import call, create, library
-from ._options import Options, enum_value
+from ._options import Options, enum_value, names_keywords
 from .errors import InputError
 
 #: Keywords of simplify() and simplify_levels() that are arrays.
 array_keywords = ("groups", "locks", "weights", "uvs")
-#: Keywords of simplify() that are those of fast_simplification.
-compatible_keywords = (
+#: Keywords of simplify() besides the options: its arrays, and the arguments of fast_simplification.
+simplify_keywords = (
+    "points", "triangles", *array_keywords,
     "target_reduction", "target_count", "agg", "verbose", "return_collapses", "lossless", "preserve_border",
 )
 
@@ -54,6 +55,7 @@ class Simplified:
         error = library.faqem_result_level_error(handle)
         self.error = None if numpy.isnan(error) else error
 
+    @names_keywords
     def map(
         self, faces: ArrayLike, barycentric: ArrayLike, mapping: str = "projection"
     ) -> tuple[NDArray[numpy.uint32], NDArray[numpy.float64]]:
@@ -67,9 +69,11 @@ class Simplified:
         indices that are no integers or out of range, and OptionError if there is no history.
         """
         indices: NDArray[numpy.uint32] = numpy.ascontiguousarray(checked_indices(faces, "faces"), dtype=numpy.uint32)
-        weights: NDArray[numpy.float64] = numpy.ascontiguousarray(barycentric, dtype=numpy.float64)
+        weights: NDArray[numpy.float64] = numpy.ascontiguousarray(
+            checked_array(barycentric, "barycentric", numpy.float64))
         if indices.ndim != 1 or weights.shape != (len(indices), 3):
-            raise InputError(f"map: the shapes must be (n,) and (n, 3), but are {indices.shape} and {weights.shape}")
+            raise InputError(f"faces and barycentric: the shapes must be (n,) and (n, 3), but are {indices.shape} and "
+                             f"{weights.shape}")
         source_faces, source_weights = numpy.empty_like(indices), numpy.empty_like(weights)
 
         def pointer(array: NDArray[Any], kind: Any) -> Any:
@@ -82,7 +86,7 @@ class Simplified:
 
 
 def simplify_arrays(
-    vertices: ArrayLike,
+    points: ArrayLike,
     triangles: ArrayLike,
     groups: ArrayLike | None = None,
     locks: ArrayLike | None = None,
@@ -91,8 +95,8 @@ def simplify_arrays(
     **options: Any,
 ) -> Simplified:
     """See simplify()."""
-    arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
-    chosen = Options((*array_keywords, *compatible_keywords), **options)
+    arrays = MeshArrays(points, triangles, groups, locks, weights, uvs, "points")
+    chosen = Options(simplify_keywords, **options)
 
     def run() -> Simplified:
         return Simplified(create(library.faqem_simplify, mesh_pointer(arrays), chosen.object), arrays.kind)
