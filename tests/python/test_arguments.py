@@ -165,6 +165,14 @@ class Values(unittest.TestCase):
             points, faces = out if isinstance(out, tuple) else (out.vertices, out.triangles)
             self.assertEqual((points.shape, faces.shape), ((0, 3), (0, 3)))
 
+    def test_positions_cut_from_a_history_keep_their_type(self):
+        vertices, triangles = bumpy_grid(12)
+        for kind in (numpy.float32, numpy.float64):
+            levels = faqem.simplify_levels(vertices.astype(kind), triangles, [0.5, 0.2], history=True)
+            history = faqem.History.of(levels)
+            self.assertEqual(history.truncate(50).vertices.dtype, kind)
+            self.assertEqual(history.truncate_parts(50)[0].vertices.dtype, kind)
+
 
 class Keywords(unittest.TestCase):
     def test_a_misspelt_keyword_names_the_right_one(self):

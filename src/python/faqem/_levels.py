@@ -8,7 +8,8 @@ import weakref
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
-from numpy.typing import ArrayLike
+import numpy
+from numpy.typing import ArrayLike, DTypeLike
 
 from ._arrays import MeshArrays, mesh_pointer
 from ._library import Level, call, create, library
@@ -112,8 +113,8 @@ def handle_array(levels: list[Any], kind: type) -> Any:
 class History:
     """Collapse history of a chain of levels. Created by History.of() or History.load()."""
 
-    def __init__(self, handle: ctypes.c_void_p) -> None:
-        self._handle = handle
+    def __init__(self, handle: ctypes.c_void_p, kind: DTypeLike = numpy.float64) -> None:
+        self._handle, self._kind = handle, kind  # the type of positions
         weakref.finalize(self, library.faqem_history_destroy, handle)
 
     @classmethod
@@ -131,11 +132,12 @@ class History:
         if any(isinstance(level, Model) for level in listed):
             return cls(create(library.faqem_asset_history_create, handle_array(listed, Model), len(listed)))
         objects = handle_array(listed, Simplified)
-        return cls(create(library.faqem_history_create, objects, len(listed)))
+        kind = numpy.result_type(*(level.vertices.dtype for level in listed)) if listed else numpy.float64
+        return cls(create(library.faqem_history_create, objects, len(listed)), kind)
 
     @classmethod
     def load(cls, path: Path) -> History:
-        """Reads a history file of save() or of the command. Raises InputError, OSError."""
+        """Reads a history file of save() or of the command; positions are float64. Raises InputError, OSError."""
         name = file_name(path)
         with open(name, "rb") as file:
             content = file.read()
@@ -173,10 +175,11 @@ class History:
         """
         if self.part_count > 1:
             raise OptionError(f"the history has {self.part_count} meshes: use truncate_parts()")
-        return Simplified(create(library.faqem_history_truncate, self._handle, checked_integer(faces, "faces", 53)))
+        count = checked_integer(faces, "faces", 53)
+        return Simplified(create(library.faqem_history_truncate, self._handle, count), self._kind)
 
     def truncate_parts(self, faces: int) -> list[Simplified]:
         """Restores all meshes at a total number of triangles. Returns a list of Simplified, one per part."""
         made = (ctypes.c_void_p * self.part_count)()
         call(library.faqem_history_truncate_parts, self._handle, checked_integer(faces, "faces", 53), made)
-        return [Simplified(ctypes.c_void_p(one)) for one in made]
+        return [Simplified(ctypes.c_void_p(one), self._kind) for one in made]
