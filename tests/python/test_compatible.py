@@ -50,14 +50,18 @@ class Call(unittest.TestCase):
         border = (vertices[:, :2] % 12 == 0).any(axis=1)
         self.assertLessEqual(set(map(tuple, vertices[border])), set(map(tuple, out)))
 
-    def test_verbose_and_progress_show_a_line(self):
+    def test_verbose_and_progress_show_a_bar(self):
         for options in ({"target_reduction": 0.5, "verbose": True}, {"ratio": 0.5, "progress": True}):
             with contextlib.redirect_stderr(io.StringIO()) as shown:
                 faqem.simplify(*bumpy_grid(12), **options)
-            self.assertRegex(shown.getvalue(), r"^\r.*\rsimplify .*%.*\n$")
+            self.assertRegex(shown.getvalue(), r"^\r.*\rsimplify \[#* *\] +\d+%.*\n$")
+            lengths = {len(text) for text in shown.getvalue().strip().split("\r")}
+            self.assertEqual(len(lengths), 1, "each text covers the one before")
         with contextlib.redirect_stderr(io.StringIO()) as shown:
             faqem.simplify(*bumpy_grid(12), 0.5, progress=False)
         self.assertEqual(shown.getvalue(), "")
+        with contextlib.redirect_stderr(None):  # as in programs without a console
+            faqem.simplify(*bumpy_grid(12), 0.5, progress=True)
 
     def test_wrong_arguments_are_named(self):
         vertices, triangles = bumpy_grid(4)

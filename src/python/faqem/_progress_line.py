@@ -5,16 +5,20 @@ from __future__ import annotations
 import sys
 
 
+_width = 40  # of the bar, in characters
+
+
 class ProgressLine:
-    """A line with phase and percentage, which is written over itself."""
+    """A line with phase, bar and percentage, which is written over itself."""
 
     def __init__(self) -> None:
         self._text = ""
 
     def __call__(self, phase: str, fraction: float) -> None:
-        text = f"{phase} {fraction:.0%}"
-        if text != self._text:
-            sys.stderr.write("\r" + text.ljust(len(self._text)))
+        done = int(_width * fraction)
+        text = f"{phase:<8} [{'#' * done}{' ' * (_width - done)}] {fraction:4.0%}"
+        if text != self._text and sys.stderr is not None:
+            sys.stderr.write("\r" + text)
             sys.stderr.flush()
             self._text = text
 
