@@ -79,6 +79,17 @@ class Backend(unittest.TestCase):
                 written.append((wheel.read_bytes(), tar.read_bytes()))
             self.assertEqual(written[0], written[1])
 
+    def test_texts_that_licences_refer_to_are_added(self):
+        import licences
+
+        if not os.path.exists("/usr/share/common-licenses/GPL-3"):
+            self.skipTest("no system of Debian")
+        found = licences._common([b"see `/usr/share/common-licenses/GPL-3'.", b"or /usr/share/common-licenses/LGPL-2.1."])
+        self.assertEqual(list(found), ["common-licenses/GPL-3", "common-licenses/LGPL-2.1"])
+        self.assertIn(b"GNU GENERAL PUBLIC LICENSE", found["common-licenses/GPL-3"])
+        with self.assertRaises(FileNotFoundError):
+            licences._common([b"/usr/share/common-licenses/NONE"])
+
     def test_files_that_need_other_libraries_get_no_portable_tag(self):
         import binaries
 

@@ -1,5 +1,9 @@
-"""Runs the Python blocks of the README with a model statue.glb, and measures the import. Usage: try.py README"""
+"""Runs the Python blocks of the README with a model statue.glb, measures the import, and looks for the licences.
 
+Usage: try.py README
+"""
+
+import importlib.metadata
 import pathlib
 import re
 import subprocess
@@ -35,6 +39,16 @@ def import_seconds():
     return least("import faqem") - least("pass")
 
 
+def check_licences():
+    """Libraries that are bundled have their licences in the wheel, with all texts that these refer to."""
+    files = {file.as_posix().partition("licenses/")[2]: file for file in importlib.metadata.files("faqem")}
+    assert {"LICENSE", "draco.txt", "libstdc++.txt", "meshoptimizer.txt", "three.js.txt"} <= set(files), sorted(files)
+    for name in [name for name in files if name]:
+        for other in re.findall(r"/usr/share/(common-licenses/[\w.-]+\w)", files[name].read_text()):
+            assert len(files[other].read_text()) > 1000, (name, other)
+
+
+check_licences()
 write_statue()
 blocks = re.findall(r"```python\n(.*?)```", pathlib.Path(sys.argv[1]).read_text(), re.DOTALL)
 names = {}
