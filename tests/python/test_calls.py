@@ -63,6 +63,18 @@ class Interrupt(unittest.TestCase):
             with self.assertRaises(KeyboardInterrupt):
                 run(self.interrupted_at(2, []))
 
+    def test_nothing_is_done_for_levels_that_are_complete(self):
+        model = faqem.Model.from_arrays(*self.mesh)
+        for run in (lambda progress: faqem.simplify_levels(*self.mesh, [0.5, 0.1], progress=progress, threads=1),
+                    lambda progress: faqem.bake_levels(model, [0.5, 0.1], progress=progress, threads=1, bake="none")):
+            every = []
+            run(self.interrupted_at(0, every))
+            for call in range(2, len(every), 1 + len(every) // 6):
+                calls = []
+                with self.assertRaises(KeyboardInterrupt):
+                    run(self.interrupted_at(call, calls))
+                self.assertLessEqual(len(calls), call + 1)
+
 
 class Processes(unittest.TestCase):
     def setUp(self):

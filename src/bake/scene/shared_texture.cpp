@@ -111,6 +111,7 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
             return results;
         },
         measured);
+    keep_only_cancelled(others);
     for (SimplifiedPartsLevel& level : others) {
         const SimplifiedParts simplified = std::move(level.result);
         out.push_back({bake(baked.asset, simplified, other_level_options(baking(out.size() + 1))),

@@ -68,6 +68,7 @@ std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& source, const std
     if (textures == LevelTextures::shared) return with_shared_texture(source, levels, options);
     std::vector<SimplifiedAssetLevel> out;
     std::vector<SimplifiedPartsLevel> made = simplify_parts_levels(source, levels, options);
+    detail::keep_only_cancelled(made);
     const auto count = static_cast<double>(made.size());
     for (SimplifiedPartsLevel& level : made) {
         const SimplifiedParts simplified = std::move(level.result);

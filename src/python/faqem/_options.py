@@ -143,6 +143,8 @@ class Options:
         show = self._line or (progress if callable(progress) else None)
 
         def called(_user: object, phase: int, fraction: float) -> int:
+            if self._callback_exception is not None:
+                return 1  # the run has been cancelled
             try:
                 self._interrupt.deliver()
                 if show is not None:

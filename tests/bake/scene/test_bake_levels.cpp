@@ -195,11 +195,14 @@ TEST_CASE("cancelled levels of an asset have the stop reason cancelled") {
         options.progress = [&](Phase, double) { return ++calls, Continue::yes; };
         simplify_levels(asset, wanted_levels, options, textures);
         for (const std::size_t stop : {std::size_t{0}, calls / 4, calls / 2, 3 * calls / 4, calls - 1}) {
-            std::size_t left = stop;
-            options.progress = [&](Phase, double) { return left-- > 0 ? Continue::yes : Continue::cancel; };
+            std::size_t before = 0;
+            options.progress = [&](Phase, double) {
+                return before++ == stop ? Continue::cancel : Continue::yes;
+            };
             const auto levels = simplify_levels(asset, wanted_levels, options, textures);
             REQUIRE_FALSE(levels.empty());
             CHECK(levels.back().result.report.stop == StopReason::cancelled);
+            CHECK(before == stop + 1);  // nothing is done afterwards
         }
     }
 }

@@ -68,12 +68,11 @@ public:
             if (level_targets_[i].faces) {
                 targets_.push_back(std::min(*level_targets_[i].faces, most));
             } else if (!search(i, most)) {
-                std::vector<Out> cancelled;
-                cancelled.push_back(std::move(out_[i]));
-                return cancelled;
+                return cancelled(out_[i]);
             }
         }
-        simplify_to_face_counts();
+        // Levels before the one that was cancelled are complete, but not measured, which can take many seconds.
+        if (!simplify_to_face_counts()) return cancelled(out_.back());
         measure_levels();
         return std::move(out_);
     }
@@ -82,6 +81,13 @@ private:
     using Result = decltype(Out::result);
 
     static bool is_distance(const LevelTarget& target) { return !target.faces; }
+
+    static std::vector<Out> cancelled(Out& level) {
+        std::vector<Out> only;
+        only.push_back(std::move(level));
+        only.back().result.report.stop = StopReason::cancelled;
+        return only;
+    }
 
     // Finds the face count of level i, whose target is a distance. Returns false if cancelled.
     bool search(std::size_t i, std::uint64_t most) {
@@ -109,30 +115,27 @@ private:
         return true;
     }
 
-    // Produces the levels whose targets are face counts. If cancelled, out_ has fewer levels afterwards.
-    void simplify_to_face_counts() {
-        if (std::all_of(level_targets_.begin(), level_targets_.end(), is_distance)) return;
+    // Produces the levels whose targets are face counts. Returns false if cancelled: the last one of out_.
+    bool simplify_to_face_counts() {
+        if (std::all_of(level_targets_.begin(), level_targets_.end(), is_distance)) return true;
         Options half = options_;
         if (options_.progress)
             half.progress = [&](Phase phase, double fraction) {
                 return options_.progress(phase, fraction / 2);
             };
         std::vector<Result> results = run_(targets_, half);
-        is_cancelled_ = !results.empty() && results.back().report.stop == StopReason::cancelled;
+        const bool is_complete = results.empty() || results.back().report.stop != StopReason::cancelled;
         out_.resize(results.size());
         for (std::size_t i = 0; i < out_.size(); ++i) {
             if (level_targets_[i].faces) out_[i].result = std::move(results[i]);
         }
+        return is_complete;
     }
 
     // Measures the levels whose targets are face counts, and makes the errors ascend.
     void measure_levels() {
         double largest = 0;
         for (std::size_t i = 0; i < out_.size(); ++i) {
-            if (is_cancelled_ && i + 1 == out_.size()) {
-                out_[i].result.report.stop = StopReason::cancelled;
-                break;
-            }
             const bool is_measured = !level_targets_[i].faces || measure(i);
             largest = out_[i].error = std::max(out_[i].error, largest);
             if (!is_measured ||
@@ -172,7 +175,6 @@ private:
     double steps_done_ = 0;
     std::vector<std::uint64_t> targets_;  // face counts of the levels so far
     std::vector<Out> out_;
-    bool is_cancelled_ = false;
 };
 
 /// Runs the simplification for all levels and measures each level against the original. Distances are first
@@ -191,6 +193,13 @@ std::vector<Out> run_lod_chain(std::span<const LevelTarget> level_targets, const
     LodChain<Out, std::remove_reference_t<Run>, std::remove_reference_t<Measure>> chain(
         level_targets, options, faces, run, measure);
     return chain.simplify();
+}
+
+/// Leaves only the last level if it was cancelled, for callers whose next step takes long for each complete one.
+template <class Out>
+void keep_only_cancelled(std::vector<Out>& levels) {
+    if (!levels.empty() && levels.back().result.report.stop == StopReason::cancelled)
+        levels.erase(levels.begin(), levels.end() - 1);
 }
 
 }  // namespace detail
