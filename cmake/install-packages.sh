@@ -2,7 +2,7 @@
 # Installs packages on Debian 12 or 13. Usage: cmake/install-packages.sh [GROUP...]
 #   build   what the libraries and the command need (the default; the next groups include it)
 #   test    what tests/run.sh needs besides
-#   clang   the compiler clang, for the presets clang and fuzz
+#   clang   the compiler clang, for the preset clang, with the libraries of its sanitizers and libFuzzer for fuzz
 #   tidy    clang-tidy and clang-format
 #   docs    what the target docs needs
 #   wheel   what src/python/build_wheel.sh needs, without the packages of the group build
@@ -24,7 +24,7 @@ for group in "$@"; do
         test)
             packages="$packages catch2 ccache doxygen file python3-numpy python3-pip zsh $npm"
             ;;
-        clang) packages="$packages clang" ;;
+        clang) packages="$packages clang libclang-rt-dev" ;;
         tidy) packages="$packages clang clang-tidy clang-format" ;;
         docs) packages="$packages doxygen python3" ;;
         wheel)
