@@ -1,7 +1,10 @@
 """Tests of faqem.simplify with numpy arrays."""
 
 import ctypes
+import gc
 import os
+import subprocess
+import sys
 import unittest
 
 import faqem
@@ -98,6 +101,39 @@ class Arrays(unittest.TestCase):
         self.assertEqual(ctypes.addressof(mesh.short_triangles.contents), short.ctypes.data)
         self.assertEqual((mesh.triangle_stride, mesh.triangle_step), (6, 2))
         self.assertFalse(mesh.triangles)
+
+    def test_results_are_not_copied_and_outlive_the_object(self):
+        vertices, triangles = flat_grid(30)
+        expected = faqem.simplify(vertices, triangles, ratio=0.5, history=True)
+        out = faqem.simplify(vertices, triangles, ratio=0.5)
+        address = ctypes.addressof(faqem._library.library.faqem_result_triangles(out._handle).contents)
+        self.assertEqual(out.triangles.ctypes.data, address)
+        kept, moved = out.triangles, out.vertices
+        moved += 1  # the caller's own
+        del out
+        gc.collect()
+        again = [faqem.simplify(vertices, triangles, ratio=0.5) for _ in range(20)]  # would use memory that was freed
+        assert_array_equal(kept, expected.triangles)
+        assert_array_equal(moved, expected.vertices + 1)
+        assert_array_equal(again[-1].vertices, expected.vertices)
+
+    def test_results_can_be_read_while_the_program_ends(self):
+        code = ("import atexit\n"  # registered before the module is imported: called after what that registers
+                "atexit.register(lambda: print([a.tobytes() for a in arrays] == kept))\n"
+                "import faqem, test_arrays as t\n"
+                "arrays = [faqem.simplify(*t.flat_grid(40), ratio=0.5).vertices,\n"
+                "          faqem.Model.from_arrays(*t.flat_grid(40)).parts[0].vertices]\n"
+                "kept = [a.tobytes() for a in arrays]")
+        done = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "True\n", ""))
+
+    def test_changed_results_do_not_change_the_history(self):
+        out = faqem.simplify(*flat_grid(12), ratio=0.5, history=True)
+        before = out.map([0], [[0.2, 0.3, 0.5]])
+        out.vertices += 5
+        out.triangles[:] = 0
+        for array, same in zip(out.map([0], [[0.2, 0.3, 0.5]]), before):
+            assert_array_equal(array, same)
 
     def test_origins_refer_to_the_input(self):
         vertices, triangles = flat_grid(8)

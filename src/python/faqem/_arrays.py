@@ -156,14 +156,6 @@ class MeshArrays:
         setattr(self.mesh, field, array.ctypes.data_as(pointers[field]))
 
 
-def copy_array(pointer: Any, *shape: int) -> Array:
-    """Copies the array that a getter of the C API returns; null gives an empty array."""
-    if not pointer:
-        return numpy.empty((0, *shape[1:]), dtype=numpy.dtype(pointer._type_))
-    copied: Array = numpy.ctypeslib.as_array(pointer, shape=shape).copy()
-    return copied
-
-
 class _Memory:
     """Memory of the library for numpy, which keeps this object, and with it the owner of the memory, alive."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-import weakref
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
@@ -12,7 +11,7 @@ import numpy
 from numpy.typing import ArrayLike, DTypeLike
 
 from ._arrays import MeshArrays, mesh_pointer
-from ._library import Level, call, create, library
+from ._library import Level, call, create, destroy_with, library
 from ._options import Options, checked_integer, checked_switch, names_keywords, parse_length
 from ._simplify import Simplified, array_keywords
 from .errors import InputError, OptionError
@@ -94,7 +93,8 @@ def simplify_levels(
 
     def run() -> list[Simplified]:
         call(library.faqem_simplify_levels, mesh_pointer(arrays), chosen.object, wanted, len(wanted), made)
-        return [Simplified(ctypes.c_void_p(one), arrays.kind) for one in made]
+        has_history = bool(options.get("history"))
+        return [Simplified(ctypes.c_void_p(one), arrays.kind, has_history=has_history) for one in made]
 
     return chosen.run(run)
 
@@ -115,7 +115,7 @@ class History:
 
     def __init__(self, handle: ctypes.c_void_p, kind: DTypeLike = numpy.float64) -> None:
         self._handle, self._kind = handle, kind  # the type of positions
-        weakref.finalize(self, library.faqem_history_destroy, handle)
+        destroy_with(self, library.faqem_history_destroy, handle)
 
     @classmethod
     def of(cls, levels: Sequence[Simplified] | Sequence[Model]) -> History:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import pathlib
+import weakref
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint8, c_uint16, c_uint32, c_uint64, c_void_p
 
 from . import errors
@@ -167,6 +168,14 @@ def call(function: Any, *arguments: Any) -> None:
     status = function(*arguments, ctypes.byref(error))
     if status != 0:
         raise exceptions.get(status, errors.InternalError)(error.message.decode(errors="replace"))
+
+
+def destroy_with(owner: object, function: Any, handle: c_void_p) -> None:
+    """Destroys an object of the library together with its owner in Python.
+
+    Not at the end of the program, because functions that run then may still have arrays that are its memory.
+    """
+    weakref.finalize(owner, function, handle).atexit = False
 
 
 def create(function: Any, *arguments: Any) -> c_void_p:

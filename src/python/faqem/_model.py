@@ -7,7 +7,6 @@ import dataclasses
 import json
 import math
 import os
-import weakref
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import MeshArrays, mesh_pointer, view_array
 from ._levels import History, Path, Target, as_list, file_name, handle_array, level_array
-from ._library import call, create, library
+from ._library import call, create, destroy_with, library
 from ._options import Options, checked_integer, checked_switch, enum_value, names_keywords, parse_length
 from ._textures import Image, Material, images, materials
 from .errors import InputError, OptionError, ReadError, UnsupportedError
@@ -46,7 +45,7 @@ class Model:
 
     def __init__(self, handle: ctypes.c_void_p) -> None:
         self._handle = handle
-        weakref.finalize(self, library.faqem_asset_destroy, handle)
+        destroy_with(self, library.faqem_asset_destroy, handle)
 
     @classmethod
     @names_keywords

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import ctypes
 import json
-import weakref
 from typing import Any
 
 import numpy
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._arrays import MeshArrays, checked_array, checked_indices, copy_array, mesh_pointer
-from ._library import call, create, library
+from ._arrays import MeshArrays, checked_array, checked_indices, mesh_pointer, view_array
+from ._library import call, create, destroy_with, library
 from ._options import Options, enum_value, names_keywords
 from .errors import InputError
 
@@ -26,8 +25,16 @@ simplify_keywords = (
 _mappings = ["projection", "lineage", "closest"]
 
 
+class _Result:
+    """Owner of a result in the library."""
+
+    def __init__(self, handle: ctypes.c_void_p) -> None:
+        self.handle = handle
+        destroy_with(self, library.faqem_result_destroy, handle)
+
+
 class Simplified:
-    """A simplified mesh, the origin of its elements, and the report. Owns its arrays."""
+    """A simplified mesh, the origin of its elements, and the report. Owns its arrays, which may be changed."""
 
     vertices: NDArray[numpy.floating[Any]]  #: (v, 3) float32 if the input is, else float64; vertices that were not moved are unchanged bit by bit
     triangles: NDArray[numpy.uint32]  #: (f, 3) uint32
@@ -38,19 +45,28 @@ class Simplified:
     report: dict[str, Any]  #: with the keys documented in docs/cli.md
     error: float | None  #: upper bound of the distance of a level from the original; None for other results
 
-    def __init__(self, handle: ctypes.c_void_p, kind: DTypeLike = numpy.float64) -> None:
-        self._handle = handle  # kept for map() and History.of(), which need the history
-        weakref.finalize(self, library.faqem_result_destroy, handle)
+    def __init__(
+        self, handle: ctypes.c_void_p, kind: DTypeLike = numpy.float64, *, has_history: bool = False
+    ) -> None:
+        result = _Result(handle)
+
+        def array(getter: Any, *shape: int) -> NDArray[Any]:
+            # map() and History.of() read the arrays of the library, which must not change. Without a history they cannot
+            # be called, and the memory belongs to the caller.
+            values = view_array(getter(handle), shape, result, writable=True)
+            return values.copy() if has_history else values
+
+        self._handle, self._result = handle, result
         v = library.faqem_result_vertex_count(handle)
         f = library.faqem_result_face_count(handle)
-        groups = library.faqem_result_face_groups(handle)
         width = library.faqem_result_corner_width(handle)
-        self.vertices = copy_array(library.faqem_result_positions(handle), v, 3).astype(kind, copy=False)
-        self.triangles = copy_array(library.faqem_result_triangles(handle), f, 3)
-        self.groups = copy_array(groups, f) if groups else None
-        self.uvs = copy_array(library.faqem_result_corner_values(handle), f, 3, width) if width else None
-        self.vertex_origin = copy_array(library.faqem_result_vertex_origin(handle), v)
-        self.face_origin = copy_array(library.faqem_result_face_origin(handle), f)
+        self.vertices = array(library.faqem_result_positions, v, 3).astype(kind, copy=False)
+        self.triangles = array(library.faqem_result_triangles, f, 3)
+        has_groups = bool(library.faqem_result_face_groups(handle))
+        self.groups = array(library.faqem_result_face_groups, f) if has_groups else None
+        self.uvs = array(library.faqem_result_corner_values, f, 3, width) if width else None
+        self.vertex_origin = array(library.faqem_result_vertex_origin, v)
+        self.face_origin = array(library.faqem_result_face_origin, f)
         self.report = json.loads(library.faqem_result_report_json(handle))
         error = library.faqem_result_level_error(handle)
         self.error = None if numpy.isnan(error) else error
@@ -99,6 +115,7 @@ def simplify_arrays(
     chosen = Options(simplify_keywords, **options)
 
     def run() -> Simplified:
-        return Simplified(create(library.faqem_simplify, mesh_pointer(arrays), chosen.object), arrays.kind)
+        made = create(library.faqem_simplify, mesh_pointer(arrays), chosen.object)
+        return Simplified(made, arrays.kind, has_history=bool(options.get("history")))
 
     return chosen.run(run)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
-import weakref
 from typing import Any, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
 from ._arrays import view_array
-from ._library import create, library
+from ._library import create, destroy_with, library
 
 # faqem_texture
 _uses = ["base_color", "metallic_roughness", "normal", "occlusion", "emissive"]
@@ -38,7 +37,7 @@ class _Pixels:
 
     def __init__(self, handle: ctypes.c_void_p) -> None:
         self.handle = handle
-        weakref.finalize(self, library.faqem_pixels_destroy, handle)
+        destroy_with(self, library.faqem_pixels_destroy, handle)
 
 
 class Image:
