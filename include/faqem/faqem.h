@@ -14,7 +14,7 @@
  * library.
  *
  * Threads: several threads may read an object concurrently; a thread that modifies it needs exclusive access.
- * There is no global state.
+ * Saving a model counts as reading. There is no global state.
  */
 
 #include <stddef.h>

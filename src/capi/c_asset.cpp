@@ -75,9 +75,7 @@ faqem_status faqem_asset_save(faqem_asset* asset, const char* path, faqem_overwr
     return capi::catch_exceptions(error, [&] {
         capi::require_argument(asset, "asset");
         capi::require_argument(path, "path");
-        const auto save_warnings = save(asset->asset, path, capi::to_overwrite(overwrite));
-        auto& warnings = asset->asset.warnings;
-        warnings.insert(warnings.end(), save_warnings.begin(), save_warnings.end());
+        asset->save_warnings.add(save(asset->asset, path, capi::to_overwrite(overwrite)));
     });
 }
 
@@ -111,11 +109,13 @@ const uint32_t* faqem_asset_triangles(const faqem_asset* asset, size_t part) {
 }
 
 size_t faqem_asset_warning_count(const faqem_asset* asset) {
-    return asset ? asset->asset.warnings.size() : 0;
+    return asset ? asset->asset.warnings.size() + asset->save_warnings.size() : 0;
 }
 
 const char* faqem_asset_warning(const faqem_asset* asset, size_t index) {
-    return index < faqem_asset_warning_count(asset) ? asset->asset.warnings[index].c_str() : nullptr;
+    if (!asset) return nullptr;
+    const auto& found = asset->asset.warnings;
+    return index < found.size() ? found[index].c_str() : asset->save_warnings.at(index - found.size());
 }
 
 size_t faqem_asset_not_understood_count(const faqem_asset* asset) {

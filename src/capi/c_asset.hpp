@@ -3,8 +3,11 @@
 /// Definition of faqem_asset.
 
 #include <cstddef>
+#include <deque>
 #include <limits>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,6 +15,34 @@
 #include "capi/guard.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/faqem_asset.h"
+
+namespace faqem::capi {
+
+/// What saving an asset left out. Several threads may call all functions at once.
+class SaveWarnings {
+public:
+    void add(const std::vector<std::string>& texts) {
+        const std::lock_guard lock(mutex_);
+        texts_.insert(texts_.end(), texts.begin(), texts.end());
+    }
+
+    std::size_t size() const {
+        const std::lock_guard lock(mutex_);
+        return texts_.size();
+    }
+
+    /// \return a text that stays valid; null if there are fewer
+    const char* at(std::size_t index) const {
+        const std::lock_guard lock(mutex_);
+        return index < texts_.size() ? texts_[index].c_str() : nullptr;
+    }
+
+private:
+    mutable std::mutex mutex_;
+    std::deque<std::string> texts_;  // not a vector, which would move the texts
+};
+
+}  // namespace faqem::capi
 
 struct faqem_asset {
     explicit faqem_asset(faqem::Asset made) : asset(std::move(made)) {}
@@ -29,6 +60,7 @@ struct faqem_asset {
     std::optional<faqem::capi::ReportWithJson> stored_report = {};  ///< set for simplified assets
     std::vector<faqem::CollapseHistory> histories = {};  ///< one per part, or empty if not recorded
     double level_error = std::numeric_limits<double>::quiet_NaN();  ///< NaN if the asset is not a level
+    faqem::capi::SaveWarnings save_warnings = {};
 };
 
 namespace faqem::capi {

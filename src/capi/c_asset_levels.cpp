@@ -67,9 +67,7 @@ faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_co
                 {levels[i]->asset,
                  detail::level_coverage(first, size, std::isnan(found) ? 0 : found, screen_error)});
         }
-        const auto save_warnings = save_levels(std::move(saved), path, capi::to_overwrite(overwrite));
-        auto& warnings = levels[0]->asset.warnings;
-        warnings.insert(warnings.end(), save_warnings.begin(), save_warnings.end());
+        levels[0]->save_warnings.add(save_levels(std::move(saved), path, capi::to_overwrite(overwrite)));
     });
 }
 

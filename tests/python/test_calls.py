@@ -2,9 +2,11 @@
 
 import concurrent.futures
 import os
+import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 import warnings
@@ -85,6 +87,27 @@ class Processes(unittest.TestCase):
         with concurrent.futures.ThreadPoolExecutor(4) as pool:
             for out in pool.map(lambda _: faqem.simplify(*self.mesh, ratio=0.2), range(16)):
                 assert_array_equal(out.vertices, self.expected)
+
+    def test_threads_may_use_one_model(self):
+        # Vertex colours, which STL cannot store: each thread adds a warning to the model.
+        vertices, triangles = self.mesh
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "coloured.obj")
+            lines = [f"v {x} {y} {z} 0.5 0.5 {x / 40}" for x, y, z in vertices[:9]] + ["f 1 2 3", "f 4 5 6", "f 7 8 9"]
+            file.write_text("\n".join(lines) + "\n")
+            model = faqem.load(file)
+
+            def use(number):
+                for _ in range(50):
+                    faqem.save(model, f"{folder}/{number}.stl", overwrite=True)
+                    texts = model.warnings
+                    faqem.bake(model, ratio=1, bake="none")
+                return texts
+
+            with concurrent.futures.ThreadPoolExecutor(4) as pool:
+                texts = [text for found in pool.map(use, range(4)) for text in found]
+        self.assertEqual(len(model.warnings), 200)
+        self.assertEqual(len(set(texts)), 1)
 
     def test_other_python_threads_run_during_a_call(self):
         mesh, ticks, stop = bumpy_grid(200), [], threading.Event()
