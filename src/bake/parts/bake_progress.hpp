@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <thread>
 #include <utility>
 
@@ -57,6 +58,8 @@ public:
     /// Check for loops on the calling thread. It passes on the progress that was reported last.
     CancellationCheck check() { return CancellationCheck(monitor_); }
     Workers workers() { return {options_.threads, check()}; }
+    /// Options::threads.
+    std::uint32_t threads() const { return options_.threads; }
 
     /// Does work that Options::max_seconds may stop; other work is always completed.
     /// \return false if the time was over before the work was complete

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bake/parts/corner_normals.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -30,24 +31,26 @@ bool needs_map(const Asset& asset, const Part& part, const BakeOptions& bake) {
 std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyResult> simplified,
                                 std::span<const std::uint8_t> kept, const BakeOptions& bake,
                                 BakeProgress& progress) {
-    std::vector<BakePart> parts;
-    for (std::size_t p = 0; p < source.parts.size(); ++p) {
-        progress.report(Phase::map, static_cast<double>(p) / static_cast<double>(source.parts.size()));
-        BakePart& part = parts.emplace_back();
-        part.index = static_cast<Index>(p);
-        part.source = &source.parts[p];
-        part.simplified = &simplified[p];
-        part.is_kept = kept[p] != 0;
-        if (part.faces() > 0 && !part.is_kept && needs_map(source, *part.source, bake)) {
-            part.map = std::make_unique<const SurfaceMap>(make_surface_map(
-                simplified[p].history, bake.mapping, part.source->triangles, progress.workers()));
+    std::vector<BakePart> parts(source.parts.size());
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        parts[p].index = static_cast<Index>(p);
+        parts[p].source = &source.parts[p];
+        parts[p].simplified = &simplified[p];
+        parts[p].is_kept = kept[p] != 0;
+    }
+    // Several parts at a time: the tree of a map is built by one thread.
+    progress.begin(Phase::map, parts.size());
+    progress.run_blocks(parts.size(), 1, [&](std::size_t p, std::size_t, CancellationCheck check_cancelled) {
+        BakePart& part = parts[p];
+        if (part.faces() == 0 || part.is_kept) return;
+        const Workers workers{progress.threads(), check_cancelled};
+        if (needs_map(source, *part.source, bake)) {
+            part.map = std::make_unique<const SurfaceMap>(
+                make_surface_map(part.simplified->history, bake.mapping, part.source->triangles, workers));
         }
-    }
-    for (BakePart& part : parts) {
-        progress.report(Phase::map, 1);
-        if (part.faces() > 0 && !part.is_kept && bake.normals != Normals::none)
-            part.normals = make_normals(part, bake, progress.workers());
-    }
+        if (bake.normals != Normals::none) part.normals = make_normals(part, bake, workers);
+    });
+    progress.report(Phase::map, 1);
     return parts;
 }
 

@@ -17,6 +17,7 @@
 #include "bake/source/page_groups.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/page_material.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -90,18 +91,24 @@ std::vector<Page> plan_pages(const BakeJob& job, const MaterialGroups& groups) {
     return pages;
 }
 
-// Lays out the pages that need an image.
+// Lays out the pages that need an image, several at a time: the steps of a single page do not keep all threads busy.
 // \return false as bake_pages()
 bool layout_pages(const BakeJob& job, const SourceSampler& sampler, std::vector<Page>& pages) {
-    for (Page& page : pages) {
-        if (!page.channels.any() || page.mesh.faces.empty()) continue;
-        page.mesh = make_page_mesh(job.parts, std::move(page.mesh.faces), sampler, job.options.texel_density,
-                                   job.progress.workers());
-        page.layout =
-            layout_page(page.mesh, job.options.kind, job.options.texture_size, job.progress.workers());
-        if (!page.layout) return false;
-    }
-    return true;
+    const auto needs_layout = [](const Page& page) {
+        return page.channels.any() && !page.mesh.faces.empty();
+    };
+    const Workers workers = job.progress.workers();
+    parallel_blocks(
+        pages.size(), 1, workers, [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
+            Page& page = pages[i];
+            if (!needs_layout(page)) return;
+            const Workers of_page{workers.threads, check_cancelled};
+            page.mesh = make_page_mesh(job.parts, std::move(page.mesh.faces), sampler,
+                                       job.options.texel_density, of_page);
+            page.layout = layout_page(page.mesh, job.options.kind, job.options.texture_size, of_page);
+        });
+    return std::all_of(pages.begin(), pages.end(),
+                       [&](const Page& page) { return page.layout || !needs_layout(page); });
 }
 
 void warn_of_normal_maps(const Asset& source, const MaterialGroups& groups, const std::vector<Page>& pages,
