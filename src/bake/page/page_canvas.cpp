@@ -1,7 +1,9 @@
 #include "bake/page/page_canvas.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
+#include <vector>
 
 #include "bake/page/push_pull.hpp"
 #include "bake/page/shown_texels.hpp"
@@ -110,22 +112,25 @@ void PageCanvas::keep_colors_of_hidden_materials() {
         if (is_covered_[i] && !is_visible[slot(material_[i])]) has_color_[i] = 1;
 }
 
-void PageCanvas::fill(const Workers& workers) {
-    struct Filled {
-        Pixels& image;
-        const std::vector<std::uint8_t>&known, &known_alpha;
-    };
-    std::vector<Filled> all = {{images_.base, images_.base.has_alpha ? has_color_ : is_covered_, is_covered_},
-                               {images_.occlusion_roughness_metallic, is_covered_, is_covered_},
-                               {images_.emissive, is_covered_, is_covered_},
-                               {images_.normal, is_covered_, is_covered_}};
-    for (Pixels& layer : images_.layers) all.push_back({layer, has_layer_samples_, has_layer_samples_});
-    parallel_blocks(all.size(), 1, workers, [&](std::size_t i, std::size_t) {
-        auto& [image, known, known_alpha] = all[i];
+// The steps after the last sample, several at a time.
+void PageCanvas::run_last_steps(const Workers& workers) {
+    std::vector<std::function<void()>> steps;
+    const auto add_fill = [&](Pixels& image, const std::vector<std::uint8_t>& known,
+                              const std::vector<std::uint8_t>& known_alpha) {
         if (image.rgba.empty()) return;
-        push_pull(image, known, {0, 3});
-        if (image.has_alpha) push_pull(image, known_alpha, {3, 4});
-    });
+        steps.emplace_back([&] {
+            push_pull(image, known, {0, 3});
+            if (image.has_alpha) push_pull(image, known_alpha, {3, 4});
+        });
+    };
+    add_fill(images_.base, images_.base.has_alpha ? has_color_ : is_covered_, is_covered_);
+    add_fill(images_.occlusion_roughness_metallic, is_covered_, is_covered_);
+    add_fill(images_.emissive, is_covered_, is_covered_);
+    add_fill(images_.normal, is_covered_, is_covered_);
+    for (Pixels& layer : images_.layers) add_fill(layer, has_layer_samples_, has_layer_samples_);
+    steps.emplace_back([&] { images_.known = shown_texels(page_.layout.atlas); });
+    steps.emplace_back([&] { count_samples(); });
+    parallel_blocks(steps.size(), 1, workers, [&](std::size_t i, std::size_t) { steps[i](); });
 }
 
 void PageCanvas::count_samples() {
@@ -141,10 +146,8 @@ void PageCanvas::count_samples() {
 }
 
 PageImages PageCanvas::finish(const Workers& workers) && {
-    count_samples();
     keep_colors_of_hidden_materials();
-    fill(workers);
-    images_.known = shown_texels(page_.layout.atlas);
+    run_last_steps(workers);
     images_.known_layers = std::move(has_layer_samples_);
     for (std::size_t i = 0; i < images_.known_layers.size(); ++i)
         images_.known_layers[i] = images_.known_layers[i] && images_.known[i];

@@ -60,7 +60,7 @@ public:
 private:
     void write_base(std::size_t at, const TexelSums& texel);
     void keep_colors_of_hidden_materials();
-    void fill(const Workers& workers);
+    void run_last_steps(const Workers& workers);
     void count_samples();
 
     const PageRequest& page_;
