@@ -259,6 +259,29 @@ TEST_CASE("levels: values out of range or order are errors that name the level")
     CHECK(message({ratio(0.5)}, options).find("max_error") != std::string::npos);
 }
 
+TEST_CASE("levels that are complete are not measured once a later one is cancelled") {
+    const TriangleMesh mesh = test::icosphere(5);
+    const std::vector<Level> wanted = {ratio(0.5), ratio(0.3), faces(20)};
+    Options options = with(Preset::fast);
+    options.threads = 1;
+    std::size_t calls = 0, in_last_collapses = 0;
+    options.progress = [&](Phase, double done) {
+        ++calls;
+        if (done < 0.5) in_last_collapses = calls;  // the second half are the measurements
+        return Continue::yes;
+    };
+    simplify_levels(mesh.view(), wanted, options);
+    REQUIRE(calls > in_last_collapses + 10);
+    calls = 0;
+    options.progress = [&](Phase, double) {
+        return ++calls == in_last_collapses ? Continue::cancel : Continue::yes;
+    };
+    const auto levels = simplify_levels(mesh.view(), wanted, options);
+    CHECK(calls == in_last_collapses);
+    REQUIRE_FALSE(levels.empty());
+    CHECK(levels.back().result.report.stop == StopReason::cancelled);
+}
+
 TEST_CASE("levels: progress increases to 1, and cancellation ends the chain") {
     const TriangleMesh mesh = test::lump(4);
     for (const Preset preset : {Preset::balanced, Preset::qem}) {
