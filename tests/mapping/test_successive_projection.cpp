@@ -231,3 +231,25 @@ TEST_CASE("successive projection: map_near() is exact in flat regions") {
         }
     }
 }
+
+TEST_CASE("successive projection: the map does not depend on the number of threads that make it") {
+    const CollapseHistory history = collapsed_grid(12);
+    const detail::SuccessiveProjection one(history, {}, 1), several(history, {}, 3);
+    for (Index f = 0; f < history.kept_faces.size(); ++f) {
+        for (const Vec3& w : {Vec3{1, 0, 0}, Vec3{0.2, 0.5, 0.3}, Vec3{0, 0.5, 0.5}}) {
+            const SurfacePoint a = one.map(f, w), b = several.map(f, w);
+            CHECK(a.face == b.face);
+            CHECK(a.barycentric == b.barycentric);
+            CHECK(a.step == b.step);
+        }
+    }
+}
+
+TEST_CASE("successive projection: making the map can be cancelled with any number of threads") {
+    const CollapseHistory history = collapsed_grid(12);
+    for (const std::uint32_t threads : {1u, 3u}) {
+        engine::ProgressMonitor monitor([] { return Continue::cancel; });
+        const detail::Workers workers{threads, engine::CancellationCheck(monitor)};
+        CHECK_THROWS_AS(detail::SuccessiveProjection(history, {}, workers), engine::Cancelled);
+    }
+}

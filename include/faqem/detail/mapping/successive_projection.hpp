@@ -116,7 +116,7 @@ private:
     Index group(Index f) const { return history_.face_groups.empty() ? 0 : history_.face_groups[f]; }
 
     const CollapseHistory& history_;
-    Bvh tree_;  // constructed before the other tables, because its construction needs temporary memory
+    Bvh tree_;
     SurfacePatches surface_patches_;
     ReplayTables replay_;
     std::vector<Index> last_;  ///< final_versions() of the history
