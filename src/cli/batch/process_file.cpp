@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "asset/model_files.hpp"
+#include "cli/budget/best_picture.hpp"
 #include "cli/file_stamp.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/json.hpp"
@@ -136,7 +137,8 @@ Result try_process(const BatchFile& file, const BatchContext& work, Sharing shar
     std::optional<MemoryReservation> reservation;
     if (sharing == Sharing::allowed) {
         reservation.emplace(work.memory,
-                            loading + estimated_work_memory(file.in, total_file_size(inputs), work.options));
+                            loading + estimated_work_memory(file.in, total_file_size(inputs), work.options,
+                                                            picture_search(work.options, work.max_bytes)));
         if (is_interrupted()) return cancelled_result();
     }
     watch = {};

@@ -40,9 +40,10 @@ constexpr std::uint64_t no_faces = std::numeric_limits<std::uint64_t>::max();
 // Number of points of the images in the report.
 constexpr std::size_t reported_images = 16;
 
-// How often a choice that is too large is made again with fewer faces, and a factor on the estimated number.
+// How often a choice that is too large is made again with fewer faces, or with more until it has most of the bytes, and
+// a factor on the estimated number.
 constexpr int most_attempts = 4;
-constexpr double face_margin = 0.985;
+constexpr double full_share = 0.98, face_margin = 0.985;
 
 // What the work reports, as shares of Phase::bake.
 constexpr double begin_of_images = 0.2, begin_of_choices = 0.7;
@@ -245,6 +246,13 @@ private:
         return result;
     }
 
+    // A result, and the parts that it was made of.
+    struct Made {
+        SimplifiedParts parts;
+        detail::UnencodedResult result;
+        ModelBytes size;
+    };
+
     // Makes as many faces as fit beside the images of the choice.
     void try_choice(const BudgetChoice& choice) {
         const std::vector<Image> images = images_->chosen_images(choice.images);
@@ -255,26 +263,29 @@ private:
                 ? faces_within(tried_faces_,
                                as_first_rounding(tried_roundings_, choice.rounding, budget_.bytes - bytes))
                 : std::nullopt;
+        std::optional<Made> best;
         for (int attempt = 0; faces && attempt < most_attempts; ++attempt) {
             steps_.check();
             std::uint64_t target = *faces;
             if (target < faces_)
                 target = static_cast<std::uint64_t>(face_margin * static_cast<double>(target));
-            const SimplifiedParts parts = std::move(simplified({&target, 1}, Phase::bake, 0, 1).front());
-            detail::UnencodedResult result = made(parts, false);
-            if (images_->are_encoded()) result.asset.asset.images = images;
-            detail::remove_unused_materials(result);
-            const ModelBytes size = model_bytes(result.asset.asset, budget_.file);
-            if (size.total() > budget_.bytes) {
-                const double share =
-                    static_cast<double>(budget_.bytes - std::min(budget_.bytes, size.images)) /
-                    static_cast<double>(size.geometry);
-                faces = static_cast<std::uint64_t>(share * static_cast<double>(target));
-                if (*faces < detail::min_target_faces) return;
-                continue;
-            }
-            return finish(std::move(result), parts, longest_side(choice), size);
+            Made now{std::move(simplified({&target, 1}, Phase::bake, 0, 1).front()), {}, {}};
+            now.result = made(now.parts, false);
+            if (images_->are_encoded()) now.result.asset.asset.images = images;
+            detail::remove_unused_materials(now.result);
+            now.size = model_bytes(now.result.asset.asset, budget_.file);
+            const ModelBytes size = now.size;
+            const bool fits = size.total() <= budget_.bytes;
+            if (fits) best = std::move(now);
+            const bool is_full =
+                static_cast<double>(size.total()) >= full_share * static_cast<double>(budget_.bytes);
+            if (best && (!fits || is_full || target >= faces_)) break;
+            const double share = static_cast<double>(budget_.bytes - std::min(budget_.bytes, size.images)) /
+                                 static_cast<double>(size.geometry);
+            faces = std::min(faces_, static_cast<std::uint64_t>(share * static_cast<double>(target)));
+            if (*faces < detail::min_target_faces) return;
         }
+        if (best) finish(std::move(best->result), best->parts, longest_side(choice), best->size);
     }
 
     std::uint32_t longest_side(const BudgetChoice& choice) const {

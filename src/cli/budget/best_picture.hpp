@@ -2,6 +2,7 @@
 /// \file
 /// `--max-bytes` without a face target: the face count and the images that give the best pictures for the bytes.
 
+#include <cstdint>
 #include <optional>
 
 #include "cli/budget/byte_budget.hpp"
@@ -12,6 +13,14 @@ namespace faqem::cli {
 /// Whether the options leave the face count to best_picture_within_bytes(): no target is set, and the kind of baking
 /// is Bake::automatic, without options that are about a new atlas or the collapses, or Bake::keep, vertex or none.
 bool leaves_faces_to_budget(const Options& options);
+
+/// Whether a run calls best_picture_within_bytes().
+enum class PictureSearch { no, yes };
+
+/// Whether a run with a budget searches for the best picture. \param max_bytes  the budget; 0: none
+inline PictureSearch picture_search(const Options& options, std::uint64_t max_bytes) {
+    return max_bytes > 0 && leaves_faces_to_budget(options) ? PictureSearch::yes : PictureSearch::no;
+}
 
 /// Simplifies with the UVs of the source (Bake::automatic and Bake::keep) or as BakeOptions::kind says, so that
 /// pictures of the result are as near to those of the source as the bytes allow:

@@ -105,22 +105,30 @@ void ImageTrials::try_all(std::span<const TriedFaces> faces, std::span<const Tri
             ++size;
         requests.push_back({i, size, 0, sizes_[i][size].encodings.back().rung});
     }
-    const auto choices = [&] { return budget_choices(faces, tried_, roundings, bytes); };
-    for (int round = 0; round < most_rounds && !requests.empty(); ++round) {
-        steps_.report(begin + (end - begin) * round / most_rounds);
+    const auto best_choice = [&]() -> std::optional<BudgetChoice> {
+        std::vector<BudgetChoice> found = budget_choices(faces, tried_, roundings, bytes);
+        if (found.empty()) return std::nullopt;
+        measure_choice(found.front());
+        return std::move(budget_choices(faces, tried_, roundings, bytes).front());
+    };
+    const auto try_requests = [&] {
         encode(requests);
         steps_.check();
-        measure(requests);
-        const std::vector<BudgetChoice> found = choices();
-        requests = found.empty() ? smaller_requests() : next_requests(found.front());
+        measure_sizes(requests);
+    };
+    for (int round = 0; round < most_rounds && !requests.empty(); ++round) {
+        steps_.report(begin + (end - begin) * round / most_rounds);
+        try_requests();
+        const std::optional<BudgetChoice> best = best_choice();
+        requests = best ? next_requests(*best) : smaller_requests();
     }
     for (std::uint32_t distance = detail::whole_rung / 2; distance > 0; distance /= 2) {
-        const std::vector<BudgetChoice> found = choices();
-        if (found.empty()) return;
-        requests = refining_requests(found.front(), distance, bytes / many_images);
-        encode(requests);
-        measure(requests);
+        const std::optional<BudgetChoice> best = best_choice();
+        if (!best) return;
+        requests = refining_requests(*best, distance, bytes / many_images);
+        try_requests();
     }
+    best_choice();
 }
 
 std::vector<ImageTrials::Request> ImageTrials::smaller_requests() const {
@@ -141,7 +149,7 @@ std::vector<ImageTrials::Request> ImageTrials::next_requests(const BudgetChoice&
         const Size& size = sizes_[i][trial.size];
         const SizeError& error = *size_errors_[i][trial.size];
         if (trial.rung == size.last_tried_rung() && trial.rung < size.encodings.back().rung &&
-            sum(error.by_difference) * trial.difference > least_error)
+            sum(estimated_error(error, trial.difference)) - sum(error.own) > least_error)
             result.push_back({i, trial.size, 0, trial.rung + detail::whole_rung});
         const std::size_t next = trial.size + 1;
         if (next < sizes_[i].size() && !sizes_[i][next].has_trials() && sum(error.own) > least_error)
@@ -195,18 +203,22 @@ void ImageTrials::encode(std::span<const Request> requests) {
     for (std::size_t k = 0; k < tasks.size(); ++k) trials_[tasks[k].image].push_back(std::move(made[k]));
 }
 
-void ImageTrials::measure(std::span<const Request> requests) {
+// The errors of new sizes, alone and with one of their encodings.
+void ImageTrials::measure_sizes(std::span<const Request> requests) {
     std::vector<Pixels> resized(sizes_.size()), encoded(sizes_.size());
-    std::vector<const Trial*> measured(sizes_.size(), nullptr);
+    std::vector<double> differences(sizes_.size(), 0);
     for (const auto& [i, s, first, last, step] : requests) {
         if (size_errors_[i][s]) continue;
         if (s + 1 < sizes_[i].size()) resized[i] = sizes_[i][s].pending.pixels;
+        const Trial* measured = nullptr;
         for (const Trial& trial : trials_[i]) {
             if (trial.size != s || !(trial.difference > 0)) continue;
-            measured[i] = &trial;
+            measured = &trial;
             if (trial.rung >= measured_rung) break;
         }
-        if (measured[i]) encoded[i] = decode(measured[i]->image);
+        if (!measured) continue;
+        encoded[i] = decode(measured->image);
+        differences[i] = measured->difference;
     }
     const std::vector<std::optional<PictureError>> own = (*meter_)(std::move(resized));
     const std::vector<std::optional<PictureError>> both = (*meter_)(std::move(encoded));
@@ -215,15 +227,10 @@ void ImageTrials::measure(std::span<const Request> requests) {
         if (size_errors_[i][s] || !both[i]) continue;
         SizeError& error = size_errors_[i][s].emplace();
         error.own = own[i].value_or(PictureError{});
-        const auto added = [&](double with, double without) {
-            return std::max(0.0, with - without) / measured[i]->difference;
-        };
-        error.by_difference = {added(both[i]->unlit, error.own.unlit), added(both[i]->lit, error.own.lit)};
+        add_sample(error, *both[i], differences[i]);
         const double share = std::max(meter_->shares()[i], least_seen);
-        seen_gain_ += error.by_difference.lit / share;
+        seen_gain_ += error.samples[0].added.lit / (share * differences[i]);
         ++seen_sizes_;
-        error.by_difference.lit += least_seen;
-        if (error.by_difference.unlit > 0) error.by_difference.unlit += least_seen;
     }
     const double gain = seen_sizes_ > 0 ? seen_gain_ / seen_sizes_ : 1;
     for (const auto& [i, s, first, last, step] : requests) {
@@ -232,17 +239,69 @@ void ImageTrials::measure(std::span<const Request> requests) {
         const double weight = data_weight * gain * std::max(meter_->shares()[i], least_seen);
         const double lost = std::pow(
             10, -detail::image_loss(largest.pixels, sizes_[i][s].pending.pixels, *largest.known).psnr / 10);
-        size_errors_[i][s] = SizeError{unseen_error(weight * lost), unseen_error(weight)};
+        size_errors_[i][s] = SizeError{unseen_error(weight * lost), {{1, unseen_error(weight)}}};
     }
+    update_errors();
+}
+
+// The errors of a choice, where they were not measured: those of fine encodings are not in proportion to those of
+// coarse ones, since pictures average what changes from texel to texel.
+void ImageTrials::measure_choice(const BudgetChoice& choice) {
+    std::vector<Pixels> encoded(sizes_.size());
+    for (std::size_t i = 0; i < sizes_.size(); ++i) {
+        const Trial& trial = trials_[i][choice.images[i]];
+        const std::vector<Sample>& samples = size_errors_[i][trial.size]->samples;
+        const bool is_measured =
+            !(trial.difference > 0) || std::any_of(samples.begin(), samples.end(), [&](const Sample& sample) {
+                return sample.difference == trial.difference;
+            });
+        if (!is_measured) encoded[i] = decode(trial.image);
+    }
+    const std::vector<std::optional<PictureError>> both = (*meter_)(std::move(encoded));
+    for (std::size_t i = 0; i < sizes_.size(); ++i) {
+        const Trial& trial = trials_[i][choice.images[i]];
+        if (both[i]) add_sample(*size_errors_[i][trial.size], *both[i], trial.difference);
+    }
+    update_errors();
+}
+
+// \param both  with an encoding that has the difference
+void ImageTrials::add_sample(SizeError& error, const PictureError& both, double difference) {
+    const double unseen = least_seen * difference;
+    PictureError added = {std::max(0.0, both.unlit - error.own.unlit),
+                          std::max(0.0, both.lit - error.own.lit)};
+    if (added.unlit > 0) added.unlit += unseen;
+    added.lit += unseen;
+    const auto at = std::find_if(error.samples.begin(), error.samples.end(),
+                                 [&](const Sample& sample) { return sample.difference > difference; });
+    error.samples.insert(at, {difference, added});
+}
+
+// Interpolates between no difference, the samples, and beyond.
+PictureError ImageTrials::estimated_error(const SizeError& error, double difference) {
+    PictureError result = error.own;
+    Sample before;
+    for (const Sample& sample : error.samples) {
+        if (!(difference <= sample.difference)) {
+            before = sample;
+            continue;
+        }
+        const double share = (difference - before.difference) / (sample.difference - before.difference);
+        result += scaled(before.added, 1 - share);
+        result += scaled(sample.added, share);
+        return result;
+    }
+    if (before.difference > 0) result += scaled(before.added, difference / before.difference);
+    return result;
+}
+
+void ImageTrials::update_errors() {
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         tried_[i].clear();
-        for (const Trial& trial : trials_[i]) {
-            const SizeError& at = *size_errors_[i][trial.size];
-            PictureError error = at.own;
-            error += scaled(at.by_difference, trial.difference);
-            tried_[i].push_back(
-                {trial.image.encoded.size(), error, longer_side(sizes_[i][trial.size].pending.pixels)});
-        }
+        for (const Trial& trial : trials_[i])
+            tried_[i].push_back({trial.image.encoded.size(),
+                                 estimated_error(*size_errors_[i][trial.size], trial.difference),
+                                 longer_side(sizes_[i][trial.size].pending.pixels)});
     }
 }
 

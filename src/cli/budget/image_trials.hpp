@@ -71,9 +71,24 @@ private:
         std::uint32_t first = 0, last = 0, step = detail::whole_rung;
     };
 
+    /// What an encoding with a difference adds to the error of pictures.
+    struct Sample {
+        double difference = 0;
+        PictureError added;
+    };
+    /// Errors of pictures for the size alone, and for encodings: in ascending order of differences.
+    struct SizeError {
+        PictureError own;
+        std::vector<Sample> samples;
+    };
+
     void make_sizes();
     void encode(std::span<const Request> requests);
-    void measure(std::span<const Request> requests);
+    void measure_sizes(std::span<const Request> requests);
+    void measure_choice(const BudgetChoice& choice);
+    static void add_sample(SizeError& error, const PictureError& both, double difference);
+    static PictureError estimated_error(const SizeError& error, double difference);
+    void update_errors();
     std::vector<Request> smaller_requests() const;
     std::vector<Request> next_requests(const BudgetChoice& choice) const;
     std::vector<Request> refining_requests(const BudgetChoice& choice, std::uint32_t distance,
@@ -86,10 +101,6 @@ private:
     std::vector<std::vector<Size>> sizes_;  // by pending image, from small to large
     std::vector<std::vector<Trial>> trials_;
     TriedImages tried_;
-    /// Errors of pictures for the size alone, and for a squared difference of encoded texels.
-    struct SizeError {
-        PictureError own, by_difference;
-    };
     std::vector<std::vector<std::optional<SizeError>>> size_errors_;  // by pending image and size
     double seen_gain_ =
         0;  // sum over the sizes of seen images: error of pictures for that of texels, where seen

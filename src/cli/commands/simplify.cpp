@@ -10,6 +10,7 @@
 #include "asset/file_format.hpp"
 #include "asset/gltf/buffer_views.hpp"
 #include "asset/model_files.hpp"
+#include "cli/budget/best_picture.hpp"
 #include "cli/budget/byte_budget.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
@@ -199,7 +200,9 @@ int run(const SimplifyCommandArguments& arguments) {
                                larger_result(options.bake, arguments.allow_larger)};
         options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
         options.quantize = resolve_quantize(options.quantize, arguments.out);
-        require_memory(arguments.in, estimated_peak_memory(source, options), allowed);
+        require_memory(arguments.in,
+                       estimated_peak_memory(source, options, picture_search(options, arguments.max_bytes)),
+                       allowed);
         options = detail::with_time_left(options, deadline);
         simplified = simplify_model(source, arguments.in, options, rule, byte_budget(arguments));
         simplified.report.seconds.load = seconds.load;

@@ -53,6 +53,10 @@ constexpr double image_library_bytes = 30e6;  // libraries of PNG, JPEG and WebP
 constexpr double bake_bytes_per_texel = 36, page_bytes_per_texel = 8, correspondence_bytes_per_texel = 24;
 constexpr double bake_bytes_per_layer_texel = 9;  // per texel of each texture of material extensions
 
+// Of a search for the best picture: pictures, what is rendered, textures, and images that are tried in several sizes.
+constexpr double picture_bytes = 60e6, drawn_bytes_per_face = 500;
+constexpr double texture_bytes_per_texel = 6, tried_bytes_per_texel = 14;
+
 /// --max-error needs memory for the best mesh so far and the distance measurement.
 double search_factor(const Options& options) { return options.max_error ? 1.3 : 1; }
 
@@ -128,7 +132,7 @@ std::uint64_t estimated_loading_memory(const std::filesystem::path& model, std::
     return used + estimated_model_memory(model, used < allowed ? allowed - used : 0);
 }
 
-std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options) {
+std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options, PictureSearch search) {
     double all = 0, largest = 0, values = 0;
     for (const Part& part : asset.parts) {
         const auto faces = static_cast<double>(part.triangles.size());
@@ -140,22 +144,34 @@ std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options) 
     if (options.bake.kind == Bake::keep) work += search_factor(options) * bytes_per_corner_value * values;
     if (options.visibility == Visibility::weighted)
         work = std::max(work, visibility_bytes_per_face * instanced_face_count(asset));
+    const bool searches = search == PictureSearch::yes;
     double baking = 0;
     if (options.bake.kind != Bake::keep && options.bake.kind != Bake::none)
         baking += decoded_image_bytes(asset);
-    if (makes_atlas(options.bake.kind)) baking += page_bytes(asset, options.bake);
+    // A search keeps the UVs.
+    if (makes_atlas(options.bake.kind) && !searches) baking += page_bytes(asset, options.bake);
     if (baking > 0) baking += image_library_bytes;
+    if (searches) {
+        const double texels = decoded_image_bytes(asset) / 4;
+        baking += picture_bytes + drawn_bytes_per_face * instanced_face_count(asset) +
+                  texels * (texture_bytes_per_texel +
+                            (options.bake.kind == Bake::automatic ? tried_bytes_per_texel : 0));
+    }
     return static_cast<std::uint64_t>(peak_resident_memory() + work + baking);
 }
 
 std::uint64_t estimated_work_memory(const std::filesystem::path& model, std::uint64_t stored_bytes,
-                                    const Options& options) {
+                                    const Options& options, PictureSearch search) {
     double bytes = 64e6;  // the process and its threads
+    const bool searches = search == PictureSearch::yes;
+    const double texel_bytes =
+        searches ? texture_bytes_per_texel + tried_bytes_per_texel : bake_bytes_per_texel;
     if (makes_atlas(options.bake.kind))
-        bytes += bake_bytes_per_texel * options.bake.texture_size * options.bake.texture_size;
+        bytes += texel_bytes * options.bake.texture_size * options.bake.texture_size;
     const detail::FileFormat* format = detail::format_by_name(model);
     const double min_bytes_per_face = format ? format->min_bytes_per_face : 15;
     const double faces = static_cast<double>(stored_bytes) / min_bytes_per_face;
+    if (searches) bytes += picture_bytes + drawn_bytes_per_face * faces;
     return static_cast<std::uint64_t>(bytes + work_bytes(options, faces, faces));
 }
 

@@ -82,7 +82,8 @@ TEST_CASE("the estimated peak memory is between one and three times the measured
     faqem::save(sheet(150), folder / "in.glb");  // 45,000 faces
     for (const std::string options :
          {"--preset fast --bake none", "--preset balanced --bake vertex", "--preset balanced --bake keep",
-          "--preset qem --bake none", "--visibility weighted --bake none"}) {
+          "--preset qem --bake none", "--visibility weighted --bake none", "--bake none --max-bytes 200KB",
+          "--bake keep --max-bytes 200KB", "--max-bytes 200KB"}) {
         CAPTURE(options);
         const auto simplify = [&](const std::string& memory) {
             return run(folder, "simplify in.glb out.glb --force --report r.json " + options + memory);
