@@ -11,7 +11,6 @@ import json
 import subprocess
 import sys
 import tempfile
-from collections import defaultdict
 from pathlib import Path
 
 import plots
@@ -25,19 +24,9 @@ def report(arguments, budget, folder):
     return json.loads(file.read_text())
 
 
-def trials_of(report, kind):
-    return [trial for trial in report["budget_trials"] if trial["kind"] == kind]
-
-
-def curves(report):
-    """The trials as lines of (bytes, dB): faces with the images of the model, and images on all faces by their side."""
-    result = {"faces": [(t["bytes"], t["psnr"]) for t in trials_of(report, "faces")]}
-    by_side = defaultdict(list)
-    for trial in trials_of(report, "images"):
-        by_side[trial["image_side"]].append((trial["bytes"], trial["psnr"]))
-    for side, points in sorted(by_side.items()):
-        result[f"images, {side} texels"] = sorted(points)
-    return result
+def curve(report, kind):
+    """The trials of a kind as a line of (bytes, dB)."""
+    return [(trial["bytes"], trial["psnr"]) for trial in report["budget_trials"] if trial["kind"] == kind]
 
 
 def main():
@@ -55,7 +44,7 @@ def main():
             best = max(last["budget_points"], key=lambda point: point["psnr"])
             results.append((best["bytes"], best["psnr"]))
             print(json.dumps({"budget": budget, **best}), flush=True)
-    plots.budget(arguments.out, curves(last), results)
+    plots.budget(arguments.out, {"faces": curve(last, "faces"), "images": curve(last, "images")}, results)
     return 0
 
 

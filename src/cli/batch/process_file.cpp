@@ -79,7 +79,7 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
     options.bake = resolve_automatic_bake(options.bake, source, file.out);
     options.quantize = resolve_quantize(options.quantize, file.out);
     const std::optional<ByteBudget> budget =
-        work.max_bytes > 0 ? std::optional(ByteBudget{work.max_bytes, file.out}) : std::nullopt;
+        work.max_bytes ? std::optional(ByteBudget{*work.max_bytes, file.out}) : std::nullopt;
     SimplifiedAsset simplified = simplify_model(source, file.in, options, rule, budget);
     const Report& report = simplified.report;
     if (report.stop == StopReason::cancelled) return cancelled_result();

@@ -2,6 +2,8 @@
 /// \file
 /// Processing of one model of a batch.
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "cli/batch/memory_semaphore.hpp"
@@ -18,7 +20,7 @@ struct BatchContext {
     Options options;
     std::string options_key;  ///< everything except the input files that results depend on
     Strictness strictness = Strictness::lenient;
-    std::uint64_t max_bytes = 0;  ///< of the files of one model; 0: unlimited
+    std::optional<std::uint64_t> max_bytes;  ///< of the files of one model
     bool strict_target = false;
     bool allow_larger = false;
     bool resume = false;

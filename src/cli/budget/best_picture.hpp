@@ -17,9 +17,9 @@ bool leaves_faces_to_budget(const Options& options);
 /// Whether a run calls best_picture_within_bytes().
 enum class PictureSearch { no, yes };
 
-/// Whether a run with a budget searches for the best picture. \param max_bytes  the budget; 0: none
-inline PictureSearch picture_search(const Options& options, std::uint64_t max_bytes) {
-    return max_bytes > 0 && leaves_faces_to_budget(options) ? PictureSearch::yes : PictureSearch::no;
+/// Whether a run with a budget searches for the best picture. \param max_bytes  the budget, if there is one
+inline PictureSearch picture_search(const Options& options, std::optional<std::uint64_t> max_bytes) {
+    return max_bytes && leaves_faces_to_budget(options) ? PictureSearch::yes : PictureSearch::no;
 }
 
 /// Simplifies with the UVs of the source (Bake::automatic and Bake::keep) or as BakeOptions::kind says, so that

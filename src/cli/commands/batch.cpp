@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,7 @@ struct BatchArguments : SimplifyArguments {
     std::string in, out, format = default_format();
     std::uint32_t jobs = 0;
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
-    std::uint64_t max_bytes = 0;   ///< 0: unlimited
+    std::optional<std::uint64_t> max_bytes;
     bool resume = false, allow_larger = false, force = false;
 };
 
@@ -63,11 +65,11 @@ int run(const BatchArguments& arguments) {
     return_freed_memory();
     limit_process_memory(allowed, jobs * (1 + options.threads) + detail::thread_count(0));
     options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
-    const std::string key =
-        std::string(version()) + " " + extension + " " + detail::options_key(options) +
-        (arguments.strict ? " strict" : "") + (arguments.strict_target ? " strict-target" : "") +
-        (arguments.allow_larger ? " allow-larger" : "") +
-        (arguments.max_bytes > 0 ? " max-bytes " + std::to_string(arguments.max_bytes) : "");
+    const std::string key = std::string(version()) + " " + extension + " " + detail::options_key(options) +
+                            (arguments.strict ? " strict" : "") +
+                            (arguments.strict_target ? " strict-target" : "") +
+                            (arguments.allow_larger ? " allow-larger" : "") +
+                            (arguments.max_bytes ? " max-bytes " + std::to_string(*arguments.max_bytes) : "");
     const BatchContext work = {options,
                                key,
                                arguments.strictness(),

@@ -40,7 +40,7 @@ struct LodArguments : SimplifyArguments {
     std::string in, out, history, format = default_format(), textures = "each";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     ViewSettings view_settings;
-    std::uint64_t max_bytes = 0;  ///< of the files of each level; 0: unlimited
+    std::optional<std::uint64_t> max_bytes;  ///< of the files of each level
     bool without_original = false, one_file = false, allow_larger = false, force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
@@ -86,7 +86,7 @@ void check_shared_textures(const LodArguments& a, const Options& options) {
 
 /// Checks the options of --max-bytes.
 void check_budget(const LodArguments& a) {
-    if (a.max_bytes == 0) return;
+    if (!a.max_bytes) return;
     if (a.level_textures() == LevelTextures::shared)
         throw OptionError(
             "--max-bytes: cannot be used with --textures shared, where levels have the same images");
@@ -199,8 +199,8 @@ private:
             const Options step =
                 detail::step_options(options_, Phase::bake, before / count, (before + 1) / count);
             SimplifiedAsset simplified = with_file_in_errors(arguments_.in, [&] {
-                return arguments_.max_bytes > 0 ? baked_within_bytes(level.result, step)
-                                                : bake_no_larger(source_, level.result, step, rule);
+                return arguments_.max_bytes ? baked_within_bytes(level.result, step)
+                                            : bake_no_larger(source_, level.result, step, rule);
             });
             level.result = {};
             if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return exit_cancelled;
@@ -213,7 +213,7 @@ private:
     SimplifiedAsset baked_within_bytes(const SimplifiedParts& parts, const Options& step) {
         const fs::path& file = outputs_.models[written_.size()];
         try {
-            return bake_within_bytes(source_, parts, step, {arguments_.max_bytes, file});
+            return bake_within_bytes(source_, parts, step, {*arguments_.max_bytes, file});
         } catch (const BudgetError& error) {
             throw BudgetError(file.string() + ": " + error.what());
         }

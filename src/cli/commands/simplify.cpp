@@ -43,7 +43,7 @@ using detail::Stopwatch;
 /// The parsed command line.
 struct SimplifyCommandArguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
-    std::uint64_t max_bytes = 0;   ///< 0: unlimited
+    std::optional<std::uint64_t> max_bytes;
     std::uint64_t max_memory = 0;  ///< bytes; 0: machine_memory()
     bool allow_larger = false, force = false, quiet = false;
 
@@ -166,8 +166,8 @@ void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& sim
 }
 
 std::optional<ByteBudget> byte_budget(const SimplifyCommandArguments& arguments) {
-    if (arguments.max_bytes == 0) return std::nullopt;
-    return ByteBudget{arguments.max_bytes, arguments.out};
+    if (!arguments.max_bytes) return std::nullopt;
+    return ByteBudget{*arguments.max_bytes, arguments.out};
 }
 
 int run(const SimplifyCommandArguments& arguments) {

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +30,7 @@ struct TruncateArguments {
     GivenOptions options;
     std::string history, out, source;
     std::uint64_t faces = 0;
-    std::uint64_t max_bytes = 0;  ///< 0: unlimited
+    std::optional<std::uint64_t> max_bytes;
     bool strict = false, force = false, quiet = false;
 
     Strictness strictness() const { return strict ? Strictness::strict : Strictness::lenient; }
@@ -77,9 +78,9 @@ SimplifiedAsset baked_model(const TruncateArguments& arguments, const Simplified
     bake_options.quantize = resolve_quantize(bake_options.quantize, arguments.out);
     return with_file_in_errors(arguments.source, [&] {
         detail::check_source_matches_histories(source, simplified_parts);
-        SimplifiedAsset baked = arguments.max_bytes > 0
+        SimplifiedAsset baked = arguments.max_bytes
                                     ? bake_within_bytes(source, simplified_parts, bake_options,
-                                                        {arguments.max_bytes, arguments.out})
+                                                        {*arguments.max_bytes, arguments.out})
                                     : bake(source, simplified_parts, bake_options);
         baked.report.warnings.insert(baked.report.warnings.begin(), source.warnings.begin(),
                                      source.warnings.end());
@@ -92,8 +93,7 @@ int run(const TruncateArguments& arguments) {
     if (options.bake.kind == Bake::keep)
         throw OptionError("--bake keep: cannot be used, because a history does not contain UVs");
     if (arguments.strict && arguments.source.empty()) throw OptionError("--strict: requires --source");
-    if (arguments.max_bytes > 0 && arguments.source.empty())
-        throw OptionError("--max-bytes: requires --source");
+    if (arguments.max_bytes && arguments.source.empty()) throw OptionError("--max-bytes: requires --source");
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.history);
     if (!arguments.source.empty()) protect_input(arguments.source);

@@ -26,6 +26,17 @@ OptionInfo bound_number(const std::string& name, const std::string& value_name, 
     return info;
 }
 
+// The bytes of a size with or without unit; nothing if it is none.
+std::optional<std::uint64_t> read_size(std::string text) {
+    try {
+        // The result is a text for a wrong unit, and an exception for what is not a number.
+        std::uint64_t bytes = 0;
+        if (CLI::AsSizeValue(true)(text).empty() && CLI::detail::lexical_cast(text, bytes)) return bytes;
+    } catch (const CLI::Error&) {
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 OptionInfo flag_option(const std::string& name, bool& value, const std::string& description) {
@@ -64,17 +75,22 @@ OptionInfo number_option(const std::string& name, const std::string& value_name,
 OptionInfo size_option(const std::string& name, std::uint64_t& bytes, const std::string& description) {
     OptionInfo info{{name}, "SIZE", description, OptionKind::size};
     info.read = [&bytes, name](const std::vector<std::string>& values) {
-        std::string number = values.back();
-        // The result is a text for a wrong unit, and an exception for what is not a number.
-        std::string problem;
-        try {
-            problem = CLI::AsSizeValue(true)(number);
-        } catch (const CLI::Error& error) {
-            problem = error.what();
-        }
-        if (!problem.empty() || !CLI::detail::lexical_cast(number, bytes) || bytes == 0)
+        const std::optional<std::uint64_t> size = read_size(values.back());
+        if (!size || *size == 0)
             throw OptionError(name + ": '" + values.back() +
                               "' is not a size above 0, such as 500MB or 2GiB");
+        bytes = *size;
+    };
+    return info;
+}
+
+OptionInfo size_option(const std::string& name, std::optional<std::uint64_t>& bytes,
+                       const std::string& description) {
+    OptionInfo info{{name}, "SIZE", description, OptionKind::size};
+    info.read = [&bytes, name](const std::vector<std::string>& values) {
+        bytes = read_size(values.back());
+        if (!bytes)
+            throw OptionError(name + ": '" + values.back() + "' is not a size, such as 500MB or 2GiB");
     };
     return info;
 }

@@ -78,9 +78,12 @@ TEST_CASE("the report of --max-bytes has the results that were compared, and the
 TEST_CASE("a budget that the smallest result exceeds is refused with the size of that result") {
     const Folder folder;
     faqem::save(sheet(20), folder / "in.glb");
+    const std::string before = "the smallest result has ";
+    const Outcome none = run(folder, "simplify in.glb out.glb --max-bytes 0");
+    CHECK(none.code == 10);
+    CHECK(none.err.find(before) != std::string::npos);
     const Outcome outcome = run(folder, "simplify in.glb out.glb --max-bytes 300");
     REQUIRE(outcome.code == 10);
-    const std::string before = "the smallest result has ";
     const std::size_t at = outcome.err.find(before);
     REQUIRE(at != std::string::npos);
     const std::string bytes = std::to_string(std::stoul(outcome.err.substr(at + before.size())));
