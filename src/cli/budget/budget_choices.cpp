@@ -208,7 +208,7 @@ std::uint64_t as_first_rounding(std::span<const TriedRounding> roundings, std::s
     if (rounding == 0) return bytes;
     const double factor =
         static_cast<double>(roundings[0].bytes) / static_cast<double>(roundings[rounding].bytes);
-    return static_cast<std::uint64_t>(factor * static_cast<double>(bytes));
+    return static_cast<std::uint64_t>(std::round(factor * static_cast<double>(bytes)));
 }
 
 std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, const TriedImages& images,
@@ -219,7 +219,8 @@ std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, cons
         const auto rounded = [&](std::uint64_t first) {
             const double factor =
                 static_cast<double>(roundings[r].bytes) / static_cast<double>(roundings[0].bytes);
-            return r == 0 ? first : static_cast<std::uint64_t>(factor * static_cast<double>(first));
+            return r == 0 ? first
+                          : static_cast<std::uint64_t>(std::ceil(factor * static_cast<double>(first)));
         };
         if (allocator.least_bytes() > bytes) break;
         const std::uint64_t most = rounded(faces.front().bytes), least = rounded(faces.back().bytes);

@@ -28,9 +28,9 @@ public:
 
     /// Tries each image in a small size with encodings of all rungs. Then it tries what is next to the choices that are
     /// best for the budget: larger images, and finer encodings.
-    /// \param geometry    tried geometry
-    /// \param bytes       the budget
-    /// \param begin, end  of the progress, shares of Phase::bake
+    /// \param faces, roundings  tried geometry
+    /// \param bytes             the budget
+    /// \param begin, end        of the progress, shares of Phase::bake
     /// \throws engine::Cancelled
     /// Complexity: about ten encodings of each image, on several threads, and pictures for each size.
     void try_all(std::span<const TriedFaces> faces, std::span<const TriedRounding> roundings,
@@ -102,8 +102,8 @@ private:
     std::vector<std::vector<Trial>> trials_;
     TriedImages tried_;
     std::vector<std::vector<std::optional<SizeError>>> size_errors_;  // by pending image and size
-    double seen_gain_ =
-        0;  // sum over the sizes of seen images: error of pictures for that of texels, where seen
+    // Sum over the sizes of images that pictures show: their errors for those of texels, where they are shown.
+    double seen_gain_ = 0;
     int seen_sizes_ = 0;
 };
 

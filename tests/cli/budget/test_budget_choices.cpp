@@ -113,6 +113,12 @@ TEST_CASE(
     CHECK(roundings[best(9000).rounding].position_bits == 13u);
     // 5000 bytes of 60 for each face of 64.
     CHECK(std::abs(static_cast<double>(best(9000).faces) - 533) <= 1);
+    // Bytes that are enough for all faces are not rounded to fewer.
+    const std::vector<TriedRounding> odd = {
+        {14, 64000, {1e-5, 1e-5}}, {13, 60007, {9, 9}}, {15, 65011, {0, 0}}};
+    const BudgetChoice all = budget_choices(quartered(), images, odd, 100000).at(0);
+    CHECK(odd[all.rounding].position_bits == 15u);
+    CHECK(all.faces == 6400);
     CHECK(as_first_rounding(roundings, 0, 5000) == 5000);
     CHECK(as_first_rounding(roundings, 2, 9000) == 8000);
 }
