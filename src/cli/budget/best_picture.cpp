@@ -41,9 +41,9 @@ constexpr std::uint64_t no_faces = std::numeric_limits<std::uint64_t>::max();
 constexpr std::size_t reported_images = 16;
 
 // How often a choice that is too large is made again with fewer faces, or with more until it has most of the bytes, and
-// a factor on the estimated number.
+// factors on the number that is estimated from other face counts, and from nearly the same one.
 constexpr int most_attempts = 4;
-constexpr double full_share = 0.98, face_margin = 0.985;
+constexpr double full_share = 0.98, face_margin = 0.985, near_face_margin = 0.997;
 
 // What the work reports, as shares of Phase::bake.
 constexpr double begin_of_images = 0.2, begin_of_choices = 0.7;
@@ -267,8 +267,8 @@ private:
         for (int attempt = 0; faces && attempt < most_attempts; ++attempt) {
             steps_.check();
             std::uint64_t target = *faces;
-            if (target < faces_)
-                target = static_cast<std::uint64_t>(face_margin * static_cast<double>(target));
+            const double margin = attempt == 0 ? face_margin : near_face_margin;
+            if (target < faces_) target = static_cast<std::uint64_t>(margin * static_cast<double>(target));
             Made now{std::move(simplified({&target, 1}, Phase::bake, 0, 1).front()), {}, {}};
             now.result = made(now.parts, false);
             if (images_->are_encoded()) now.result.asset.asset.images = images;
