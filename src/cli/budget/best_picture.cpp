@@ -246,13 +246,6 @@ private:
         return result;
     }
 
-    // A result, and the parts that it was made of.
-    struct Made {
-        SimplifiedParts parts;
-        detail::UnencodedResult result;
-        ModelBytes size;
-    };
-
     // Makes as many faces as fit beside the images of the choice.
     void try_choice(const BudgetChoice& choice) {
         const std::vector<Image> images = images_->chosen_images(choice.images);
@@ -263,29 +256,29 @@ private:
                 ? faces_within(tried_faces_,
                                as_first_rounding(tried_roundings_, choice.rounding, budget_.bytes - bytes))
                 : std::nullopt;
-        std::optional<Made> best;
+        bool has_result = false;
         for (int attempt = 0; faces && attempt < most_attempts; ++attempt) {
             steps_.check();
             std::uint64_t target = *faces;
             const double margin = attempt == 0 ? face_margin : near_face_margin;
             if (target < faces_) target = static_cast<std::uint64_t>(margin * static_cast<double>(target));
-            Made now{std::move(simplified({&target, 1}, Phase::bake, 0, 1).front()), {}, {}};
-            now.result = made(now.parts, false);
-            if (images_->are_encoded()) now.result.asset.asset.images = images;
-            detail::remove_unused_materials(now.result);
-            now.size = model_bytes(now.result.asset.asset, budget_.file);
-            const ModelBytes size = now.size;
+            const SimplifiedParts parts = std::move(simplified({&target, 1}, Phase::bake, 0, 1).front());
+            detail::UnencodedResult result = made(parts, false);
+            if (images_->are_encoded()) result.asset.asset.images = images;
+            detail::remove_unused_materials(result);
+            const ModelBytes size = model_bytes(result.asset.asset, budget_.file);
             const bool fits = size.total() <= budget_.bytes;
-            if (fits) best = std::move(now);
+            // At once, so that there is a result if the time is over before the next one.
+            if (fits) finish(std::move(result), parts, longest_side(choice), size);
+            has_result = has_result || fits;
             const bool is_full =
                 static_cast<double>(size.total()) >= full_share * static_cast<double>(budget_.bytes);
-            if (best && (!fits || is_full || target >= faces_)) break;
+            if (has_result && (!fits || is_full || target >= faces_)) return;
             const double share = static_cast<double>(budget_.bytes - std::min(budget_.bytes, size.images)) /
                                  static_cast<double>(size.geometry);
             faces = std::min(faces_, static_cast<std::uint64_t>(share * static_cast<double>(target)));
             if (*faces < detail::min_target_faces) return;
         }
-        if (best) finish(std::move(best->result), best->parts, longest_side(choice), best->size);
     }
 
     std::uint32_t longest_side(const BudgetChoice& choice) const {

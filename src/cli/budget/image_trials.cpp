@@ -13,7 +13,7 @@ namespace {
 // Sides of the smallest images, and of those that are tried first, texels: smaller ones are tried if these do not fit.
 constexpr std::uint32_t least_side = 64, first_side = 256;
 
-// The rung whose pictures are compared: the others have errors in proportion to their squared differences.
+// The rung that is measured for a new size; the errors of the others are estimated from what was measured.
 constexpr std::uint32_t measured_rung = 2 * detail::whole_rung;
 
 // An image is not tried in a larger size, or finer, if its error has less than this share of the error of all.
