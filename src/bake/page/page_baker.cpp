@@ -6,7 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "bake/page/page_canvas.hpp"
+#include "bake/page/sample_order.hpp"
 #include "bake/page/texel_projector.hpp"
+#include "bake/page/texel_values.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
@@ -14,66 +17,68 @@ namespace {
 
 using engine::Vector3;
 
-// Adds the extension textures at a sample. Samples of another material, on a neighbouring face, are skipped: they
-// have no value for these.
-void add_layers(const PageRequest& page, const TexelProjector& projector, const TexelSample& at,
-                const SurfacePoint& point, TexelSums& sum) {
-    const Index part = projector.part();
-    if (page.layers.empty() || page.sampler.material(part, point) != page.material) return;
-    ++sum.layer_samples;
+// The extension textures at a sample. Samples of another material, on a neighbouring face, have no value for these.
+void sample_layers(const PageRequest& page, const TexelProjector& projector, const TexelSample& at,
+                   SampleValues& to) {
+    const auto& [part, point] = to.origin;
+    to.has_layers = !page.layers.empty() && page.sampler.material(part, point) == page.material;
+    if (!to.has_layers) return;
     const double spacing = projector.spacing();
+    to.layers.resize(page.layers.size());
     for (std::size_t i = 0; i < page.layers.size(); ++i) {
         const ExtensionLayer& layer = page.layers[i];
         if (!layer.is_normal_map()) {
-            sum.add_layer(i, page.sampler.layer(part, point, spacing, layer));
+            to.layers[i] = page.sampler.layer(part, point, spacing, layer);
             continue;
         }
         const Vector3 normal = projector.to_tangent_space(
             at, page.sampler.layer_normal(part, point, spacing, projector.face_normal(at), layer));
-        sum.add_layer(i, {static_cast<float>(normal.x()), static_cast<float>(normal.y()),
-                          static_cast<float>(normal.z()), 0});
+        to.layers[i] = {static_cast<float>(normal.x()), static_cast<float>(normal.y()),
+                        static_cast<float>(normal.z()), 0};
     }
 }
 
-// Adds the source at a sample in texel (x, y).
-void add_sample(const PageRequest& page, TexelProjector& projector, std::uint32_t x, std::uint32_t y,
-                const TexelSample& at, TexelSums& sum) {
+// The source at a sample in texel (x, y).
+void take_sample(const PageRequest& page, TexelProjector& projector, std::uint32_t x, std::uint32_t y,
+                 const TexelSample& at, SampleValues& to) {
     const Index part = projector.part();
     const SurfacePoint point = projector.project_to_source(at, x, y);
-    ++sum.steps[static_cast<std::size_t>(point.step)];
-    sum.add(page.sampler.sample(part, point, projector.spacing()),
-            1.0f / static_cast<float>(page.samples * page.samples));
-    const double dx = at.x - x - 0.5, dy = at.y - y - 0.5, squared_distance = dx * dx + dy * dy;
-    if (squared_distance < sum.squared_distance) {
-        sum.squared_distance = squared_distance;
-        sum.origin = {part, point};
-    }
+    to.origin = {part, point};
+    const double dx = at.x - x - 0.5, dy = at.y - y - 0.5;
+    to.squared_distance = dx * dx + dy * dy;
+    to.appearance = page.sampler.sample(part, point, projector.spacing());
     if (page.channels.normal) {
-        sum.normal += projector.to_tangent_space(
+        to.normal = projector.to_tangent_space(
             at, page.sampler.normal(part, point, projector.spacing(), projector.face_normal(at)));
     }
-    add_layers(page, projector, at, point, sum);
+    sample_layers(page, projector, at, to);
 }
 
-// Bakes texel (x, y).
-// \param projector_of  the projector of sample (i, j), which is at (s, t) in the texel: projector_of(i, j, s, t)
+// Bakes texel (x, y). Its other samples are taken only if the first ones differ, and not in the gutter, which is read
+// with small weights at the edges of triangles.
+// \param projector_of  the projector of a sample: projector_of(SamplePlace)
 template <class ProjectorOf>
-void bake_texel(const PageRequest& page, std::uint32_t x, std::uint32_t y, const ProjectorOf& projector_of,
-                PageCanvas& canvas) {
+void bake_texel(const PageRequest& page, const SampleOrder& order, std::uint32_t x, std::uint32_t y,
+                const ProjectorOf& projector_of, PageCanvas& canvas) {
     TexelSums sum(page.layers.size());
-    for (std::uint32_t j = 0; j < page.samples; ++j) {
-        for (std::uint32_t i = 0; i < page.samples; ++i) {
-            const double s = (i + 0.5) / page.samples, t = (j + 0.5) / page.samples;
-            TexelProjector& projector = projector_of(i, j, s, t);
-            add_sample(page, projector, x, y, projector.point(x, y, s, t), sum);
-        }
+    SampleValues first, next;
+    bool varies = false, shows_triangle = false;
+    for (const SamplePlace& place : order.of(x, y)) {
+        if (sum.samples == order.first_samples() && !(varies && shows_triangle)) break;
+        TexelProjector& projector = projector_of(place);
+        SampleValues& values = sum.samples == 0 ? first : next;
+        const TexelSample at = projector.point(x, y, place.s, place.t);
+        take_sample(page, projector, x, y, at, values);
+        shows_triangle = shows_triangle || at.on_own_triangle;
+        varies = varies || (sum.samples > 0 && differ_visibly(page.channels, page.layers, first, values));
+        sum.add(values);
     }
     canvas.write(x, y, sum);
 }
 
 // Bakes a cell. Between two triangles that are not partners a texel belongs to one of them. On the shared hypotenuse
 // of partners a texel can have samples of both.
-void bake_piece(const PageRequest& page, const AtlasCell& cell, PageCanvas& canvas,
+void bake_piece(const PageRequest& page, const SampleOrder& order, const AtlasCell& cell, PageCanvas& canvas,
                 CancellationCheck check_cancelled) {
     std::vector<TexelProjector> projectors;
     projectors.reserve(2);
@@ -89,18 +94,17 @@ void bake_piece(const PageRequest& page, const AtlasCell& cell, PageCanvas& canv
     for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
         check_cancelled(std::uint64_t{cell.width} * page.samples * page.samples);
         for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
-            const auto projector_of = [&](std::uint32_t, std::uint32_t, double s,
-                                          double t) -> TexelProjector& {
-                return cell.has_shared_hypotenuse ? projector_at(x + s, y + t)
+            const auto projector_of = [&](const SamplePlace& place) -> TexelProjector& {
+                return cell.has_shared_hypotenuse ? projector_at(x + place.s, y + place.t)
                                                   : projector_at(x + 0.5, y + 0.5);
             };
-            bake_texel(page, x, y, projector_of, canvas);
+            bake_texel(page, order, x, y, projector_of, canvas);
         }
     }
 }
 
 // Bakes a tile of a chart.
-void bake_piece(const PageRequest& page, const ChartTile& tile, PageCanvas& canvas,
+void bake_piece(const PageRequest& page, const SampleOrder& order, const ChartTile& tile, PageCanvas& canvas,
                 CancellationCheck check_cancelled) {
     const PageLayout& layout = page.layout;
     const TileOwners owned =
@@ -114,11 +118,10 @@ void bake_piece(const PageRequest& page, const ChartTile& tile, PageCanvas& canv
         for (std::uint32_t x = 0; x < tile.width; ++x) {
             const std::uint32_t* const owners = &owned.owners[(y * row + x) * page.samples];
             if (*owners == TileOwners::none) continue;
-            const auto projector_of = [&](std::uint32_t i, std::uint32_t j, double,
-                                          double) -> TexelProjector& {
-                return projectors[owners[j * row + i]];
+            const auto projector_of = [&](const SamplePlace& place) -> TexelProjector& {
+                return projectors[owners[place.row * row + place.column]];
             };
-            bake_texel(page, tile.x + x, tile.y + y, projector_of, canvas);
+            bake_texel(page, order, tile.x + x, tile.y + y, projector_of, canvas);
         }
     }
 }
@@ -127,11 +130,12 @@ void bake_piece(const PageRequest& page, const ChartTile& tile, PageCanvas& canv
 
 PageImages bake_page(const PageRequest& page, BakeProgress& progress) {
     PageCanvas canvas(page);
+    const SampleOrder order(page.samples);
     const auto bake_all = [&](const auto& pieces, std::size_t block) {
         progress.run_blocks(pieces.size(), block,
                             [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
                                 for (std::size_t i = begin; i < end; ++i)
-                                    bake_piece(page, pieces[i], canvas, check_cancelled);
+                                    bake_piece(page, order, pieces[i], canvas, check_cancelled);
                             });
     };
     // Cells are in descending order. Blocks of several small ones cost little to hand out, but every block has to be

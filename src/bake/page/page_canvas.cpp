@@ -11,8 +11,6 @@
 namespace faqem::detail {
 namespace {
 
-using engine::Vector3;
-
 // Texels with a lower alpha take their colour from the texels around them, if their material has visible ones.
 constexpr float min_visible_alpha = 1.0f / 512;
 
@@ -22,25 +20,9 @@ Pixels blank(const PageRequest& page, bool wanted, bool has_alpha) {
     return {atlas.width, atlas.height, std::vector<std::uint8_t>(4 * page.texels(), 255), has_alpha};
 }
 
-// Encodes the direction of `sum` in three bytes; (0, 0, 1) if its length is zero.
-void write_normal(const Vector3& sum, std::uint8_t* to) {
-    const double length = sum.norm();
-    const Vector3 n = length > 1e-6 ? Vector3(sum / length) : Vector3(0, 0, 1);
-    for (Eigen::Index k = 0; k < 3; ++k) to[k] = linear_byte((n[k] + 1) / 2);
-}
-
-void write_rgb(const Vec3f& values, std::uint8_t (*encode)(double), std::size_t at, Pixels& image) {
+void write_rgb(const Vec3f& sum, float share, std::uint8_t (*encode)(double), std::size_t at, Pixels& image) {
     if (image.rgba.empty()) return;
-    for (std::size_t k = 0; k < 3; ++k) image.rgba[4 * at + k] = encode(values[k]);
-}
-
-void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float share, std::uint8_t* to) {
-    if (layer.is_normal_map()) return write_normal(Vector3(sum[0], sum[1], sum[2]), to);
-    const bool is_color = layer.encoding() == TexelEncoding::color_and_data_alpha;
-    if (layer.has_color())
-        for (std::size_t k = 0; k < 3; ++k)
-            to[k] = is_color ? srgb_byte(sum[k] * share) : linear_byte(sum[k] * share);
-    if (layer.has_alpha()) to[3] = linear_byte(sum[3] * share);
+    for (std::size_t k = 0; k < 3; ++k) image.rgba[4 * at + k] = encode(sum[k] * share);
 }
 
 }  // namespace
@@ -68,12 +50,18 @@ PageCanvas::PageCanvas(const PageRequest& page) : page_(page) {
 void PageCanvas::write(std::uint32_t x, std::uint32_t y, const TexelSums& texel) {
     const std::size_t at = std::size_t{y} * page_.layout.atlas.width + x;
     is_covered_[at] = 1;
-    approximate_samples_[at] = texel.steps[static_cast<std::size_t>(MapStep::approximate)];
-    closest_samples_[at] = texel.steps[static_cast<std::size_t>(MapStep::closest)];
+    // The samples that were not taken count like the others.
+    const auto samples_by = [&](MapStep step) {
+        const std::uint32_t taken = texel.steps[static_cast<std::size_t>(step)];
+        return static_cast<std::uint8_t>(taken * page_.samples * page_.samples / texel.samples);
+    };
+    approximate_samples_[at] = samples_by(MapStep::approximate);
+    closest_samples_[at] = samples_by(MapStep::closest);
     if (!images_.origins.empty()) images_.origins[at] = texel.origin;
-    if (page_.channels.base) write_base(at, texel);
-    write_rgb(texel.orm, linear_byte, at, images_.occlusion_roughness_metallic);
-    write_rgb(texel.emissive, srgb_byte, at, images_.emissive);
+    const float share = 1.0f / static_cast<float>(texel.samples);
+    if (page_.channels.base) write_base(at, texel, share);
+    write_rgb(texel.orm, share, linear_byte, at, images_.occlusion_roughness_metallic);
+    write_rgb(texel.emissive, share, srgb_byte, at, images_.emissive);
     if (page_.channels.normal) write_normal(texel.normal, &images_.normal.rgba[4 * at]);
     if (texel.layer_samples == 0) return;
     has_layer_samples_[at] = 1;
@@ -82,13 +70,13 @@ void PageCanvas::write(std::uint32_t x, std::uint32_t y, const TexelSums& texel)
                     &images_.layers[i].rgba[4 * at]);
 }
 
-void PageCanvas::write_base(std::size_t at, const TexelSums& texel) {
+void PageCanvas::write_base(std::size_t at, const TexelSums& texel, float share) {
     const auto& [part, point] = texel.origin;
-    const float alpha = texel.base[3];
+    const float alpha = texel.base[3] * share;
     const bool is_visible = alpha > min_visible_alpha;
     std::uint8_t* p = &images_.base.rgba[4 * at];
     if (is_visible) {
-        for (std::size_t k = 0; k < 3; ++k) p[k] = srgb_byte(texel.base[k] / alpha);
+        for (std::size_t k = 0; k < 3; ++k) p[k] = srgb_byte(texel.base[k] * share / alpha);
     } else {
         const Vec3f stored = page_.sampler.stored_base_color(part, point);
         for (std::size_t k = 0; k < 3; ++k) p[k] = srgb_byte(stored[k]);

@@ -2,48 +2,14 @@
 /// \file
 /// The images of a page while its texels are written.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "bake/page/page_request.hpp"
-#include "bake/source/source_sampler.hpp"
-#include "faqem/bake.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "bake/page/texel_values.hpp"
 
 namespace faqem::detail {
-
-/// Sums over the samples of one texel.
-struct TexelSums {
-    explicit TexelSums(std::size_t layer_count) : layers(layer_count) {}
-
-    LinearColor base{};
-    Vec3f orm{};  ///< occlusion, roughness, metalness
-    Vec3f emissive{};
-    engine::Vector3 normal = engine::Vector3::Zero();  ///< in tangent space
-    /// Of the page's own material; normals in tangent space in RGB.
-    std::vector<LinearColor> layers;
-    std::uint32_t layer_samples = 0;      ///< samples with values for `layers`
-    std::array<std::uint8_t, 3> steps{};  ///< samples by MapStep
-    TexelOrigin origin;  ///< of the sample closest to the centre, at squared_distance from it
-    double squared_distance = std::numeric_limits<double>::infinity();
-
-    /// Adds the values of a sample.
-    /// \param share  of the sample in the texel
-    void add(const Appearance& a, float share) {
-        for (std::size_t k = 0; k < 4; ++k) base[k] += share * a.base[k];
-        orm[0] += share * a.occlusion;
-        orm[1] += share * a.roughness;
-        orm[2] += share * a.metallic;
-        for (std::size_t k = 0; k < 3; ++k) emissive[k] += share * a.emissive[k];
-    }
-    /// Adds a value of a layer.
-    void add_layer(std::size_t layer, const LinearColor& value) {
-        for (std::size_t k = 0; k < 4; ++k) layers[layer][k] += value[k];
-    }
-};
 
 /// Encodes texels in the images of a page. Different texels can be written concurrently.
 class PageCanvas {
@@ -58,7 +24,7 @@ public:
     PageImages finish(const Workers& workers) &&;
 
 private:
-    void write_base(std::size_t at, const TexelSums& texel);
+    void write_base(std::size_t at, const TexelSums& texel, float share);
     void keep_colors_of_hidden_materials();
     void run_last_steps(const Workers& workers);
     void count_samples();

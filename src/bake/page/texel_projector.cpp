@@ -129,13 +129,15 @@ Vec3 TexelProjector::weights_beyond(std::size_t c, const Vec3& w) const {
 }
 
 TexelSample TexelProjector::point(std::uint32_t x, std::uint32_t y, double s, double t) const {
-    TexelSample result{face_.face, {}, 0, x + s, y + t, {x + s, y + t}};
+    TexelSample result{.face = face_.face, .x = x + s, .y = y + t, .on_triangle = {x + s, y + t}};
     if (is_single_texel()) {
+        result.on_own_triangle = true;
         result.weights = s + t > 1 ? Vec3{s + t - 1, 1 - s, 1 - t} : Vec3{1 - s - t, s, t};
         return result;
     }
     const Vec3 w = result.weights = frame_.at(x + s, y + t);
-    if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) return result;
+    result.on_own_triangle = w[0] >= 0 && w[1] >= 0 && w[2] >= 0;
+    if (result.on_own_triangle) return result;
     for (std::size_t c = 0; c < 3; ++c) {
         if (w[c] < 0 && w[(c + 1) % 3] >= 0 && w[(c + 2) % 3] >= 0 && unfolded_[c].face != no_index) {
             result.face = unfolded_[c].face;

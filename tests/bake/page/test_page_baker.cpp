@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "support/scenes.hpp"
 
 #include "support/catch.hpp"
@@ -83,6 +85,59 @@ TEST_CASE("no unrelated texels are read at seams at any texel density") {
     const double texels = worst_color(source, before, simplified.asset, decode(simplified.asset.images[0])) /
                           (180.0 / 63) * simplified.report.pages[0].density;
     CHECK(texels < 1.6);
+}
+
+// Compared with the nearest source texel at each sample of the texels within a triangle of the page.
+TEST_CASE("a texel whose first two samples differ is the mean of all four in linear light") {
+    constexpr std::uint32_t size = 48;
+    const auto is_white = [](double u, double v) { return std::floor(u * size) > std::floor(v * size); };
+    Asset source = textured_square(paint(size, size, [&](std::uint32_t x, std::uint32_t y) -> Rgba {
+        return is_white((x + 0.5) / size, (y + 0.5) / size) ? Rgba{255, 255, 255, 255} : Rgba{0, 0, 0, 255};
+    }));
+    source.materials[0].base_color_texture.filter = Filter::nearest;
+    Options options = of_kind(Bake::atlas, 128);
+    options.bake.texel_density = 1.7;
+    const SimplifiedAsset baked = bake(source, unchanged(source), options);
+    const Pixels page = decode(baked.asset.images.at(0));
+    const Part &before = source.parts[0], &after = baked.asset.parts[0];
+    const std::array<int, 5> means = {0, 137, 188, 225, 255};  // of 0 to 4 white samples
+    std::array<int, 5> texels = {};
+    for (std::size_t f = 0; f < after.triangles.size(); ++f) {
+        const auto corner = [&](const Part& part, std::size_t i) {
+            return part.uvs[0][part.triangles[f][i]];
+        };
+        const auto at = [&](std::size_t i, std::size_t k) {
+            return double{corner(after, i)[k]} * (k == 0 ? page.width : page.height);
+        };
+        const double x1 = at(1, 0) - at(0, 0), y1 = at(1, 1) - at(0, 1), x2 = at(2, 0) - at(0, 0),
+                     y2 = at(2, 1) - at(0, 1);
+        const auto weights = [&](double x, double y) {
+            const double dx = x - at(0, 0), dy = y - at(0, 1), area = x1 * y2 - x2 * y1;
+            const double v = (dx * y2 - x2 * dy) / area, w = (x1 * dy - dx * y1) / area;
+            return Vec3{1 - v - w, v, w};
+        };
+        for (std::uint32_t i = 0; i < page.width * page.height; ++i) {
+            const std::uint32_t x = i % page.width, y = i / page.width;
+            std::size_t white = 0, on_diagonal = 0;  // white samples
+            bool is_inside = true;
+            for (const double s : {0.25, 0.75}) {
+                for (const double t : {0.25, 0.75}) {
+                    const Vec3 w = weights(x + s, y + t);
+                    is_inside = is_inside && w[0] > 0.01 && w[1] > 0.01 && w[2] > 0.01;
+                    std::array<double, 2> uv = {};
+                    for (std::size_t c = 0; c < 3; ++c)
+                        for (std::size_t k = 0; k < 2; ++k) uv[k] += w[c] * double{corner(before, c)[k]};
+                    white += is_white(uv[0], uv[1]);
+                    // Of the samples on the diagonal that is taken first.
+                    if ((s == t) == ((x + y) % 2 == 0)) on_diagonal += is_white(uv[0], uv[1]);
+                }
+            }
+            if (!is_inside) continue;
+            ++texels[white];
+            CHECK(int{page.rgba[4 * std::size_t{i}]} == means[on_diagonal == 1 ? white : 2 * on_diagonal]);
+        }
+    }
+    for (const int count : texels) CHECK(count > 5);
 }
 
 TEST_CASE("charts split few vertices and the report describes the page") {

@@ -1,0 +1,87 @@
+#include "bake/page/texel_values.hpp"
+
+#include <cstdlib>
+
+namespace faqem::detail {
+namespace {
+
+using engine::Vector3;
+
+bool differ(std::uint8_t a, std::uint8_t b) { return std::abs(int{a} - int{b}) > 1; }
+
+// Whether any of the first values differ.
+template <class Values>
+bool differ(const Values& a, const Values& b, std::size_t count, std::uint8_t (*encode)(double)) {
+    for (std::size_t k = 0; k < count; ++k)
+        if (differ(encode(a[k]), encode(b[k]))) return true;
+    return false;
+}
+
+bool differ(const Vector3& a, const Vector3& b) {
+    std::array<std::uint8_t, 3> p, q;
+    write_normal(a, p.data()), write_normal(b, q.data());
+    return differ(p[0], q[0]) || differ(p[1], q[1]) || differ(p[2], q[2]);
+}
+
+bool differ(const ExtensionLayer& layer, const LinearColor& a, const LinearColor& b) {
+    std::array<std::uint8_t, 4> p = {}, q = {};
+    write_layer(layer, a, 1, p.data()), write_layer(layer, b, 1, q.data());
+    return differ(p[0], q[0]) || differ(p[1], q[1]) || differ(p[2], q[2]) || differ(p[3], q[3]);
+}
+
+Vec3f orm(const Appearance& a) { return {a.occlusion, a.roughness, a.metallic}; }
+
+}  // namespace
+
+void TexelSums::add(const SampleValues& sample) {
+    const Appearance& a = sample.appearance;
+    for (std::size_t k = 0; k < 4; ++k) base[k] += a.base[k];
+    const Vec3f values = detail::orm(a);
+    for (std::size_t k = 0; k < 3; ++k) orm[k] += values[k];
+    for (std::size_t k = 0; k < 3; ++k) emissive[k] += a.emissive[k];
+    normal += sample.normal;
+    ++samples;
+    ++steps[static_cast<std::size_t>(sample.origin.point.step)];
+    if (sample.squared_distance < squared_distance) {
+        squared_distance = sample.squared_distance;
+        origin = sample.origin;
+    }
+    if (!sample.has_layers) return;
+    ++layer_samples;
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        for (std::size_t k = 0; k < 4; ++k) layers[i][k] += sample.layers[i][k];
+}
+
+void write_normal(const Vector3& sum, std::uint8_t* to) {
+    const double length = sum.norm();
+    const Vector3 n = length > 1e-6 ? Vector3(sum / length) : Vector3(0, 0, 1);
+    for (Eigen::Index k = 0; k < 3; ++k) to[k] = linear_byte((n[k] + 1) / 2);
+}
+
+void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float share, std::uint8_t* to) {
+    if (layer.is_normal_map()) return write_normal(Vector3(sum[0], sum[1], sum[2]), to);
+    const bool is_color = layer.encoding() == TexelEncoding::color_and_data_alpha;
+    if (layer.has_color())
+        for (std::size_t k = 0; k < 3; ++k)
+            to[k] = is_color ? srgb_byte(sum[k] * share) : linear_byte(sum[k] * share);
+    if (layer.has_alpha()) to[3] = linear_byte(sum[3] * share);
+}
+
+bool differ_visibly(const Channels& channels, std::span<const ExtensionLayer> layers, const SampleValues& a,
+                    const SampleValues& b) {
+    const Appearance &p = a.appearance, &q = b.appearance;
+    if (channels.base &&
+        (differ(p.base, q.base, 3, srgb_byte) || differ(linear_byte(p.base[3]), linear_byte(q.base[3]))))
+        return true;
+    if ((channels.occlusion || channels.metallic_roughness) && differ(orm(p), orm(q), 3, linear_byte))
+        return true;
+    if (channels.emissive && differ(p.emissive, q.emissive, 3, srgb_byte)) return true;
+    if (channels.normal && differ(a.normal, b.normal)) return true;
+    if (layers.empty()) return false;
+    if (a.has_layers != b.has_layers) return true;
+    for (std::size_t i = 0; i < layers.size() && a.has_layers; ++i)
+        if (differ(layers[i], a.layers[i], b.layers[i])) return true;
+    return false;
+}
+
+}  // namespace faqem::detail

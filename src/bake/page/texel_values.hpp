@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// Values of the samples of a texel, and the bytes that the images of a page store for them.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "bake/source/extension_layers.hpp"
+#include "bake/source/source_sampler.hpp"
+#include "faqem/bake.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+
+/// The source at a sample of a texel.
+struct SampleValues {
+    Appearance appearance;
+    engine::Vector3 normal = engine::Vector3::Zero();  ///< in tangent space
+    /// By layer of the page; normals in tangent space in RGB.
+    std::vector<LinearColor> layers;
+    bool has_layers = false;  ///< whether the sample is of the page's own material
+    TexelOrigin origin;
+    double squared_distance = 0;  ///< from the centre of the texel
+};
+
+/// Sums over the samples of one texel.
+struct TexelSums {
+    explicit TexelSums(std::size_t layer_count) : layers(layer_count) {}
+
+    LinearColor base{};
+    Vec3f orm{};  ///< occlusion, roughness, metalness
+    Vec3f emissive{};
+    engine::Vector3 normal = engine::Vector3::Zero();
+    std::vector<LinearColor> layers;
+    std::uint32_t samples = 0, layer_samples = 0;
+    std::array<std::uint8_t, 3> steps{};  ///< samples by MapStep
+    TexelOrigin origin;  ///< of the sample closest to the centre, at squared_distance from it
+    double squared_distance = std::numeric_limits<double>::infinity();
+
+    /// Adds the values of a sample.
+    void add(const SampleValues& sample);
+};
+
+/// Encodes the direction of `sum` in three bytes; (0, 0, 1) if its length is zero.
+void write_normal(const engine::Vector3& sum, std::uint8_t* to);
+
+/// Encodes `share` times `sum`, the value of a layer, in those of four bytes that it has.
+void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float share, std::uint8_t* to);
+
+/// Whether two samples differ by more than one in a byte of an image of their page.
+/// \param channels  those with an image
+/// \param layers    those of the page, each with an image
+bool differ_visibly(const Channels& channels, std::span<const ExtensionLayer> layers, const SampleValues& a,
+                    const SampleValues& b);
+
+}  // namespace faqem::detail
