@@ -16,13 +16,13 @@ namespace {
 
 using Codec = ImageEncoding::Codec;
 
-// Levels by whole rung. A JPEG with the step has about the bytes and the error of a WebP with the quality.
+// Levels by fineness, in steps of fineness_step. A JPEG with the step has about the bytes and the error of a WebP with the quality.
 constexpr std::array<std::uint32_t, 8> webp_levels = {20, 40, 55, 68, 80, 88, 94, 98};
 constexpr std::array<std::uint32_t, 8> jpeg_levels = {45, 30, 20, 13, 9, 6, 4, 2};
 constexpr std::array<std::uint32_t, 4> png_levels = {6, 3, 1, 0};
 
-// The rung after those of lossy encodings.
-constexpr std::uint32_t last_rung = 8 * whole_rung;
+// The fineness after those of lossy encodings.
+constexpr std::uint32_t last_fineness = 8 * fineness_step;
 
 // JPEGs of colours with larger steps have chroma of half the resolution.
 constexpr std::uint32_t full_chroma_step = 9;
@@ -45,13 +45,14 @@ bool has_few_colors(const Pixels& pixels) {
 
 // Adds levels and what is between them.
 template <std::size_t n>
-void add_rungs(std::vector<ImageEncoding>& result, Codec codec, const std::array<std::uint32_t, n>& levels) {
-    for (std::uint32_t rung = 0; rung <= (n - 1) * whole_rung; ++rung) {
-        const std::uint32_t before = levels[rung / whole_rung], part = rung % whole_rung;
-        const std::uint32_t after = part > 0 ? levels[rung / whole_rung + 1] : before;
-        const std::uint32_t level = (before * (whole_rung - part) + after * part) / whole_rung;
+void add_encodings(std::vector<ImageEncoding>& result, Codec codec,
+                   const std::array<std::uint32_t, n>& levels) {
+    for (std::uint32_t fineness = 0; fineness <= (n - 1) * fineness_step; ++fineness) {
+        const std::uint32_t before = levels[fineness / fineness_step], part = fineness % fineness_step;
+        const std::uint32_t after = part > 0 ? levels[fineness / fineness_step + 1] : before;
+        const std::uint32_t level = (before * (fineness_step - part) + after * part) / fineness_step;
         const bool is_new = level != after && level != result.back().level;
-        if (part == 0 || is_new) result.push_back({codec, level, rung});
+        if (part == 0 || is_new) result.push_back({codec, level, fineness});
     }
 }
 
@@ -65,17 +66,16 @@ std::vector<ImageEncoding> image_encodings(const PendingImage& pending, const Ba
     const bool may_be_webp = is_webp || (bake.image_format != ImageFormat::png_or_jpeg && pending.tries_webp);
     const bool may_be_core = !(is_webp && is_color(pending.content));
     std::vector<ImageEncoding> result;
-    constexpr auto last_rung = static_cast<std::uint32_t>(webp_levels.size()) + 1;
     if (may_be_webp && side <= webp_side) {
-        add_rungs(result, Codec::webp, webp_levels);
-        result.push_back({Codec::near_lossless_webp, 40, last_rung});
+        add_encodings(result, Codec::webp, webp_levels);
+        result.push_back({Codec::near_lossless_webp, 40, last_fineness});
     }
     if (may_be_core) {
         if (pixels.has_alpha) {
             for (std::uint32_t i = 0; i < png_levels.size(); ++i)
-                result.push_back({Codec::png, png_levels[i], 2 * i * whole_rung});
+                result.push_back({Codec::png, png_levels[i], 2 * i * fineness_step});
         } else if (side <= jpeg_side) {
-            add_rungs(result, Codec::jpeg, jpeg_levels);
+            add_encodings(result, Codec::jpeg, jpeg_levels);
         }
     }
     if (has_few_colors(pixels)) {
@@ -89,7 +89,7 @@ std::vector<ImageEncoding> image_encodings(const PendingImage& pending, const Ba
     }
     if (result.empty()) result.push_back({Codec::png, 0, 0});
     std::stable_sort(result.begin(), result.end(),
-                     [](const ImageEncoding& a, const ImageEncoding& b) { return a.rung < b.rung; });
+                     [](const ImageEncoding& a, const ImageEncoding& b) { return a.fineness < b.fineness; });
     return result;
 }
 

@@ -12,8 +12,8 @@
 
 namespace faqem::detail {
 
-/// Distance of the rungs of ImageEncoding that differ visibly.
-inline constexpr std::uint32_t whole_rung = 8;
+/// Difference in ImageEncoding::fineness that is visible.
+inline constexpr std::uint32_t fineness_step = 8;
 
 /// One way to encode an image.
 struct ImageEncoding {
@@ -29,12 +29,12 @@ struct ImageEncoding {
     Codec codec = Codec::standard;
     /// jpeg: JpegRounding::step. png: the largest difference of values. webp: the quality.
     std::uint32_t level = 0;
-    /// From 0 for few bytes: encodings of different codecs with the same rung lose about as much for a byte. Multiples
-    /// of whole_rung differ visibly, the others are between.
-    std::uint32_t rung = 0;
+    /// From 0 for few bytes: encodings of different codecs with the same fineness lose about as much for a byte.
+    /// Multiples of fineness_step differ visibly, the others are between.
+    std::uint32_t fineness = 0;
 };
 
-/// The encodings that the options allow for an image, at least one, in the order of their rungs.
+/// The encodings that the options allow for an image, at least one, by ascending fineness.
 /// \param pending  its pixels are not used beyond their size and the number of their colours
 /// Complexity: O(texels).
 FAQEM_EXPORT std::vector<ImageEncoding> image_encodings(const PendingImage& pending, const BakeOptions& bake);

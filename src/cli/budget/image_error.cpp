@@ -96,7 +96,9 @@ std::vector<double> ImageErrorMeter::errors_by_material(const std::vector<render
     std::vector<double> result(scene_.asset.materials.size() + 1, 0);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         for (std::size_t k = 0; k < frames[i].pixels.size(); ++k) {
-            const Index material = std::min(perfect[i].materials[k], frames[i].materials[k]);
+            // With alpha masks, one of the pictures may show what is behind the other's material.
+            const Index shown = perfect[i].materials[k];
+            const Index material = shown != no_index ? shown : frames[i].materials[k];
             if (material == no_index) continue;
             result[material] +=
                 (perfect[i].pixels[k] - frames[i].pixels[k]).head<3>().cast<double>().squaredNorm();

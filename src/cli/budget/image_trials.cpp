@@ -13,8 +13,8 @@ namespace {
 // Sides of the smallest images, and of those that are tried first, texels: smaller ones are tried if these do not fit.
 constexpr std::uint32_t least_side = 64, first_side = 256;
 
-// The rung that is measured for a new size; the errors of the others are estimated from what was measured.
-constexpr std::uint32_t measured_rung = 2 * detail::whole_rung;
+// The fineness that is measured for a new size; the errors of the others are estimated from what was measured.
+constexpr std::uint32_t measured_fineness = 2 * detail::fineness_step;
 
 // An image is not tried in a larger size, or finer, if its error has less than this share of the error of all.
 constexpr double least_share = 0.02;
@@ -45,9 +45,9 @@ bool ImageTrials::Size::has_trials() const {
     return std::find(is_tried.begin(), is_tried.end(), 1) != is_tried.end();
 }
 
-std::uint32_t ImageTrials::Size::last_tried_rung() const {
+std::uint32_t ImageTrials::Size::last_tried_fineness() const {
     const auto last = std::find(is_tried.rbegin(), is_tried.rend(), 1);
-    return encodings[static_cast<std::size_t>(is_tried.rend() - last) - 1].rung;
+    return encodings[static_cast<std::size_t>(is_tried.rend() - last) - 1].fineness;
 }
 
 std::uint64_t encoded_bytes(const std::vector<Image>& images) {
@@ -103,7 +103,7 @@ void ImageTrials::try_all(std::span<const TriedFaces> faces, std::span<const Tri
         std::size_t size = 0;
         while (size + 1 < sizes_[i].size() && longer_side(sizes_[i][size + 1].pending.pixels) <= first_side)
             ++size;
-        requests.push_back({i, size, 0, sizes_[i][size].encodings.back().rung});
+        requests.push_back({i, size, 0, sizes_[i][size].encodings.back().fineness});
     }
     const auto best_choice = [&]() -> std::optional<BudgetChoice> {
         std::vector<BudgetChoice> found = budget_choices(faces, tried_, roundings, bytes);
@@ -122,7 +122,7 @@ void ImageTrials::try_all(std::span<const TriedFaces> faces, std::span<const Tri
         const std::optional<BudgetChoice> best = best_choice();
         requests = best ? next_requests(*best) : smaller_requests();
     }
-    for (std::uint32_t distance = detail::whole_rung / 2; distance > 0; distance /= 2) {
+    for (std::uint32_t distance = detail::fineness_step / 2; distance > 0; distance /= 2) {
         const std::optional<BudgetChoice> best = best_choice();
         if (!best) return;
         requests = refining_requests(*best, distance, bytes / many_images);
@@ -136,7 +136,7 @@ std::vector<ImageTrials::Request> ImageTrials::smaller_requests() const {
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         std::size_t size = 0;
         while (!sizes_[i][size].has_trials()) ++size;
-        if (size > 0) result.push_back({i, size - 1, 0, sizes_[i][size - 1].encodings.back().rung});
+        if (size > 0) result.push_back({i, size - 1, 0, sizes_[i][size - 1].encodings.back().fineness});
     }
     return result;
 }
@@ -148,12 +148,12 @@ std::vector<ImageTrials::Request> ImageTrials::next_requests(const BudgetChoice&
         const Trial& trial = trials_[i][choice.images[i]];
         const Size& size = sizes_[i][trial.size];
         const SizeError& error = *size_errors_[i][trial.size];
-        if (trial.rung == size.last_tried_rung() && trial.rung < size.encodings.back().rung &&
+        if (trial.fineness == size.last_tried_fineness() && trial.fineness < size.encodings.back().fineness &&
             sum(estimated_error(error, trial.difference)) - sum(error.own) > least_error)
-            result.push_back({i, trial.size, 0, trial.rung + detail::whole_rung});
+            result.push_back({i, trial.size, 0, trial.fineness + detail::fineness_step});
         const std::size_t next = trial.size + 1;
         if (next < sizes_[i].size() && !sizes_[i][next].has_trials() && sum(error.own) > least_error)
-            result.push_back({i, next, 0, std::max(trial.rung, measured_rung)});
+            result.push_back({i, next, 0, std::max(trial.fineness, measured_fineness)});
     }
     return result;
 }
@@ -167,8 +167,8 @@ std::vector<ImageTrials::Request> ImageTrials::refining_requests(const BudgetCho
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const Trial& trial = trials_[i][choice.images[i]];
         if (trial.image.encoded.size() < least_bytes) continue;
-        result.push_back({i, trial.size, trial.rung - std::min(trial.rung, distance), trial.rung + distance,
-                          2 * distance});
+        result.push_back({i, trial.size, trial.fineness - std::min(trial.fineness, distance),
+                          trial.fineness + distance, 2 * distance});
     }
     return result;
 }
@@ -181,9 +181,9 @@ void ImageTrials::encode(std::span<const Request> requests) {
     for (const Request& request : requests) {
         Size& size = sizes_[request.image][request.size];
         for (std::size_t k = 0; k < size.encodings.size(); ++k) {
-            const std::uint32_t rung = size.encodings[k].rung;
-            const bool is_wanted =
-                rung >= request.first && rung <= request.last && (rung - request.first) % request.step == 0;
+            const std::uint32_t fineness = size.encodings[k].fineness;
+            const bool is_wanted = fineness >= request.first && fineness <= request.last &&
+                                   (fineness - request.first) % request.step == 0;
             if (size.is_tried[k] || !is_wanted) continue;
             size.is_tried[k] = 1;
             tasks.push_back({request.image, request.size, k});
@@ -198,7 +198,7 @@ void ImageTrials::encode(std::span<const Request> requests) {
                                 Image image =
                                     detail::encode_as(size.pending, steps_.options().bake, encoding);
                                 const double difference = detail::mean_square_error(size.pending, image);
-                                made[k] = {tasks[k].size, encoding.rung, difference, std::move(image)};
+                                made[k] = {tasks[k].size, encoding.fineness, difference, std::move(image)};
                             });
     for (std::size_t k = 0; k < tasks.size(); ++k) trials_[tasks[k].image].push_back(std::move(made[k]));
 }
@@ -214,7 +214,7 @@ void ImageTrials::measure_sizes(std::span<const Request> requests) {
         for (const Trial& trial : trials_[i]) {
             if (trial.size != s || !(trial.difference > 0)) continue;
             measured = &trial;
-            if (trial.rung >= measured_rung) break;
+            if (trial.fineness >= measured_fineness) break;
         }
         if (!measured) continue;
         encoded[i] = decode(measured->image);

@@ -26,7 +26,7 @@ public:
     /// \param steps  outlives this
     ImageTrials(detail::UnencodedResult full, SearchSteps& steps);
 
-    /// Tries each image in a small size with encodings of all rungs. Then it tries what is next to the choices that are
+    /// Tries each image in a small size with every fineness. Then it tries what is next to the choices that are
     /// best for the budget: larger images, and finer encodings.
     /// \param faces, roundings  tried geometry
     /// \param bytes             the budget
@@ -52,23 +52,23 @@ private:
     /// An image in one size.
     struct Size {
         detail::PendingImage pending;
-        std::vector<detail::ImageEncoding> encodings;  // in the order of their rungs
+        std::vector<detail::ImageEncoding> encodings;  // by ascending fineness
         std::vector<std::uint8_t> is_tried;            // by encoding
 
         bool has_trials() const;
-        std::uint32_t last_tried_rung() const;  // \pre has_trials()
+        std::uint32_t last_tried_fineness() const;  // \pre has_trials()
     };
     /// What an entry of tried_ is.
     struct Trial {
         std::size_t size = 0;
-        std::uint32_t rung = 0;
+        std::uint32_t fineness = 0;
         double difference = 0;  // mean_square_error()
         Image image;
     };
-    /// Encodings of an image in one size that are to be tried: with rungs from `first` to `last` in steps.
+    /// Encodings of an image in one size that are to be tried: with a fineness from `first` to `last` in steps.
     struct Request {
         std::size_t image = 0, size = 0;
-        std::uint32_t first = 0, last = 0, step = detail::whole_rung;
+        std::uint32_t first = 0, last = 0, step = detail::fineness_step;
     };
 
     /// What an encoding with a difference adds to the error of pictures.

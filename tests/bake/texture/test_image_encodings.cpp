@@ -47,7 +47,7 @@ bool has_codec(const std::vector<ImageEncoding>& encodings, Codec codec) {
 
 }  // namespace
 
-TEST_CASE("encodings with higher rungs have more bytes and a smaller difference") {
+TEST_CASE("encodings of higher fineness have more bytes and a smaller difference") {
     const PendingImage pending = pending_image(smooth_colors());
     for (const ImageFormat format : {ImageFormat::webp, ImageFormat::png_or_jpeg}) {
         const BakeOptions bake = with_format(format);
@@ -55,8 +55,8 @@ TEST_CASE("encodings with higher rungs have more bytes and a smaller difference"
         std::size_t last_bytes = 0;
         double last_difference = 1;
         for (const ImageEncoding& encoding : image_encodings(pending, bake)) {
-            if (encoding.codec != codec || encoding.rung % whole_rung != 0) continue;
-            CAPTURE(encoding.rung, encoding.level);
+            if (encoding.codec != codec || encoding.fineness % fineness_step != 0) continue;
+            CAPTURE(encoding.fineness, encoding.level);
             const Image image = encode_as(pending, bake, encoding);
             const double difference = mean_square_error(pending, image);
             CHECK(image.encoded.size() > last_bytes);
@@ -74,6 +74,7 @@ TEST_CASE("encodings are those that the image format allows") {
     const auto codecs = [&](ImageFormat format) { return image_encodings(pending, with_format(format)); };
     CHECK_FALSE(has_codec(codecs(ImageFormat::png_or_jpeg), Codec::webp));
     CHECK_FALSE(has_codec(codecs(ImageFormat::webp), Codec::jpeg));
+    CHECK(codecs(ImageFormat::webp).back().codec == Codec::near_lossless_webp);
     CHECK_FALSE(has_codec(codecs(ImageFormat::automatic), Codec::webp));
     pending.tries_webp = true;
     CHECK(has_codec(codecs(ImageFormat::automatic), Codec::webp));
@@ -114,12 +115,12 @@ TEST_CASE("images of few colours have lossless encodings, and those of the sourc
             CHECK(encode_as(pending, automatic, encoding).encoded == pending.original->encoded);
 }
 
-TEST_CASE("rungs are in ascending order, and those between have levels of their own") {
+TEST_CASE("encodings are in ascending order of fineness, and those between have levels of their own") {
     const PendingImage pending = pending_image(smooth_colors());
     const std::vector<ImageEncoding> encodings =
         image_encodings(pending, with_format(ImageFormat::png_or_jpeg));
     for (std::size_t i = 1; i < encodings.size(); ++i) {
-        CHECK(encodings[i].rung >= encodings[i - 1].rung);
+        CHECK(encodings[i].fineness >= encodings[i - 1].fineness);
         CHECK(encodings[i].level < encodings[i - 1].level);
     }
 }

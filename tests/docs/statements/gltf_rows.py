@@ -234,7 +234,7 @@ def variants(runs):
         mapping, = gltf.primitive()["extensions"]["KHR_materials_variants"]["mappings"]
         expect(gltf.json["materials"][mapping["material"]]["name"] == "red", "kept by default")
     baked = runs.baked("a.glb")
-    expect("extensions" not in baked.json and baked.warns("variants do not fit the new texture"),
+    expect("extensions" not in baked.json and baked.warns("variants do not fit the new material"),
            "left out with a new texture")
 
 

@@ -264,7 +264,7 @@ Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material
         }
     }
     if (material && material->rebaked && extensions.erase(variants_name) != 0)
-        warn_mesh(writer, part.name, "the material variants do not fit the new texture and were left out");
+        warn_mesh(writer, part.name, "the material variants do not fit the new material and were left out");
     if (!extensions.empty()) kept["extensions"] = std::move(extensions);
     remap_variants(writer, kept);
     return kept;
