@@ -115,6 +115,50 @@ TEST_CASE(
     CHECK(recent.others > 0);
 }
 
+TEST_CASE("near triangles: a projection is the closest point where there is one, up to rounding") {
+    Random random(11);
+    std::size_t found = 0, queries = 0;
+    for (const double scale : {1.0, 1e-12, 1e12}) {
+        // A rough surface of 14 x 14 squares with a side of 0.1.
+        constexpr std::size_t n = 14;
+        std::vector<Vector3> points;
+        for (std::size_t i = 0; i <= n; ++i)
+            for (std::size_t j = 0; j <= n; ++j)
+                points.emplace_back(scale * Vector3(0.1 * i - 0.7, 0.1 * j - 0.7, 0.05 * random.unit()));
+        std::vector<NearTriangles::Entry> all;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j) {
+                const std::size_t at = i * (n + 1) + j;
+                const auto face = static_cast<Index>(all.size());
+                all.push_back({points[at], points[at + n + 1], points[at + 1], face});
+                all.push_back({points[at + 1], points[at + n + 1], points[at + n + 2], face + 1});
+            }
+        }
+        NearTriangles near;
+        near.reset(Vector3::Zero(), 0.5 * scale, within(all, Vector3::Zero(), 0.5 * scale));
+        REQUIRE_FALSE(near.empty());
+        NearTriangles::Recent recent;
+        CHECK_FALSE(near.projection(Vector3::Zero(), recent));
+        for (int repetition = 0; repetition < 100; ++repetition) {
+            Vector3 above = 0.2 * scale * random_point(random);
+            above.z() = 0.03 * scale;
+            REQUIRE(near.closest(above, recent));
+            for (int i = 0; i < 20; ++i, ++queries) {
+                const Vector3 p = recent.at + 0.03 * scale * random_point(random);
+                const auto weights = near.projection(p, recent);
+                if (!weights) continue;
+                ++found;
+                const NearTriangles::Hit best = brute_force(all, p);
+                const Vector3 at = (*weights)[0] * best.entry->a + (*weights)[1] * best.entry->b +
+                                   (*weights)[2] * best.entry->c;
+                CHECK((at - best.at.point).norm() < 1e-10 * scale);
+            }
+        }
+    }
+    CHECK(found > queries / 20);
+    CHECK(found < queries);
+}
+
 TEST_CASE("near triangles: of several at the same distance, the smallest number wins") {
     const Vector3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), d(1, 1, 0);
     NearTriangles near;

@@ -238,25 +238,35 @@ LocalMap* TexelProjector::large_map(const TexelSample& at, const SurfacePoint& n
 
 SurfacePoint TexelProjector::map_near(const TexelSample& at, const SurfacePoint& near) {
     if (is_single_texel()) return part_.map->map_near(at.face, at.weights, near);
+    const auto map_by = [&](LocalMap* map) {
+        last_.map = map;
+        return map->map_near(*part_.map, at.face, at.weights, near);
+    };
     BlockGrid& grid = blocks_[at.cache_index];
     Block& block = grid.at(at.on_triangle);
     if (block.samples < single_samples) {
         LocalMap* const large = large_map(at, near);
-        if (large && large->size() <= short_list)
-            return large->map_near(*part_.map, at.face, at.weights, near);
-        if (++block.samples < single_samples) {
-            return large ? large->map_near(*part_.map, at.face, at.weights, near)
-                         : part_.map->map_near(at.face, at.weights, near);
-        }
+        if (large && large->size() <= short_list) return map_by(large);
+        if (++block.samples < single_samples)
+            return large ? map_by(large) : part_.map->map_near(at.face, at.weights, near);
         prepare(block.map, grid.box_of(block), at, near, large);
     }
-    return block.map.map_near(*part_.map, at.face, at.weights, near);
+    return map_by(&block.map);
 }
 
 SurfacePoint TexelProjector::project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y) {
     WarmStartCache& cache = warm_starts_[at.cache_index];
     const SurfacePoint* near = cache.start_near(x, y);
-    const SurfacePoint point = near ? map_near(at, *near) : part_.map->map(at.face, at.weights);
+    const auto find = [&] {
+        if (near && last_.map && last_.cache_index == at.cache_index) {
+            // Most samples have the same face of the source as the one before.
+            const auto same = last_.map->map_to_same(*part_.map, at.face, at.weights, near->step);
+            if (same) return *same;
+        }
+        last_ = {nullptr, at.cache_index};
+        return near ? map_near(at, *near) : part_.map->map(at.face, at.weights);
+    };
+    const SurfacePoint point = find();
     cache.add(point, x, y);
     return point;
 }

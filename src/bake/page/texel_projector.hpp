@@ -112,6 +112,12 @@ private:
         std::vector<Block> blocks_;
     };
 
+    // The map that was used last, and for which samples.
+    struct LastMap {
+        LocalMap* map = nullptr;
+        std::size_t cache_index = 0;
+    };
+
     bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }
     double texel_length() const;
     Vec3 weights_beyond(std::size_t c, const Vec3& w) const;
@@ -135,7 +141,8 @@ private:
     std::array<FrameCorner, 3> frames_;          // set if the page has a normal map
     std::array<WarmStartCache, 4> warm_starts_;  // by TexelSample::cache_index
     std::array<BlockGrid, 4> blocks_;            // by TexelSample::cache_index
-    BlockGrid large_blocks_;                     // of samples on the triangle
+    LastMap last_;
+    BlockGrid large_blocks_;  // of samples on the triangle
 };
 
 }  // namespace faqem::detail

@@ -33,25 +33,6 @@ Vec3f orm(const Appearance& a) { return {a.occlusion, a.roughness, a.metallic}; 
 
 }  // namespace
 
-void TexelSums::add(const SampleValues& sample) {
-    const Appearance& a = sample.appearance;
-    for (std::size_t k = 0; k < 4; ++k) base[k] += a.base[k];
-    const Vec3f values = detail::orm(a);
-    for (std::size_t k = 0; k < 3; ++k) orm[k] += values[k];
-    for (std::size_t k = 0; k < 3; ++k) emissive[k] += a.emissive[k];
-    normal += sample.normal;
-    ++samples;
-    ++steps[static_cast<std::size_t>(sample.origin.point.step)];
-    if (sample.squared_distance < squared_distance) {
-        squared_distance = sample.squared_distance;
-        origin = sample.origin;
-    }
-    if (!sample.has_layers) return;
-    ++layer_samples;
-    for (std::size_t i = 0; i < layers.size(); ++i)
-        for (std::size_t k = 0; k < 4; ++k) layers[i][k] += sample.layers[i][k];
-}
-
 void write_normal(const Vector3& sum, std::uint8_t* to) {
     const double length = sum.norm();
     const Vector3 n = length > 1e-6 ? Vector3(sum / length) : Vector3(0, 0, 1);

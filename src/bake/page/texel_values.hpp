@@ -45,6 +45,25 @@ struct TexelSums {
     void add(const SampleValues& sample);
 };
 
+inline void TexelSums::add(const SampleValues& sample) {
+    const Appearance& a = sample.appearance;
+    for (std::size_t k = 0; k < 4; ++k) base[k] += a.base[k];
+    const Vec3f values = {a.occlusion, a.roughness, a.metallic};
+    for (std::size_t k = 0; k < 3; ++k) orm[k] += values[k];
+    for (std::size_t k = 0; k < 3; ++k) emissive[k] += a.emissive[k];
+    normal += sample.normal;
+    ++samples;
+    ++steps[static_cast<std::size_t>(sample.origin.point.step)];
+    if (sample.squared_distance < squared_distance) {
+        squared_distance = sample.squared_distance;
+        origin = sample.origin;
+    }
+    if (!sample.has_layers) return;
+    ++layer_samples;
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        for (std::size_t k = 0; k < 4; ++k) layers[i][k] += sample.layers[i][k];
+}
+
 /// Encodes the direction of `sum` in three bytes; (0, 0, 1) if its length is zero.
 void write_normal(const engine::Vector3& sum, std::uint8_t* to);
 

@@ -33,13 +33,23 @@ public:
         for (std::size_t i = 0; i < bytes_.size(); ++i) {
             const double low = std::floor(scaled(begin_of(i)) - margin),
                          high = std::floor(scaled(begin_of(i + 1)) + margin);
-            bytes_[i] = static_cast<std::int16_t>(low == high ? low : -1);
+            bytes_[i] = static_cast<std::int16_t>(low == high ? low : -1 - low);
         }
+        for (std::size_t i = 0; i < ends_.size(); ++i)
+            ends_[i] = linear_from_srgb((static_cast<double>(i) + 0.5) / 255);
     }
 
-    // The byte of a value from `least` to less than 1; -1 if its interval has two.
+    // The byte of a value from `least` to less than 1; -1 if it is too close to the end of the values with a byte.
     int at(double linear) const {
-        return bytes_[(std::bit_cast<std::uint64_t>(linear) - std::bit_cast<std::uint64_t>(least)) >> shift];
+        const int byte =
+            bytes_[(std::bit_cast<std::uint64_t>(linear) - std::bit_cast<std::uint64_t>(least)) >> shift];
+        if (byte >= 0) return byte;
+        const int low = -1 - byte;
+        const double end = ends_[static_cast<std::size_t>(low)];
+        // More than the rounding errors of both conversions.
+        constexpr double margin = 1e-9;
+        if (std::abs(linear - end) <= margin * end) return -1;
+        return linear < end ? low : low + 1;
     }
 
 private:
@@ -47,16 +57,21 @@ private:
     static double begin_of(std::size_t i) {
         return std::bit_cast<double>(std::bit_cast<std::uint64_t>(least) + (std::uint64_t{i} << shift));
     }
-    std::array<std::int16_t, 13 * 512> bytes_;
+    std::array<std::int16_t, 13 * 512> bytes_;  // of the interval; -1 - b if it has b and b + 1
+    std::array<double, 255> ends_;              // of the values with each byte
 };
 
-std::uint32_t wrapped(std::int64_t i, std::int64_t n, Wrap wrap) {
-    if (i >= 0 && i < n) return static_cast<std::uint32_t>(i);
+std::uint32_t wrapped_outside(std::int64_t i, std::int64_t n, Wrap wrap) {
     if (wrap == Wrap::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, n - 1));
     const std::int64_t period = wrap == Wrap::mirror ? 2 * n : n;
     std::int64_t r = i % period;
     if (r < 0) r += period;
     return static_cast<std::uint32_t>(r < n ? r : period - 1 - r);
+}
+
+// The column or row of n that a coordinate reads.
+inline std::uint32_t wrapped(std::int64_t i, std::int64_t n, Wrap wrap) {
+    return i >= 0 && i < n ? static_cast<std::uint32_t>(i) : wrapped_outside(i, n, wrap);
 }
 
 // RGBA as in LinearColor, in a vector register. Eigen's arrays are made in memory, from which a register cannot be

@@ -155,8 +155,33 @@ FAQEM_INLINE std::optional<NearTriangles::Hit> NearTriangles::closest(const Vect
     if (!best.entry) return std::nullopt;
     const auto i = static_cast<std::size_t>(best.entry - entries_.data());
     const bool has_smallest = bounds[i / width][static_cast<int>(i % width)] == smallest.first;
-    recent = {i, p, distance_of(has_smallest ? smallest.second : smallest.first)};
+    recent = {i, p, distance_of(has_smallest ? smallest.second : smallest.first), std::nullopt};
     return found();
+}
+
+FAQEM_INLINE NearTriangles::Plane NearTriangles::plane_of(const Entry& entry) {
+    const Vector3 ab = entry.b - entry.a, ac = entry.c - entry.a;
+    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+    const Vector3 area = ab.cross(ac);
+    const double twice_area = area.norm();
+    Plane result{entry.a, Vector3::Zero(), {Vector3::Zero(), Vector3::Zero()}};
+    if (!(twice_area > least_angle_of_bound * longest) || !std::isnormal(1 / twice_area)) return result;
+    result.normal = area / twice_area;
+    result.axes = {ac.cross(result.normal) / twice_area, result.normal.cross(ab) / twice_area};
+    return result;
+}
+
+FAQEM_INLINE std::optional<Vec3> NearTriangles::projection(const Vector3& p, Recent& recent) const {
+    if (!(recent.entry < entries_.size())) return std::nullopt;
+    if (!recent.plane) recent.plane = plane_of(entries_[recent.entry]);
+    const Vector3 from_origin = p - recent.plane->origin;
+    const double v = from_origin.dot(recent.plane->axes[0]), w = from_origin.dot(recent.plane->axes[1]);
+    if (!(v > 0 && w > 0 && v + w < 1)) return std::nullopt;
+    const double height = std::abs(from_origin.dot(recent.plane->normal));
+    // The other triangles are at least recent.others minus the distance of the queries away.
+    if (!((p - recent.at).norm() + height < recent.others)) return std::nullopt;
+    if (!is_complete((p - centre_).norm(), height)) return std::nullopt;
+    return Vec3{1 - v - w, v, w};
 }
 
 FAQEM_INLINE void NearTriangles::narrow(const Vector3& centre, double radius, NearTriangles& to) const {

@@ -36,12 +36,20 @@ public:
     /// Largest number of triangles in a list.
     static constexpr std::size_t max_size = 256;
 
+    /// Coordinates in the plane of a triangle.
+    struct Plane {
+        engine::Vector3 origin;               ///< the first corner
+        engine::Vector3 normal;               ///< of unit length; zero if the triangle is too thin
+        std::array<engine::Vector3, 2> axes;  ///< gradients of the weights of the second and the third corner
+    };
+
     /// What a query leaves for the next ones near it.
     struct Recent {
         std::size_t entry =
             max_size;  ///< place in the list of the triangle closest to `at`; max_size: unknown
         engine::Vector3 at = engine::Vector3::Zero();
         double others = 0;  ///< lower bound of the distance of all other triangles of the list from `at`
+        std::optional<Plane> plane;  ///< of the triangle, if projection() has needed it
     };
 
     /// The reach of a list with which most points of a ball have a result. It is complete for all of them with
@@ -86,6 +94,14 @@ public:
     /// \param recent  of the last query of this list, or of none; receives that of this query
     std::optional<Hit> closest(const engine::Vector3& p, Recent& recent) const;
 
+    /// The closest point where it is certainly the projection of p to the plane of the triangle of a query nearby. Its
+    /// coordinates are those of closest() up to rounding, in a fraction of the time. O(1)
+    /// \param p       finite
+    /// \param recent  of the last query of this list, or of none
+    /// \return barycentric coordinates in entry(recent.entry); nothing if the triangle may not be the closest, or
+    ///         if the projection is outside it
+    std::optional<Vec3> projection(const engine::Vector3& p, Recent& recent) const;
+
     /// Whether the list contains a face. O(entries)
     bool contains(Index face) const;
 
@@ -119,6 +135,7 @@ private:
         float first, second;
     };
 
+    static Plane plane_of(const Entry& entry);
     void fill_last_group();
     Smallest find_bounds(const engine::Vector3& p, Bounds& bounds) const;
     float bound_of(double distance) const;

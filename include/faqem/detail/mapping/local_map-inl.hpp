@@ -34,5 +34,12 @@ FAQEM_INLINE SurfacePoint LocalMap::map_near(const SurfaceMap& map, Index face, 
     return (*projection)->map_near(face, barycentric, near, faces_, recent_);
 }
 
+FAQEM_INLINE std::optional<SurfacePoint> LocalMap::map_to_same(const SurfaceMap& map, Index face,
+                                                               const Vec3& barycentric, MapStep step) {
+    const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map);
+    if (faces_.empty() || !projection) return std::nullopt;
+    return (*projection)->map_to_same(face, barycentric, step, faces_, recent_);
+}
+
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -2,6 +2,8 @@
 /// \file
 /// The map from the simplified mesh to the original for many points close to each other.
 
+#include <optional>
+
 #include "faqem/detail/geometry/near_triangles.hpp"
 #include "faqem/detail/mapping/successive_projection.hpp"
 #include "faqem/export.hpp"
@@ -42,6 +44,15 @@ public:
     /// \param face  likewise
     SurfacePoint map_near(const SurfaceMap& map, Index face, const Vec3& barycentric,
                           const SurfacePoint& near);
+
+    /// The result of map_near(), up to rounding, where the point certainly has the face of the last one.
+    /// \param map          as in the last call of prepare(), if any
+    /// \param face         likewise
+    /// \param barycentric  as for map_near()
+    /// \param step         of the last result
+    /// \return nothing where map_near() has to search
+    std::optional<SurfacePoint> map_to_same(const SurfaceMap& map, Index face, const Vec3& barycentric,
+                                            MapStep step);
 
 private:
     void clear() { faces_.clear(), recent_ = {}; }

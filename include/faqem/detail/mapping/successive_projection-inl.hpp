@@ -356,7 +356,10 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3&
                                                          Recent& recent) const {
     const std::optional<NearTriangles::Hit> hit =
         faces.closest(replay_.position_on(face, barycentric), recent.search);
-    if (!hit) return map_near(face, barycentric, near);
+    if (!hit) {
+        recent.face = no_index, recent.is_preimage = false;
+        return map_near(face, barycentric, near);
+    }
     const Index found = hit->entry->face;
     if (recent.face != found) {
         recent.face = found;
@@ -368,6 +371,14 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3&
         return map(face, barycentric);
     if (!recent.is_preimage) return map_by_walk(face, make_query(face, barycentric));
     return {found, to_array(hit->at.barycentric), near.step};
+}
+
+FAQEM_INLINE std::optional<SurfacePoint> SuccessiveProjection::map_to_same(
+    Index face, const Vec3& barycentric, MapStep step, const NearTriangles& faces, Recent& recent) const {
+    if (!recent.is_preimage) return std::nullopt;
+    const std::optional<Vec3> at = faces.projection(replay_.position_on(face, barycentric), recent.search);
+    if (!at) return std::nullopt;
+    return SurfacePoint{recent.face, *at, step};
 }
 
 }  // namespace detail

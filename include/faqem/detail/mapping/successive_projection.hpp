@@ -2,6 +2,7 @@
 /// \file
 /// Map from the simplified mesh to the original by successive projection along the collapse history.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -84,6 +85,14 @@ public:
     /// \param recent  of the last call with the same list and simplified face, or of none
     SurfacePoint map_near(Index face, const Vec3& barycentric, const SurfacePoint& near,
                           const NearTriangles& faces, Recent& recent) const;
+
+    /// The result of map_near(), up to rounding, where the point is certainly projected to the face of the last call.
+    /// \param step    of the last result
+    /// \param faces   of the last call of map_near()
+    /// \param recent  of that call
+    /// \return nothing where map_near() has to search
+    std::optional<SurfacePoint> map_to_same(Index face, const Vec3& barycentric, MapStep step,
+                                            const NearTriangles& faces, Recent& recent) const;
 
     /// Position of a point of the simplified mesh.
     /// \param face         face of the simplified mesh
