@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <numeric>
 #include <thread>
@@ -160,19 +161,21 @@ TEST_CASE("if one of several files exists, none is written by default", "[file]"
 
 TEST_CASE("a signal handler can remove the temporary file of a write in progress", "[file]") {
     const TemporaryFolder folder;
-    // The write exceeds the file size limit; the resulting signal arrives while the temporary file exists.
-    static std::atomic<std::size_t> before, after;
-    static const TemporaryFolder* watched_folder;
-    watched_folder = &folder;
+    // The write exceeds the file size limit; the resulting signal arrives while the temporary file exists. The handler
+    // waits until this process has counted the files, since it can only call async-signal-safe functions.
+    static std::array<int, 2> arrived, counted;
+    REQUIRE(::pipe(arrived.data()) == 0);
+    REQUIRE(::pipe(counted.data()) == 0);
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
+    char byte = 0;
     if (child == 0) {
         std::signal(SIGXFSZ, [](int) {
-            before = files_in(*watched_folder);
-            if (!remove_temporary_files()) ::_exit(4);
-            after = files_in(*watched_folder);
-            ::_exit(before == 1 && after == 0 ? 0 : 1);
+            char signal = 0;
+            if (::write(arrived[1], &signal, 1) != 1 || ::read(counted[0], &signal, 1) != 1) ::_exit(5);
+            ::_exit(remove_temporary_files() ? 0 : 4);
         });
+        ::close(arrived[0]), ::close(counted[1]);
         const struct rlimit limit = {1000, 1000};
         if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(2);
         try {
@@ -181,11 +184,19 @@ TEST_CASE("a signal handler can remove the temporary file of a write in progress
         }
         ::_exit(3);
     }
+    ::close(arrived[1]);
+    const bool has_arrived = ::read(arrived[0], &byte, 1) == 1;  // false if the child ends without a signal
+    const std::size_t before = files_in(folder);
+    const bool was_told = ::write(counted[1], &byte, 1) == 1;
     int status = 0;
     REQUIRE(::waitpid(child, &status, 0) == child);
-    watched_folder = nullptr;
+    for (const int file : {arrived[0], counted[0], counted[1]}) ::close(file);
+    CHECK(has_arrived);
+    CHECK(was_told);
+    CHECK(before == 1);
     CHECK(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == 0);
+    CHECK(files_in(folder) == 0);
 }
 
 TEST_CASE("a process killed during a write keeps the complete old file", "[file]") {
