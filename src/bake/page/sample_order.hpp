@@ -23,8 +23,8 @@ public:
     /// \param samples  of a texel along each axis; at least 1
     explicit SampleOrder(std::uint32_t samples);
 
-    /// The samples of texel (x, y). With 2 x 2 the first two are on a diagonal, which is the other one in the texels on
-    /// its sides, so that lines along one of the diagonals are not missed.
+    /// The samples of texel (x, y). Of 2 x 2 samples the first two are on a diagonal, and in the four texels beside it on
+    /// the other diagonal, so that lines along one of them are not missed.
     std::span<const SamplePlace> of(std::uint32_t x, std::uint32_t y) const { return orders_[(x + y) % 2]; }
 
     /// Number of samples that are always taken.

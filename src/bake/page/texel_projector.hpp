@@ -21,11 +21,10 @@ namespace faqem::detail {
 /// A sample of a texel as a point on a face of the simplified mesh.
 struct TexelSample {
     Index face = 0;
-    Vec3 weights = {};  ///< barycentric coordinates
-    bool on_own_triangle =
-        false;  ///< whether it is on the projector's triangle on the page, not in the gutter
-    std::size_t cache_index = 0;  ///< 0 on the projector's triangle, c + 1 across its edge opposite corner c
-    double x = 0, y = 0;          ///< position on the page, in texels
+    Vec3 weights = {};             ///< barycentric coordinates
+    bool on_own_triangle = false;  ///< on the projector's triangle on the page, not in the gutter
+    std::size_t cache_index = 0;   ///< 0 on the projector's triangle, c + 1 across its edge opposite corner c
+    double x = 0, y = 0;           ///< position on the page, in texels
     Point2 on_triangle;  ///< (x, y) or, with cache_index 0, the closest point of the triangle on the page
 };
 
@@ -112,10 +111,10 @@ private:
         std::vector<Block> blocks_;
     };
 
-    // The map that was used last, and for which samples.
+    // The map of the last sample.
     struct LastMap {
-        LocalMap* map = nullptr;
-        std::size_t cache_index = 0;
+        LocalMap* map = nullptr;      // of a block; null: the whole map
+        std::size_t cache_index = 0;  // of the sample
     };
 
     bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }

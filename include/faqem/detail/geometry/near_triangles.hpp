@@ -94,12 +94,12 @@ public:
     /// \param recent  of the last query of this list, or of none; receives that of this query
     std::optional<Hit> closest(const engine::Vector3& p, Recent& recent) const;
 
-    /// The closest point where it is certainly the projection of p to the plane of the triangle of a query nearby. Its
-    /// coordinates are those of closest() up to rounding, in a fraction of the time. O(1)
+    /// Projects p to the plane of the triangle `recent.entry`, if the result is certainly the closest point of the list.
+    /// It is that of closest() up to rounding, in a fraction of the time. O(1)
     /// \param p       finite
-    /// \param recent  of the last query of this list, or of none
-    /// \return barycentric coordinates in entry(recent.entry); nothing if the triangle may not be the closest, or
-    ///         if the projection is outside it
+    /// \param recent  of the last query of this list, or of none; receives the plane
+    /// \return barycentric coordinates in that triangle; nothing if it may not be the closest one, or if the projection
+    ///         is outside it
     std::optional<Vec3> projection(const engine::Vector3& p, Recent& recent) const;
 
     /// Whether the list contains a face. O(entries)

@@ -87,10 +87,13 @@ public:
                           const NearTriangles& faces, Recent& recent) const;
 
     /// The result of map_near(), up to rounding, where the point is certainly projected to the face of the last call.
-    /// \param step    of the last result
-    /// \param faces   of the last call of map_near()
-    /// \param recent  of that call
+    /// \param face         simplified face of that call
+    /// \param barycentric  weights of its three corners
+    /// \param step         of the last result
+    /// \param faces        of that call
+    /// \param recent       of that call
     /// \return nothing where map_near() has to search
+    /// O(1)
     std::optional<SurfacePoint> map_to_same(Index face, const Vec3& barycentric, MapStep step,
                                             const NearTriangles& faces, Recent& recent) const;
 
