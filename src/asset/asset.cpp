@@ -26,11 +26,9 @@ Asset load(const fs::path& file) {
 }
 
 std::vector<std::string> save(const Asset& asset, const fs::path& file, Overwrite overwrite) {
-    const detail::FileFormat* format = detail::format_by_name(file);
-    if (format && format->write) return format->write(asset, file, overwrite);
-    throw UnsupportedError(
-        file.string(), "",
-        "cannot be written: the file name must end in " + listed_extensions(FormatUse::write));
+    detail::EncodedModel model = detail::encode_model(asset, file);
+    detail::write_model(model, file.parent_path(), overwrite);
+    return std::move(model.losses);
 }
 
 std::vector<Instance> instances(const Asset& asset) {

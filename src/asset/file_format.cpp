@@ -12,6 +12,7 @@
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/io/file_names.hpp"
+#include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -29,17 +30,16 @@ const std::array<FileFormat, 6> formats = {{
     {.extension = ".glb",
      .has_signature = is_glb,
      .read = read_gltf,
-     .write = write_gltf,
-     .write_levels = write_gltf_levels,
+     .encode = encode_gltf,
+     .encode_levels = encode_gltf_levels,
      .list_references = list_gltf_references,
-     .holds_images = true,
      .is_gltf = true,
      .min_bytes_per_face = 15},
     {.extension = ".gltf",
      .has_signature = is_json,
      .read = read_gltf,
-     .write = write_gltf,
-     .write_levels = write_gltf_levels,
+     .encode = encode_gltf,
+     .encode_levels = encode_gltf_levels,
      .list_references = list_gltf_references,
      .side_file = {.name = buffer_file_name, .is_always_written = true},
      .has_image_files = true,
@@ -47,7 +47,7 @@ const std::array<FileFormat, 6> formats = {{
      .min_bytes_per_face = 15},
     {.extension = ".obj",
      .read = read_obj,
-     .write = write_obj,
+     .encode = encode_obj,
      .list_references = list_obj_references,
      .is_read_for_references = true,
      .side_file = {.name = library_file_name},
@@ -58,7 +58,7 @@ const std::array<FileFormat, 6> formats = {{
     {.extension = ".ply",
      .has_signature = is_ply,
      .read = read_ply,
-     .write = write_ply,
+     .encode = encode_ply,
      .list_references = list_ply_references,
      .min_bytes_per_face = 15,
      .bake = Bake::vertex,
@@ -66,7 +66,7 @@ const std::array<FileFormat, 6> formats = {{
      .keeps_plain_parts = true},
     {.extension = ".stl",
      .read = read_stl,
-     .write = write_stl,
+     .encode = encode_stl,
      .min_bytes_per_face = 50,
      .bake = Bake::none,
      .bare_bake = Bake::none,
@@ -79,11 +79,11 @@ bool has_use(const FileFormat& format, FormatUse use) {
         case FormatUse::read:
             return format.read != nullptr;
         case FormatUse::write:
-            return format.write != nullptr;
+            return format.encode != nullptr;
         case FormatUse::write_levels:
             break;
     }
-    return format.write_levels != nullptr;
+    return format.encode_levels != nullptr;
 }
 
 }  // namespace
@@ -106,6 +106,14 @@ const FileFormat* format_of_file(const fs::path& file) {
     for (const FileFormat& format : formats)
         if (format.has_signature && format.has_signature(head, text)) return &format;
     return format_by_name(file);
+}
+
+EncodedModel encode_model(const Asset& asset, const fs::path& file) {
+    const FileFormat* format = format_by_name(file);
+    if (format && format->encode) return format->encode(asset, file);
+    throw UnsupportedError(
+        file.string(), "",
+        "cannot be written: the file name must end in " + listed_extensions(FormatUse::write));
 }
 
 std::vector<std::string_view> format_extensions(FormatUse use) {

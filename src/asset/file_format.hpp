@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "asset/io/encoded_model.hpp"
 #include "asset/io/reference_list.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
@@ -31,18 +32,16 @@ struct FileFormat {
     bool (*has_signature)(std::string_view head, std::string_view text) = nullptr;
 
     Asset (*read)(const std::filesystem::path& file) = nullptr;
-    std::vector<std::string> (*write)(const Asset& asset, const std::filesystem::path& file,
-                                      Overwrite overwrite) = nullptr;
-    /// Writes the levels of detail of a scene to one file.
-    std::vector<std::string> (*write_levels)(const LeveledAsset& levels, const std::filesystem::path& file,
-                                             Overwrite overwrite) = nullptr;
+    /// Encodes an asset. The file is the name of the model; it is in messages, and other files are named after it.
+    EncodedModel (*encode)(const Asset& asset, const std::filesystem::path& file) = nullptr;
+    /// Encodes the levels of detail of a scene as one file.
+    EncodedModel (*encode_levels)(const LeveledAsset& levels, const std::filesystem::path& file) = nullptr;
 
     /// Adds the files that a model refers to. Null: it refers to none.
     void (*list_references)(const std::filesystem::path& model, ReferenceList& files) = nullptr;
     bool is_read_for_references = false;  ///< list_references() reads the whole file
     SideFile side_file = {};
     bool has_image_files = false;  ///< images are written to files beside the model
-    bool holds_images = false;     ///< images are stored in the file
 
     bool is_gltf = false;           ///< its JSON tells how much memory decoding needs
     double min_bytes_per_face = 0;  ///< of a file with more than 65,536 vertices, with half a vertex per face
@@ -56,6 +55,12 @@ struct FileFormat {
 
 /// What can be done with a format.
 enum class FormatUse { read, write, write_levels };
+
+/// Encodes a model as save() writes it. \param file  its name, whose extension determines the format
+/// \throws UnsupportedError  the format cannot be written
+/// \throws WriteError        the format cannot hold the asset
+/// Complexity: O(size of the asset).
+FAQEM_EXPORT EncodedModel encode_model(const Asset& asset, const std::filesystem::path& file);
 
 /// All formats. The first one is the default of the command.
 FAQEM_EXPORT std::span<const FileFormat> file_formats();

@@ -87,7 +87,7 @@ std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size
 std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::path& file,
                                      Overwrite overwrite) {
     const detail::FileFormat* format = detail::format_by_name(file);
-    if (!format || !format->write_levels)
+    if (!format || !format->encode_levels)
         throw UnsupportedError(file.string(), "",
                                "cannot hold levels: the name must end in " +
                                    detail::listed_extensions(detail::FormatUse::write_levels));
@@ -103,7 +103,9 @@ std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::p
         for (const Part& part : levels[0].asset.parts) leveled.sources.push_back(part.source);
     leveled.asset = std::move(levels[0].asset);
     for (std::size_t i = 1; i < levels.size(); ++i) append_level(leveled.asset, std::move(levels[i].asset));
-    return format->write_levels(leveled, file, overwrite);
+    detail::EncodedModel model = format->encode_levels(leveled, file);
+    detail::write_model(model, file.parent_path(), overwrite);
+    return std::move(model.losses);
 }
 
 }  // namespace faqem

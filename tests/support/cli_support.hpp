@@ -14,20 +14,15 @@
 #include <string>
 #include <thread>
 
-#include "asset/io/temporary_file.hpp"
 #include "faqem/asset.hpp"
 #include "support/cli_paths.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace tool_test {
 
 namespace fs = std::filesystem;
 
-/// A temporary folder that is removed by the destructor.
-class Folder : public faqem::detail::ScratchFolder {
-public:
-    Folder() : ScratchFolder("faqem-tool") {}
-    fs::path operator/(const std::string& name) const { return path() / name; }
-};
+using Folder = faqem::testing::TemporaryFolder;
 
 inline std::string read(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);

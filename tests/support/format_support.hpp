@@ -1,8 +1,6 @@
 #pragma once
 // Helpers for the tests of the file formats.
 
-#include <unistd.h>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -14,29 +12,9 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace faqem::testing {
-
-/// A new folder that is removed by the destructor.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string path = (std::filesystem::temp_directory_path() / "faqem-formats-XXXXXX").string();
-        if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot create the folder");
-        path_ = path;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 inline void put(const std::filesystem::path& file, const std::string& content) {
     std::ofstream(file, std::ios::binary) << content;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "asset/io/encoded_model.hpp"
 #include "asset/io/reference_list.hpp"
 #include "faqem/asset.hpp"
 
@@ -45,15 +46,10 @@ void list_obj_references(const std::filesystem::path& model, ReferenceList& file
 /// \param library  path of a regular file
 void list_library_references(const std::filesystem::path& library, ReferenceList& files);
 
-/// Writes an asset as NAME.obj, and as NAME.mtl and NAME_0.png ... if it has materials and images. The OBJ
-/// file is written last. The scene is flattened to world space. Positions are written in float precision if
+/// Encodes an asset as NAME.obj, and as NAME.mtl and NAME_0.png ... if it has materials and images. The OBJ
+/// file is the last. The scene is flattened to world space. Positions are written in float precision if
 /// all are representable as float, else in double precision. Equal positions, UVs and normals share a line.
-/// \param asset      the asset
-/// \param file       path of the OBJ file
-/// \param overwrite  whether existing files may be replaced
-/// \return what OBJ cannot hold, one sentence each
-/// \throws WriteError  if a file cannot be written or exists and must not be replaced
-std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::path& file,
-                                   Overwrite overwrite);
+/// \param file  name of the OBJ file
+EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file);
 
 }  // namespace faqem::detail

@@ -6,12 +6,12 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "asset/formats/mtl_writer.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file_names.hpp"
-#include "asset/io/file_set.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/objects.hpp"
@@ -216,22 +216,19 @@ TextBuffer faces_text(const Part& part, VertexLines& lines, const UsedMaterials&
     return text;
 }
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
 }  // namespace
 
-std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::path& file,
-                                   Overwrite overwrite) {
-    std::vector<std::string> losses = flattening_losses(asset, "OBJ");
+EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
+    EncodedModel model;
+    std::vector<std::string>& losses = model.losses;
+    losses = flattening_losses(asset, "OBJ");
     const std::optional<DividedAsset> divided = divided_into_objects(asset);
     const Asset& parts = divided ? divided->asset : asset;
     const std::vector<Instance> all = instances(parts);
     const Part flat = flatten(parts);
     const std::string stem = file.stem().string();
     const UsedMaterials used = used_materials(flat, asset.materials.size());
-    const MtlLibrary library = make_mtl(asset, used.materials, stem, losses);
+    MtlLibrary library = make_mtl(asset, used.materials, stem, losses);
     if (std::any_of(flat.colors.begin(), flat.colors.end(), [](const Vec4f& c) { return c[3] != 1; }))
         losses.push_back("OBJ cannot hold the alpha of vertex colours");
 
@@ -245,14 +242,12 @@ std::vector<std::string> write_obj(const Asset& asset, const std::filesystem::pa
     lines.write(text);
     text.put(faces.view());
 
-    std::vector<FileContent> files;
     for (const MtlImage& image : library.images)
-        files.push_back({file.parent_path() / image.name, asset.images[image.image].encoded});
+        model.files.push_back(encoded_image(image.name, asset.images[image.image]));
     if (!used.materials.empty())
-        files.push_back({file.parent_path() / library_file_name(stem), bytes_of(library.text)});
-    files.push_back({file, text.bytes()});
-    write_files(files, overwrite);
-    return losses;
+        model.files.push_back(encoded_file(library_file_name(stem), std::move(library.text)));
+    model.files.push_back(encoded_file(file.filename().string(), std::move(text)));
+    return model;
 }
 
 }  // namespace faqem::detail

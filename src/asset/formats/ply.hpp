@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "asset/io/encoded_model.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {
@@ -36,15 +37,10 @@ Asset read_ply(const std::filesystem::path& file);
 /// \param file   path for messages
 Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
-/// Writes an asset as binary little-endian PLY. The scene is flattened to world space. Positions are floats
+/// Encodes an asset as binary little-endian PLY. The scene is flattened to world space. Positions are floats
 /// if all of them are representable as float, otherwise doubles; colours are 8-bit sRGB; the first UV set is
 /// written as s t.
-/// \param asset      the asset
-/// \param file       path of the file
-/// \param overwrite  whether an existing file may be replaced
-/// \return what PLY cannot hold, one sentence each
-/// \throws WriteError  if the file cannot be written or exists and must not be replaced
-std::vector<std::string> write_ply(const Asset& asset, const std::filesystem::path& file,
-                                   Overwrite overwrite);
+/// \param file  its name
+EncodedModel encode_ply(const Asset& asset, const std::filesystem::path& file);
 
 }  // namespace faqem::detail

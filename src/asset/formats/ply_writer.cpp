@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "asset/formats/ply.hpp"
 #include "asset/image/srgb.hpp"
-#include "asset/io/file_set.hpp"
 #include "asset/scene/flatten.hpp"
 
 namespace faqem::detail {
@@ -68,9 +68,10 @@ void put_vertex(std::vector<std::uint8_t>& bytes, const Part& part, const PlyVer
 
 }  // namespace
 
-std::vector<std::string> write_ply(const Asset& asset, const std::filesystem::path& file,
-                                   Overwrite overwrite) {
-    std::vector<std::string> losses = flattening_losses(asset, "PLY");
+EncodedModel encode_ply(const Asset& asset, const std::filesystem::path& file) {
+    EncodedModel model;
+    std::vector<std::string>& losses = model.losses;
+    losses = flattening_losses(asset, "PLY");
     const Part flat = flatten(asset);
     if (!asset.materials.empty()) losses.push_back("PLY cannot hold materials and textures");
     if (flat.uvs.size() > 1) losses.push_back("PLY cannot hold more than one set of texture coordinates");
@@ -92,8 +93,8 @@ std::vector<std::string> write_ply(const Asset& asset, const std::filesystem::pa
         bytes.push_back(3);
         for (const Index v : t) put(bytes, std::uint32_t{v});
     }
-    write_file(file, bytes, overwrite);
-    return losses;
+    model.files.push_back(encoded_file(file.filename().string(), std::move(bytes)));
+    return model;
 }
 
 }  // namespace faqem::detail

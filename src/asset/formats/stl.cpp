@@ -9,10 +9,10 @@
 #include <cstddef>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "asset/formats/stl_binary.hpp"
 #include "asset/io/file.hpp"
-#include "asset/io/file_set.hpp"
 #include "asset/io/little_endian.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/repair.hpp"
@@ -191,9 +191,10 @@ Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path&
 
 Asset read_stl(const std::filesystem::path& file) { return read_stl(read_file(file), file); }
 
-std::vector<std::string> write_stl(const Asset& asset, const std::filesystem::path& file,
-                                   Overwrite overwrite) {
-    std::vector<std::string> losses = flattening_losses(asset, "STL");
+EncodedModel encode_stl(const Asset& asset, const std::filesystem::path& file) {
+    EncodedModel model;
+    std::vector<std::string>& losses = model.losses;
+    losses = flattening_losses(asset, "STL");
     const Part flat = flatten(asset);
     for (const Vec3& p : flat.positions)
         for (const double x : p)
@@ -211,8 +212,8 @@ std::vector<std::string> write_stl(const Asset& asset, const std::filesystem::pa
     put_u32(bytes, static_cast<std::uint32_t>(flat.triangles.size()));
     for (const Triangle& t : flat.triangles)
         put_facet(bytes, {flat.positions[t[0]], flat.positions[t[1]], flat.positions[t[2]]});
-    write_file(file, bytes, overwrite);
-    return losses;
+    model.files.push_back(encoded_file(file.filename().string(), std::move(bytes)));
+    return model;
 }
 
 }  // namespace faqem::detail

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "asset/io/encoded_model.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {
@@ -31,13 +32,9 @@ Asset read_stl(const std::filesystem::path& file);
 /// \param file   path for messages
 Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
-/// Writes an asset as binary STL. The scene is flattened to world space.
-/// \param asset      the asset
-/// \param file       path of the file
-/// \param overwrite  whether an existing file may be replaced
-/// \return what STL cannot hold, one sentence each
-/// \throws WriteError  if the file cannot be written, or a coordinate exceeds the range of float
-std::vector<std::string> write_stl(const Asset& asset, const std::filesystem::path& file,
-                                   Overwrite overwrite);
+/// Encodes an asset as binary STL. The scene is flattened to world space.
+/// \param file  its name
+/// \throws WriteError  a coordinate exceeds the range of float
+EncodedModel encode_stl(const Asset& asset, const std::filesystem::path& file);
 
 }  // namespace faqem::detail

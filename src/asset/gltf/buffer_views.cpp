@@ -4,10 +4,7 @@
 #include <set>
 #include <string>
 
-#include "asset/gltf/container.hpp"
 #include "asset/gltf/instancing.hpp"
-#include "asset/gltf/json.hpp"
-#include "asset/io/file.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -72,10 +69,7 @@ std::uint64_t stored_bytes(const Json& view) {
 
 }  // namespace
 
-std::vector<ResultView> buffer_views(const std::filesystem::path& file) {
-    std::vector<std::string> warnings;
-    const std::vector<std::uint8_t> bytes = read_file(file);
-    const Json document = Json::parse(split_gltf(bytes, file.string(), warnings).json);
+std::vector<ResultView> buffer_views(const Json& document) {
     const ViewContents contents(document);
     std::vector<ResultView> result;
     const Json& views = member(document, "bufferViews");

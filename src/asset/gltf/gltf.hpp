@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "asset/io/encoded_model.hpp"
 #include "asset/io/reference_list.hpp"
 #include "faqem/asset.hpp"
 
@@ -30,19 +31,11 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
 /// \param model  path of a regular file, which may be damaged: the references before the damage
 void list_gltf_references(const std::filesystem::path& model, ReferenceList& files);
 
-/// Writes an asset as GLB or, if the name ends in .gltf, as JSON with NAME.bin and NAME_0.png ... in the same
-/// folder. The output is deterministic.
-/// \param asset      the asset
-/// \param file       path of the file
-/// \param overwrite  whether existing files may be replaced
-/// \return what could not be kept, one sentence each
-/// \throws WriteError  if a file cannot be written, or a position exceeds the range of float
-std::vector<std::string> write_gltf(const Asset& asset, const std::filesystem::path& file,
-                                    Overwrite overwrite);
-
-/// Encodes an asset as GLB in memory. The warnings of write_gltf() are dropped.
+/// Encodes an asset as GLB or, if the name ends in .gltf, as JSON with NAME.bin and NAME_0.png ...
+/// The output is deterministic.
+/// \param file  its name
 /// \throws WriteError  if the GLB exceeds 4 GiB, or a position exceeds the range of float
-FAQEM_EXPORT std::vector<std::uint8_t> encode_glb(const Asset& asset);
+FAQEM_EXPORT EncodedModel encode_gltf(const Asset& asset, const std::filesystem::path& file);
 
 /// Lists the instances in the default scene: the first scene if no default is set, all root nodes if there is no
 /// scene. Those of EXT_mesh_gpu_instancing follow each other. Parts without a source mesh follow, with the identity

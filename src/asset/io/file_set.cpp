@@ -72,20 +72,11 @@ void FileSet::add(std::span<const FileContent> files, Overwrite overwrite) {
         throw WriteError(error.path1().string() + ": cannot write: " + error.code().message());
     }
     std::move(pending.begin(), pending.end(), std::back_inserter(files_));
-    for (const FileContent& file : files) bytes_ += file.bytes.size();
-}
-
-fs::path FileSet::stored_at(const fs::path& file) const {
-    const fs::path target = fs::weakly_canonical(fs::absolute(file));
-    const auto found = std::find_if(files_.begin(), files_.end(),
-                                    [&](const PendingFile& pending) { return pending.target() == target; });
-    return found == files_.end() ? fs::path() : fs::path(found->temporary.name());
 }
 
 void FileSet::commit(void (*completed)() noexcept) {
     replace_files(files_, completed);
     files_.clear();
-    bytes_ = 0;
 }
 
 CollectWrites::CollectWrites(FileSet& set) { collecting_set = &set; }

@@ -59,14 +59,7 @@ public:
     ///                     so, and the next run that writes to the folder restores the files
     void commit(void (*completed)() noexcept = nullptr);
 
-    /// The temporary file that commit() gives the name of a file; empty if that was not added.
-    std::filesystem::path stored_at(const std::filesystem::path& file) const;
-
-    /// Total size of the files that were added, bytes.
-    std::uint64_t bytes() const { return bytes_; }
-
 private:
-    std::uint64_t bytes_ = 0;
     std::vector<PendingFile> files_;
 };
 

@@ -1,20 +1,16 @@
 #pragma once
 /// \file
-/// Temporary files that are locked while they are written, and removal of those that dead processes left; temporary
-/// folders.
+/// Temporary files that are locked while they are written, and removal of those that dead processes left.
 
 #include <sys/types.h>
 
 #include <atomic>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "asset/io/locked_file.hpp"
-#include "faqem/error.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
@@ -70,28 +66,5 @@ bool rename_if_absent(int folder, const char* from, const char* to);
 /// \return false if a thread is replacing files: nothing was removed, and the process must not end yet. After
 /// true, writes in progress and later ones fail.
 [[nodiscard]] FAQEM_EXPORT bool remove_temporary_files() noexcept;
-
-/// Creates a directory in the system's temporary directory, and deletes it with its contents at destruction.
-class ScratchFolder {
-public:
-    /// \param name  prefix of the directory's name
-    /// \throws WriteError  the directory cannot be created
-    explicit ScratchFolder(const std::string& name) {
-        std::string path = (std::filesystem::temp_directory_path() / (name + "-XXXXXX")).string();
-        if (mkdtemp(path.data()) == nullptr) throw WriteError(path + ": cannot create a temporary directory");
-        path_ = path;
-    }
-    ~ScratchFolder() {
-        std::error_code error;
-        std::filesystem::remove_all(path_, error);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 }  // namespace faqem::detail

@@ -5,12 +5,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -42,9 +40,8 @@ public:
     }
 
     std::string_view view() const { return {data_.get(), size_}; }
-    std::span<const std::uint8_t> bytes() const {
-        return {reinterpret_cast<const std::uint8_t*>(data_.get()), size_};
-    }
+    const char* data() const { return data_.get(); }
+    std::size_t size() const { return size_; }
 
 private:
     static constexpr std::size_t longest_number = 32;

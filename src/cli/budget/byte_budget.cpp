@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "asset/file_format.hpp"
-#include "asset/io/file_names.hpp"
-#include "asset/io/temporary_file.hpp"
 #include "cli/budget/best_picture.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 
@@ -23,11 +21,6 @@ constexpr int max_runs = 8;
 
 /// Factor on the estimated face target: the number of bytes per face varies slightly between runs.
 constexpr double safety_factor = 0.98;
-
-bool is_image(const fs::path& file) {
-    const std::string extension = detail::lower_case_extension(file);
-    return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp";
-}
 
 // "within N dB" if a quality was chosen.
 std::string quality_name(const BakeOptions& bake) {
@@ -146,19 +139,8 @@ private:
 }  // namespace
 
 ModelBytes model_bytes(const Asset& asset, const fs::path& file) {
-    const detail::ScratchFolder folder("faqem-size");
-    save(asset, folder.path() / file.filename());
-    ModelBytes result;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder.path())) {
-        if (!entry.is_regular_file()) continue;
-        (is_image(entry.path()) ? result.images : result.geometry) += entry.file_size();
-    }
-    if (const detail::FileFormat* format = detail::format_by_name(file); format && format->holds_images) {
-        for (const Image& image : asset.images) result.images += image.encoded.size();
-        result.images = std::min(result.images, result.geometry);
-        result.geometry -= result.images;
-    }
-    return result;
+    const detail::EncodedModel model = detail::encode_model(asset, file);
+    return {model.bytes() - model.image_bytes(), model.image_bytes()};
 }
 
 SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& options, const ByteBudget& budget) {

@@ -33,8 +33,8 @@ struct ModelBytes {
     std::uint64_t total() const { return geometry + images; }
 };
 
-/// Returns the size of the files that save() would write for `file`. Saves to a temporary directory.
-/// \throws WriteError        a temporary file cannot be written
+/// Returns the size of the files that save() would write for `file`.
+/// \throws WriteError        the format cannot hold the asset
 /// \throws UnsupportedError  the format of `file` cannot be written
 ModelBytes model_bytes(const Asset& asset, const std::filesystem::path& file);
 

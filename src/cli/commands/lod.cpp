@@ -55,7 +55,7 @@ struct Outputs {
     explicit Outputs(const LodArguments& a) {
         const std::string extension = extension_of_format(a.format);
         const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string();
-        if (a.one_file && !detail::format_by_name(stem + extension)->write_levels)
+        if (a.one_file && !detail::format_by_name(stem + extension)->encode_levels)
             throw OptionError("--one-file: the extension of --format must be " +
                               detail::listed_extensions(detail::FormatUse::write_levels));
         const std::size_t count = a.levels.size() + (a.without_original ? 0 : 1);

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "asset/file_format.hpp"
-#include "asset/gltf/buffer_views.hpp"
 #include "asset/model_files.hpp"
 #include "cli/budget/best_picture.hpp"
 #include "cli/budget/byte_budget.hpp"
@@ -38,6 +37,7 @@ namespace faqem::cli {
 
 namespace {
 
+namespace fs = std::filesystem;
 using detail::Stopwatch;
 
 /// The parsed command line.
@@ -152,16 +152,14 @@ void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& sim
     const ExitOnInterrupt exit_on_interrupt;
     const detail::CollectWrites collect(set);
     const Stopwatch watch;
-    const std::vector<std::string> save_warnings =
-        save(simplified.asset, arguments.out, arguments.overwrite());
-    simplified.report.bytes_out = set.bytes();
-    const detail::FileFormat* const format = detail::format_by_name(arguments.out);
-    if (!arguments.report.empty() && format && format->is_gltf)
-        simplified.report.buffer_views = detail::buffer_views(set.stored_at(arguments.out));
+    const detail::EncodedModel model = detail::encode_model(simplified.asset, arguments.out);
+    detail::write_model(model, fs::path(arguments.out).parent_path(), arguments.overwrite());
+    simplified.report.bytes_out = model.bytes();
+    simplified.report.buffer_views = model.views;
     if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
     if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
-    simplified.report.warnings.insert(simplified.report.warnings.end(), save_warnings.begin(),
-                                      save_warnings.end());
+    simplified.report.warnings.insert(simplified.report.warnings.end(), model.losses.begin(),
+                                      model.losses.end());
     simplified.report.seconds.save = watch.seconds();
 }
 

@@ -39,7 +39,9 @@ std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSur
         normalize_positions(part.positions, frame);
         part.position_spacing = 0;
     }
-    return detail::encode_glb(asset);
+    const detail::EncodedModel encoded = detail::encode_gltf(asset, "viewer.glb");
+    const std::span<const std::uint8_t> bytes = encoded.files.back().bytes;
+    return {bytes.begin(), bytes.end()};
 }
 
 Asset color_by_distance(const ErrorSurface& error, double limit) {

@@ -58,7 +58,7 @@ std::size_t count_lines(const std::string& text, const std::string& start) {
 
 TEST_CASE("an OBJ file is written with its material library and images", "[obj_writer]") {
     const TemporaryFolder folder;
-    CHECK(write_obj(textured(), folder / "my model.obj", Overwrite::no).empty());
+    CHECK(save(textured(), folder / "my model.obj", Overwrite::no).empty());
     const std::string obj = get(folder / "my model.obj");
     CHECK(contains(obj, "mtllib my model.mtl\no leaf\n"));
     CHECK(count_lines(obj, "v ") == 4);  // positions are shared across the seam
@@ -77,7 +77,7 @@ TEST_CASE("an OBJ file is written with its material library and images", "[obj_w
 TEST_CASE("a textured OBJ file is unchanged by reading and writing", "[obj_writer]") {
     const TemporaryFolder first, second;
     const Asset asset = textured();
-    write_obj(asset, first / "a.obj", Overwrite::no);
+    save(asset, first / "a.obj", Overwrite::no);
     const Asset back = read_obj(first / "a.obj");
     CHECK(back.warnings.empty());
     const Part &part = back.parts.at(0), &original = asset.parts[0];
@@ -101,7 +101,7 @@ TEST_CASE("a textured OBJ file is unchanged by reading and writing", "[obj_write
     CHECK(back.materials[0].base_color_texture.wrap_u == Wrap::clamp);
     CHECK(back.materials[0].emissive_texture.image == m.base_color_texture.image);
     CHECK(back.materials[0].normal_texture.image == m.base_color_texture.image);
-    write_obj(back, second / "a.obj", Overwrite::no);
+    save(back, second / "a.obj", Overwrite::no);
     for (const char* name : {"a.obj", "a.mtl", "a_0.jpg", "a_1.png"})
         CHECK(get(first / name) == get(second / name));
 }
@@ -114,7 +114,7 @@ TEST_CASE("roughness, metal and the scale of normals are unchanged by writing an
     m.metallic_roughness_texture.image = 0;
     m.normal_texture.image = 1;
     m.normal_scale = 0.25f;
-    CHECK(write_obj(asset, folder / "a.obj", Overwrite::no).empty());
+    CHECK(save(asset, folder / "a.obj", Overwrite::no).empty());
     const Asset back = read_obj(folder / "a.obj");
     CHECK(back.warnings.empty());
     const Material& read = back.materials.at(1);
@@ -148,9 +148,9 @@ TEST_CASE("OBJ files of random meshes are unchanged by reading and writing", "[o
         }
         for (Index& m : part.face_material) m = random() % 4 ? random() % 3 : no_index;
         if (round % 2) part.positions[3] = {0.1, 1e-17, 12345.678901234};
-        write_obj(asset, folder / "a.obj", Overwrite::yes);
+        save(asset, folder / "a.obj", Overwrite::yes);
         const std::string once = get(folder / "a.obj"), library = get(folder / "a.mtl");
-        write_obj(read_obj(folder / "a.obj"), folder / "a.obj", Overwrite::yes);
+        save(read_obj(folder / "a.obj"), folder / "a.obj", Overwrite::yes);
         CHECK(get(folder / "a.obj") == once);
         CHECK(get(folder / "a.mtl") == library);
     }
@@ -158,11 +158,10 @@ TEST_CASE("OBJ files of random meshes are unchanged by reading and writing", "[o
 
 TEST_CASE("OBJ positions have float precision if all are floats, else double precision", "[obj_writer]") {
     const TemporaryFolder folder;
-    write_obj(one_part({{0.1f, 0, 0}, {1, 0, 0}, {1, 1e10f, 0}}, {{0, 1, 2}}), folder / "a.obj",
-              Overwrite::yes);
+    save(one_part({{0.1f, 0, 0}, {1, 0, 0}, {1, 1e10f, 0}}, {{0, 1, 2}}), folder / "a.obj", Overwrite::yes);
     CHECK(contains(get(folder / "a.obj"), "v 0.1 0 0\n"));
     const Asset precise = one_part({{0.1f, 0, 0}, {1. / 3, 0, 0}, {1, 1e-300, 0}}, {{0, 1, 2}});
-    write_obj(precise, folder / "a.obj", Overwrite::yes);
+    save(precise, folder / "a.obj", Overwrite::yes);
     CHECK(contains(get(folder / "a.obj"), "v 0.10000000149011612 0 0\nv 0.3333333333333333 0 0\n"));
     CHECK(read_obj(folder / "a.obj").parts[0].positions == precise.parts[0].positions);
 }
@@ -171,13 +170,13 @@ TEST_CASE("a mesh without materials has no library, a face without a material ge
           "[obj_writer]") {
     const TemporaryFolder folder;
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 0}});
-    write_obj(asset, folder / "a.obj", Overwrite::no);
+    save(asset, folder / "a.obj", Overwrite::no);
     CHECK(get(folder / "a.obj") == "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 3 2 1\n");
     CHECK(!fs::exists(folder / "a.mtl"));
     asset.materials.resize(1);
     asset.materials[0].name = "default";
     asset.parts[0].face_material = {0, no_index};
-    write_obj(asset, folder / "b.obj", Overwrite::no);
+    save(asset, folder / "b.obj", Overwrite::no);
     CHECK(contains(get(folder / "b.obj"), "usemtl default\nf 1 2 3\nusemtl default_2\nf 3 2 1\n"));
 }
 
@@ -189,7 +188,7 @@ TEST_CASE("an OBJ file has an object for each mesh with a unique name", "[obj_wr
     asset.parts.push_back({});  // without faces
     asset.parts.push_back(asset.parts[0]);
     asset.parts[3].name = "a_2";
-    const std::vector<std::string> losses = write_obj(asset, folder / "m.obj", Overwrite::no);
+    const std::vector<std::string> losses = save(asset, folder / "m.obj", Overwrite::no);
     CHECK(any_contains(losses, "1 object without faces"));
     CHECK(get(folder / "m.obj") ==
           "v 0 0 0\nv 1 0 0\nv 1 1 0\no a\nf 1 2 3\no a_2\nf 1 2 3\no a_2_2\nf 1 2 3\n");
@@ -203,13 +202,13 @@ TEST_CASE("an OBJ file with groups in objects is unchanged by reading and writin
         "v 0 0 0\nv 1 0 0\nv 1 1 0\no a\nf 1 2 3\ng x y\nf 1 2 3\nf 2 3 1\ng default\nf 1 2 3\no b\ng z\nf 1 "
         "2 3\n";
     put(folder / "a.obj", text);
-    write_obj(read_obj(folder / "a.obj"), folder / "b.obj", Overwrite::no);
+    save(read_obj(folder / "a.obj"), folder / "b.obj", Overwrite::no);
     CHECK(get(folder / "b.obj") == text);
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 2, 0}});
     asset.parts[0].face_group = {1, 0};
     asset.parts[0].group_names = {"", "x\nf 1 2 3"};
     asset.parts.push_back(asset.parts[0]);
-    write_obj(asset, folder / "c.obj", Overwrite::no);
+    save(asset, folder / "c.obj", Overwrite::no);
     CHECK(get(folder / "c.obj") ==
           "v 0 0 0\nv 1 0 0\nv 1 1 0\no c\ng x_f 1 2 3\nf 1 2 3\ng default\nf 2 3 1\no c_2\ng x_f 1 2 3\nf 1 "
           "2 3\n"
@@ -221,7 +220,7 @@ TEST_CASE("names that are invalid in OBJ statements are replaced", "[obj_writer]
     Asset asset = textured();
     asset.parts[0].name = " a\nf 1 2 3\\ ";
     asset.materials[1].name = "x\r\nKd 0 0 0";
-    write_obj(asset, folder / "a.obj", Overwrite::no);
+    save(asset, folder / "a.obj", Overwrite::no);
     CHECK(contains(get(folder / "a.obj"), "o a_f 1 2 3\n"));
     CHECK(read_obj(folder / "a.obj").materials.at(0).name == "x__Kd 0 0 0");
 }
@@ -236,7 +235,7 @@ TEST_CASE("the UV set and transform of the leading texture are applied to the UV
     ref.scale = {2, 4};
     ref.offset = {0.25f, 0.5f};
     ref.rotation = static_cast<float>(std::acos(-1.0) / 2);
-    const auto losses = write_obj(asset, folder / "a.obj", Overwrite::no);
+    const auto losses = save(asset, folder / "a.obj", Overwrite::no);
     const Asset back = read_obj(folder / "a.obj");
     // Scaling gives (1, 1). Rotation by 90 degrees, with v pointing down, maps (u, v) to (v, -u). Translation
     // gives (1.25, -0.5).
@@ -258,7 +257,7 @@ TEST_CASE("the OBJ writer reports what it leaves out", "[obj_writer]") {
     m.extensions = {"KHR_materials_sheen"};
     m.base_color_texture.wrap_u = Wrap::mirror;
     asset.parts[0].colors.assign(6, {1, 1, 1, 0.5f});
-    const auto losses = write_obj(asset, folder / "a.obj", Overwrite::no);
+    const auto losses = save(asset, folder / "a.obj", Overwrite::no);
     for (const char* what : {"factors of metallic-roughness", "occlusion", "cutoffs", "unlit", "double-sided",
                              "extensions", "mirrored", "alpha of vertex colours"}) {
         CAPTURE(what);
@@ -271,7 +270,7 @@ TEST_CASE("an existing OBJ, MTL or image file is not replaced by default and not
     for (const char* existing : {"a.obj", "a.mtl", "a_1.png"}) {
         const TemporaryFolder folder;
         put(folder / existing, "old");
-        CHECK_THROWS_AS(write_obj(textured(), folder / "a.obj", Overwrite::no), WriteError);
+        CHECK_THROWS_AS(save(textured(), folder / "a.obj", Overwrite::no), WriteError);
         CHECK(get(folder / existing) == "old");
         CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 1);
     }

@@ -305,13 +305,13 @@ TEST_CASE("a PLY file is unchanged by reading and writing", "[ply]") {
     part.uvs = {{{0.1f, 0.2f}, {0.3f, 0.7f}, {-4, 5.5f}, {1e-9f, 1e-9f}}};
     for (const bool doubles : {false, true}) {
         if (doubles) part.positions[0][0] = 0.1;
-        CHECK(write_ply(asset, folder / "a.ply", Overwrite::yes).empty());
+        CHECK(save(asset, folder / "a.ply", Overwrite::yes).empty());
         const Asset back = read_ply(folder / "a.ply");
         CHECK(back.warnings.empty());
         CHECK(back.parts[0].positions == part.positions);
         CHECK(back.parts[0].triangles == part.triangles);
         CHECK(back.parts[0].normals == part.normals);
-        CHECK(write_ply(back, folder / "b.ply", Overwrite::yes).empty());
+        CHECK(save(back, folder / "b.ply", Overwrite::yes).empty());
         CHECK(get(folder / "a.ply") == get(folder / "b.ply"));
         CHECK(contains(get(folder / "a.ply"), doubles ? "property double x" : "property float x"));
         for (std::size_t v = 0; v < 4; ++v)
@@ -328,7 +328,7 @@ TEST_CASE("PLY files keep all 256 values of a colour channel", "[ply]") {
         const auto c = static_cast<float>(linear_from_srgb(i / 255.0));
         asset.parts[0].colors.push_back({c, c, c, static_cast<float>(i) / 255.0f});
     }
-    write_ply(asset, folder / "a.ply", Overwrite::no);
+    save(asset, folder / "a.ply", Overwrite::no);
     CHECK(read_ply(folder / "a.ply").parts[0].colors == asset.parts[0].colors);
 }
 
@@ -340,7 +340,7 @@ TEST_CASE("the PLY writer reports what it leaves out", "[ply]") {
     asset.parts[0].tangents.resize(3);
     asset.parts[0].joints.resize(3);
     asset.parts[0].morph_targets.resize(1);
-    const auto losses = write_ply(asset, folder / "a.ply", Overwrite::no);
+    const auto losses = save(asset, folder / "a.ply", Overwrite::no);
     for (const char* what : {"materials", "more than one set", "tangents", "skins", "morph targets"})
         CHECK(any_contains(losses, what));
 }

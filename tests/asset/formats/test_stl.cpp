@@ -190,7 +190,7 @@ TEST_CASE("non-finite STL positions are repaired", "[stl]") {
 TEST_CASE("an STL file is unchanged by reading and writing", "[stl]") {
     const TemporaryFolder folder;
     const Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0.25, 3}}, {{0, 1, 2}, {0, 2, 3}});
-    CHECK(write_stl(asset, folder / "a.stl", Overwrite::no).empty());
+    CHECK(save(asset, folder / "a.stl", Overwrite::no).empty());
     const std::string bytes = get(folder / "a.stl");
     CHECK(bytes.size() == 84 + 2 * 50);
     CHECK(bytes.substr(84, 12) ==
@@ -198,7 +198,7 @@ TEST_CASE("an STL file is unchanged by reading and writing", "[stl]") {
     const Asset back = read_stl(folder / "a.stl");
     CHECK(back.parts[0].positions == asset.parts[0].positions);
     CHECK(back.parts[0].triangles == asset.parts[0].triangles);
-    write_stl(back, folder / "b.stl", Overwrite::no);
+    save(back, folder / "b.stl", Overwrite::no);
     CHECK(get(folder / "b.stl") == bytes);
 }
 
@@ -209,9 +209,9 @@ TEST_CASE("the STL writer reports what it leaves out and rejects coordinates too
     asset.parts[0].uvs.resize(1, std::vector<Vec2f>(3));
     asset.parts[0].normals.resize(3);
     asset.parts[0].colors.resize(3);
-    const auto losses = write_stl(asset, folder / "a.stl", Overwrite::no);
+    const auto losses = save(asset, folder / "a.stl", Overwrite::no);
     for (const char* what : {"double precision", "normals", "texture coordinates", "colours", "materials"})
         CHECK(any_contains(losses, what));
     asset.parts[0].positions[0][0] = 1e39;
-    CHECK_THROWS_AS(write_stl(asset, folder / "b.stl", Overwrite::no), WriteError);
+    CHECK_THROWS_AS(save(asset, folder / "b.stl", Overwrite::no), WriteError);
 }

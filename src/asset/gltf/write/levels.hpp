@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "asset/io/encoded_model.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {
@@ -32,8 +33,7 @@ struct GltfWriter;
 /// \param mesh     output mesh of each part of `leveled`; no_index if it was left out
 void attach_levels(GltfWriter& writer, const LeveledAsset& leveled, const std::vector<Index>& mesh);
 
-/// Writes all levels to one file. Same as write_gltf() otherwise. Defined in write/write.cpp.
-std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const std::filesystem::path& file,
-                                           Overwrite overwrite);
+/// Encodes all levels as one file. Same as encode_gltf() otherwise. Defined in write/write.cpp.
+EncodedModel encode_gltf_levels(const LeveledAsset& leveled, const std::filesystem::path& file);
 
 }  // namespace faqem::detail

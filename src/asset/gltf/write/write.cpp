@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
+#include "asset/gltf/buffer_views.hpp"
 #include "asset/gltf/container.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/write/feature_metadata.hpp"
@@ -17,7 +18,6 @@
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file_names.hpp"
-#include "asset/io/file_set.hpp"
 #include "asset/scene/objects.hpp"
 #include "faqem/error.hpp"
 
@@ -77,14 +77,16 @@ void number_draco_views(GltfWriter& writer) {
                     first + primitive["extensions"][draco_name]["bufferView"].get<Index>();
 }
 
-std::vector<std::uint8_t> glb_bytes(GltfWriter& writer, const std::string& file) {
+void encode_binary(GltfWriter& writer, const fs::path& file, EncodedModel& model) {
     for (std::size_t i = 0; i < writer.images.size(); ++i) {
         Json& json = writer.out["images"][i];
         json["bufferView"] = writer.binary.add_view(writer.images[i]->encoded);
         json["mimeType"] = writer.images[i]->mime_type;
+        model.embedded_image_bytes += writer.images[i]->encoded.size();
     }
     const std::vector<std::uint8_t> buffer = writer.binary.finish(writer.out);
-    return join_glb(json_text(writer.out, -1), buffer, file);
+    model.files.push_back(
+        encoded_file(file.filename().string(), join_glb(json_text(writer.out, -1), buffer, file.string())));
 }
 
 /// A file name as a relative URI (RFC 3986, section 2.3).
@@ -103,37 +105,34 @@ std::string percent_encoded(const std::string& name) {
     return uri;
 }
 
-void write_glb(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
-    write_file(file, glb_bytes(writer, file.string()), overwrite);
-}
-
-/// Writes the images, the buffer and then the JSON, which refers to them.
-void write_json_with_files(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
+/// The images, the buffer and then the JSON, which refers to them.
+void encode_json_with_files(GltfWriter& writer, const fs::path& file, EncodedModel& model) {
     const std::string stem = file.stem().string();
-    std::vector<FileContent> files;
     for (std::size_t i = 0; i < writer.images.size(); ++i) {
         const Image& image = *writer.images[i];
         const std::string name = image_file_name(stem, i, file_extension(image.mime_type));
         writer.out["images"][i]["uri"] = percent_encoded(name);
         if (!image.mime_type.empty()) writer.out["images"][i]["mimeType"] = image.mime_type;
-        files.push_back({file.parent_path() / name, image.encoded});
+        model.files.push_back(encoded_image(name, image));
     }
-    const std::vector<std::uint8_t> buffer = writer.binary.finish(writer.out);
+    std::vector<std::uint8_t> buffer = writer.binary.finish(writer.out);
     if (!buffer.empty()) {
         writer.out["buffers"][0]["uri"] = percent_encoded(buffer_file_name(stem));
-        files.push_back({file.parent_path() / buffer_file_name(stem), buffer});
+        model.files.push_back(encoded_file(buffer_file_name(stem), std::move(buffer)));
     }
-    const std::string json = json_text(writer.out, 2);
-    files.push_back({file, {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()}});
-    write_files(files, overwrite);
+    model.files.push_back(encoded_file(file.filename().string(), json_text(writer.out, 2)));
 }
 
-void write_output(GltfWriter& writer, const fs::path& file, Overwrite overwrite) {
+EncodedModel encode_output(GltfWriter& writer, const fs::path& file) {
+    EncodedModel model;
     write_extension_lists(writer);
     if (lower_case_extension(file) == ".gltf")
-        write_json_with_files(writer, file, overwrite);
+        encode_json_with_files(writer, file, model);
     else
-        write_glb(writer, file, overwrite);
+        encode_binary(writer, file, model);
+    model.losses = std::move(writer.warnings);
+    model.views = buffer_views(writer.out);
+    return model;
 }
 
 /// The origin is not changed if there is a source document, whose nodes, skins and animations depend on it.
@@ -192,24 +191,14 @@ Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use) {
     return entry->second;
 }
 
-std::vector<std::string> write_gltf(const Asset& asset, const fs::path& file, Overwrite overwrite) {
+EncodedModel encode_gltf(const Asset& asset, const fs::path& file) {
     const std::optional<DividedAsset> divided = divided_into_objects(asset);
     GltfWriter writer = make_writer(divided ? divided->asset : asset);
     write_meshes_and_scene(writer);
-    write_output(writer, file, overwrite);
-    return std::move(writer.warnings);
+    return encode_output(writer, file);
 }
 
-std::vector<std::uint8_t> encode_glb(const Asset& asset) {
-    const std::optional<DividedAsset> divided = divided_into_objects(asset);
-    GltfWriter writer = make_writer(divided ? divided->asset : asset);
-    write_meshes_and_scene(writer);
-    write_extension_lists(writer);
-    return glb_bytes(writer, "the model in memory");
-}
-
-std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs::path& file,
-                                           Overwrite overwrite) {
+EncodedModel encode_gltf_levels(const LeveledAsset& leveled, const fs::path& file) {
     const Asset& asset = leveled.asset;
     GltfWriter writer = make_writer(asset);
     writer.sources = leveled.sources;
@@ -226,8 +215,7 @@ std::vector<std::string> write_gltf_levels(const LeveledAsset& leveled, const fs
     write_scene(writer, new_meshes);
     attach_levels(writer, leveled, mesh);
     finish_scene(writer);
-    write_output(writer, file, overwrite);
-    return std::move(writer.warnings);
+    return encode_output(writer, file);
 }
 
 }  // namespace faqem::detail
