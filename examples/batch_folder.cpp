@@ -15,11 +15,10 @@ namespace fs = std::filesystem;
 
 // \return false if the model could not be simplified; the reason is printed
 bool simplify_file(const fs::path& in, const fs::path& out, const faqem::Options& options) try {
-    const faqem::SimplifiedAsset simplified = faqem::simplify(faqem::load(in), options);
-    faqem::save(simplified.asset, out, faqem::Overwrite::yes);
-    std::cout << in.filename().string() << ": " << simplified.report.faces_in << " faces, now "
-              << simplified.report.faces_out << " (" << name(simplified.report.stop) << ")\n";
-    return true;
+    const faqem::Report report = faqem::simplify(in, out, options, faqem::Overwrite::yes);
+    std::cout << in.filename().string() << ": " << report.faces_in << " faces, now " << report.faces_out
+              << " (" << name(report.stop) << ")\n";
+    return report.bytes_out > 0;
 } catch (const faqem::Error& error) {
     std::cout << in.filename().string() << ": skipped: " << error.what() << "\n";
     return false;

@@ -18,6 +18,7 @@ int main(int argc, char** argv) try {
     }
     const faqem::Asset source = faqem::load(argv[1]);
     faqem::Options options;
+    options.format = faqem::ModelFormat::glb;
     options.bake.texture_size = 512;
     const auto levels = faqem::simplify_parts_levels(
         source, {faqem::ratio(0.5), faqem::ratio(0.2), faqem::ratio(0.05)}, options);

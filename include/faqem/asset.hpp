@@ -150,6 +150,10 @@ struct Asset {
     std::vector<Material> materials;
     std::vector<Image> images;
     std::shared_ptr<const SourceDocument> source;  ///< null if the format has no scene graph
+    /// The format of the file that load() has read or, of a result, the one that it was made for (Options::format).
+    ModelFormat format = ModelFormat::automatic;
+    /// Size of the file that load() has read and of the files that it refers to, bytes; 0: there is none.
+    std::uint64_t file_bytes = 0;
     /// Geometry compression of a glTF file: of the file that was read, and of the one that save() writes.
     Compression compression = Compression::none;
     /// 0, or in [8, 16]: glTF files have integers instead of floats for normals and tangents of all parts, but with
@@ -189,7 +193,8 @@ enum class Overwrite { no, yes };
 /// All files are replaced, or none: they are written under temporary names and then renamed, while signals are
 /// held in the calling thread. If the process is killed meanwhile, load() rejects the files until the next
 /// save() to their directory completes or restores them (docs/assets.md, "Writing").
-/// \return what the format cannot store (e.g. colours in STL), one sentence each
+/// \return what the format cannot store (e.g. colours in STL), one sentence each, and if a result was made for another
+///     format (Asset::format)
 /// \throws WriteError  a file cannot be written, or it exists and `overwrite` is Overwrite::no
 /// \throws UnsupportedError  unknown file extension
 /// Complexity: O(size of the asset).

@@ -3,6 +3,7 @@
 /// Entry point for textured assets: simplification, and baking of the appearance into new textures.
 /// Needs only the standard library.
 
+#include <filesystem>
 #include <iosfwd>
 #include <vector>
 
@@ -77,7 +78,8 @@ FAQEM_EXPORT SimplifiedParts simplify_parts(const Asset& source, const Options& 
 
 /// Appearance stage: gives the simplified parts normals, UVs, materials and images. If Options::max_seconds, which
 /// counts from the start of the call, is over before new textures are complete, the parts have the images of the
-/// source and UVs that are read from it; the report has a warning.
+/// source and UVs that are read from it; the report has a warning. The rules about the size of results (docs/assets.md)
+/// are applied to the images; the faces stay. The report begins with the warnings of the source.
 /// \param source      the asset that `simplified` was made from
 /// \param simplified  result of simplify_parts() with the same options
 /// \param options     see Options::bake
@@ -87,12 +89,26 @@ FAQEM_EXPORT SimplifiedParts simplify_parts(const Asset& source, const Options& 
 /// \throws InputError  an image is damaged, or `simplified` does not match `source`
 /// \throws UnsupportedError  an image that is needed has a format that decode() does not support
 /// \throws TimeLimitError  max_seconds was over before the texture of a requested correspondence was complete
+/// \throws ByteLimitError  even the smallest images exceed Options::max_bytes
 FAQEM_EXPORT SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified,
                                   const Options& options);
 
-/// Simplifies an asset and bakes its appearance: simplify_parts(), then bake().
-/// Options::max_seconds holds for both together.
+/// Simplifies an asset and bakes its appearance: simplify_parts(), then bake(). Options::max_seconds holds for both
+/// together. With Options::max_bytes several results are made, see docs/assets.md, "Size of results".
 /// \throws OptionError, InputError, UnsupportedError, TimeLimitError  as both stages
+/// \throws ByteLimitError  no result has at most Options::max_bytes
 FAQEM_EXPORT SimplifiedAsset simplify(const Asset& source, const Options& options = {});
+
+/// Loads a model, simplifies it, and saves the result: load(), simplify() and save() within one Options::max_seconds.
+/// \param file       of the model
+/// \param out        file of the result; its extension determines Options::format
+/// \param options    as for simplify(const Asset&, const Options&)
+/// \param overwrite  whether existing files may be replaced
+/// \return the report, with the sizes of the files and the warnings of all steps. If the progress callback cancels,
+///         nothing is left of the model, or Options::max_error is exceeded, nothing is saved, and Report::bytes_out is 0
+/// \throws OptionError, InputError, UnsupportedError, TimeLimitError, ByteLimitError, WriteError  as the three steps; an
+///     InputError also if the model has no triangles
+FAQEM_EXPORT Report simplify(const std::filesystem::path& file, const std::filesystem::path& out,
+                             const Options& options = {}, Overwrite overwrite = Overwrite::no);
 
 }  // namespace faqem

@@ -53,6 +53,12 @@ public:
     using Error::Error;
 };
 
+/// No result has at most Options::max_bytes. Exit code 10 of the command.
+class FAQEM_EXCEPTION ByteLimitError : public Error {
+public:
+    using Error::Error;
+};
+
 /// A file could not be written. An existing file with the same name is unchanged. Exit code 7 of the command.
 class FAQEM_EXCEPTION WriteError : public Error {
 public:

@@ -38,6 +38,7 @@ typedef enum faqem_status FAQEM_ENUM {
     FAQEM_ERROR_UNSUPPORTED = 4, /**< the input is valid, but of a kind that this build does not support */
     FAQEM_ERROR_WRITE = 7,       /**< a file could not be written */
     FAQEM_ERROR_CANCELLED = 8,   /**< the progress callback returned nonzero */
+    FAQEM_ERROR_BYTE_LIMIT = 10, /**< no result has at most "max-bytes" */
     FAQEM_ERROR_NO_MEMORY = 11,
     FAQEM_ERROR_TIME_LIMIT = 12 /**< "max-seconds" was over before there was a result that the options allow */
 } faqem_status;

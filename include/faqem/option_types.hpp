@@ -139,6 +139,23 @@ enum class Mapping {
     closest,     ///< closest point of the original, regardless of side and surface patch; for comparison
 };
 
+/// Formats of the model files that save() writes. What a result cannot be stored with is not made for it: an atlas for PLY,
+/// colours for STL. See docs/assets.md, "Results for a format".
+enum class ModelFormat {
+    automatic,  ///< that of the file from which the source was loaded; `glb` if there is none or it is only read
+    glb,
+    gltf,
+    obj,
+    ply,
+    stl,
+};
+
+/// Whether the files of a textured result may be larger than those of its source; see docs/assets.md, "Size of results".
+enum class LargerFiles {
+    avoided,  ///< new images give something up until they are not
+    allowed,
+};
+
 /// Vertex normals of the result.
 enum class Normals {
     transfer,  ///< normals of the original at the mapped points

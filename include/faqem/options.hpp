@@ -64,7 +64,7 @@ struct QuantizeOptions {
     Quantize kind = Quantize::source;
     /// Positions are rounded to a grid that all meshes of a scene, and all levels of detail, have in common. Its
     /// spacing is the diagonal of the scene divided by 2 to this power, rounded up to a power of two. In [8, 16].
-    /// Unset: 14, or what a byte budget of the command chooses.
+    /// Unset: 14, or what Options::max_bytes chooses.
     std::optional<std::uint32_t> position_bits = {};
     std::uint32_t normal_bits =
         10;  ///< of the two octahedral coordinates of compressed normals and tangents; [8, 16]
@@ -88,7 +88,13 @@ struct Options {
     Preset preset = Preset::balanced;
     Weights weights = {};
     Topology topology = {};
-    Recording history = Recording::off;  ///< whether to record the collapse history; free if off
+    Recording history = Recording::off;           ///< whether to record the collapse history; free if off
+    ModelFormat format = ModelFormat::automatic;  ///< that the result of an asset will be saved in
+    LargerFiles larger = LargerFiles::avoided;    ///< for assets that were loaded from files
+    /// Maximum total size of the files of an asset result, bytes. Without a target, faces and images are chosen for the
+    /// best picture, otherwise images are reduced, and then faces; see docs/assets.md, "Size of results". max_error must
+    /// be unset.
+    std::optional<std::uint64_t> max_bytes = {};
     BakeOptions bake = {};
     Compression compress = Compression::source;  ///< of the glTF file that the result is saved to
     QuantizeOptions quantize = {};               ///< of the glTF file that the result is saved to

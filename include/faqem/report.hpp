@@ -123,7 +123,7 @@ struct ResultView {
     std::uint64_t bytes = 0;  ///< as stored, possibly compressed
 };
 
-/// A result that was made and compared with others of a byte budget. Set by the command.
+/// A result that was made and compared with others for Options::max_bytes.
 struct BudgetPoint {
     Bake kind = Bake::keep;  ///< `keep`: with the UVs of the source
     std::uint64_t faces = 0;
@@ -133,14 +133,14 @@ struct BudgetPoint {
     double psnr = 0;                             ///< of rendered pictures, dB
 };
 
-/// What a trial of a byte budget changes; the rest is as in the source.
+/// What a trial for Options::max_bytes changes; the rest is as in the source.
 enum class BudgetTrialKind {
     faces,
     positions,  ///< their bits
     images,
 };
 
-/// One trial of a byte budget, on all faces unless it is about them. Set by the command.
+/// One trial for Options::max_bytes, on all faces unless it is about them.
 struct BudgetTrial {
     BudgetTrialKind kind = BudgetTrialKind::faces;
     std::uint64_t faces = 0;
@@ -181,15 +181,15 @@ struct Report {
     std::vector<std::string> kept_uvs;
     std::vector<std::string> warnings;
     std::vector<ResultImage> images;  ///< of the result, in the order of Asset::images
-    /// Buffer views of a glTF file without those of images. Set by the command.
+    /// Buffer views of a glTF file without those of images. Set by simplify() of a file.
     std::vector<ResultView> buffer_views;
-    /// What the command gave up so that the result has no more bytes than the input, also in a warning.
+    /// What was given up so that the result has no more bytes than the input, also in a warning.
     std::vector<std::string> given_up;
-    /// For a byte budget without a face target: the results that were compared, in the order in which they were made.
+    /// For Options::max_bytes without a face target: the results that were compared, in the order in which they were made.
     std::vector<BudgetPoint> budget_points;
     std::vector<BudgetTrial> budget_trials;  ///< in the order in which they were made
-    /// Total size of the files of the model before and after, without those of history and correspondence. Set by
-    /// the command; 0: unknown.
+    /// Total size of the files of the model before and after, without those of history and correspondence; 0: unknown.
+    /// `bytes_out` is set by simplify() of a file.
     std::uint64_t bytes_in = 0, bytes_out = 0;
     PhaseSeconds seconds;
 };

@@ -4,6 +4,7 @@
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/pose.hpp"
 #include "asset/io/recovery.hpp"
+#include "asset/model_files.hpp"
 #include "asset/scene/rest_pose.hpp"
 #include "faqem/error.hpp"
 
@@ -12,6 +13,21 @@ namespace faqem {
 namespace fs = std::filesystem;
 using detail::FormatUse;
 
+namespace {
+
+// Warns of a result that was made for a format that can hold other things. Loaded assets have files, results have none.
+void add_format_warning(const Asset& result, const fs::path& file, std::vector<std::string>& warnings) {
+    if (result.format == ModelFormat::automatic || result.file_bytes > 0) return;
+    const detail::FileFormat& made_for = detail::result_format(result.format, result.format);
+    const detail::FileFormat* saved = detail::format_by_name(file);
+    if (saved == &made_for || (saved->is_gltf && made_for.is_gltf)) return;
+    warnings.push_back("the result was made for " + std::string(made_for.extension) +
+                       " files; with the option format for " + std::string(saved->extension) +
+                       " it would have what these can hold");
+}
+
+}  // namespace
+
 Asset load(const fs::path& file) {
     detail::check_completely_replaced(file);  // a file of the set may not exist yet
     std::error_code error;
@@ -19,7 +35,14 @@ Asset load(const fs::path& file) {
     if (!fs::exists(status)) throw ReadError(file.string(), "", "no such file");
     if (!fs::is_regular_file(status)) throw ReadError(file.string(), "", "is not a regular file");
     const detail::FileFormat* format = detail::format_of_file(file);
-    if (format && format->read) return format->read(file);
+    if (format && format->read) {
+        Asset asset = format->read(file);
+        asset.format = format->format;
+        std::vector<fs::path> files = detail::referenced_files(file, detail::References::readable);
+        files.push_back(file);
+        asset.file_bytes = detail::total_file_size(files);
+        return asset;
+    }
     throw UnsupportedError(
         file.string(), "",
         "has an unknown format; supported are " + listed_extensions(FormatUse::read, "and"));
@@ -27,6 +50,7 @@ Asset load(const fs::path& file) {
 
 std::vector<std::string> save(const Asset& asset, const fs::path& file, Overwrite overwrite) {
     detail::EncodedModel model = detail::encode_model(asset, file);
+    add_format_warning(asset, file, model.losses);
     detail::write_model(model, file.parent_path(), overwrite);
     return std::move(model.losses);
 }

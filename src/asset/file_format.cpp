@@ -28,6 +28,7 @@ bool is_ply(std::string_view head, std::string_view /*text*/) {
 
 const std::array<FileFormat, 6> formats = {{
     {.extension = ".glb",
+     .format = ModelFormat::glb,
      .has_signature = is_glb,
      .read = read_gltf,
      .encode = encode_gltf,
@@ -36,6 +37,7 @@ const std::array<FileFormat, 6> formats = {{
      .is_gltf = true,
      .min_bytes_per_face = 15},
     {.extension = ".gltf",
+     .format = ModelFormat::gltf,
      .has_signature = is_json,
      .read = read_gltf,
      .encode = encode_gltf,
@@ -46,6 +48,7 @@ const std::array<FileFormat, 6> formats = {{
      .is_gltf = true,
      .min_bytes_per_face = 15},
     {.extension = ".obj",
+     .format = ModelFormat::obj,
      .read = read_obj,
      .encode = encode_obj,
      .list_references = list_obj_references,
@@ -56,6 +59,7 @@ const std::array<FileFormat, 6> formats = {{
      .bare_bake = Bake::none,
      .keeps_plain_parts = true},
     {.extension = ".ply",
+     .format = ModelFormat::ply,
      .has_signature = is_ply,
      .read = read_ply,
      .encode = encode_ply,
@@ -65,6 +69,7 @@ const std::array<FileFormat, 6> formats = {{
      .bare_bake = Bake::none,
      .keeps_plain_parts = true},
     {.extension = ".stl",
+     .format = ModelFormat::stl,
      .read = read_stl,
      .encode = encode_stl,
      .min_bytes_per_face = 50,
@@ -114,6 +119,13 @@ EncodedModel encode_model(const Asset& asset, const fs::path& file) {
     throw UnsupportedError(
         file.string(), "",
         "cannot be written: the file name must end in " + listed_extensions(FormatUse::write));
+}
+
+const FileFormat& result_format(ModelFormat wanted, ModelFormat loaded) {
+    const ModelFormat known = wanted == ModelFormat::automatic ? loaded : wanted;
+    const auto found = std::find_if(formats.begin(), formats.end(),
+                                    [&](const FileFormat& format) { return format.format == known; });
+    return known == ModelFormat::automatic || found == formats.end() ? formats.front() : *found;
 }
 
 std::vector<std::string_view> format_extensions(FormatUse use) {

@@ -26,7 +26,8 @@ struct SideFile {
 
 /// A format of model files. Functions that the format does not have are null.
 struct FileFormat {
-    std::string_view extension;  ///< with its dot, in lower case
+    std::string_view extension;                   ///< with its dot, in lower case
+    ModelFormat format = ModelFormat::automatic;  ///< `automatic`: it is not written
     /// Whether a file is of the format, by its first bytes (64, or all it has) and the same without leading blanks.
     /// Null: the format has no signature.
     bool (*has_signature)(std::string_view head, std::string_view text) = nullptr;
@@ -73,6 +74,11 @@ FAQEM_EXPORT const FileFormat* format_by_name(const std::filesystem::path& file)
 /// are unknown.
 /// \param file  a regular file; one that cannot be read has the format of its name
 FAQEM_EXPORT const FileFormat* format_of_file(const std::filesystem::path& file);
+
+/// Returns the format that a result is made for. Lives as long as the program.
+/// \param wanted  Options::format
+/// \param loaded  Asset::format of the source
+FAQEM_EXPORT const FileFormat& result_format(ModelFormat wanted, ModelFormat loaded);
 
 /// Returns the extensions of the formats with a use, in the order of the table, with their dots.
 FAQEM_EXPORT std::vector<std::string_view> format_extensions(FormatUse use);

@@ -2,6 +2,7 @@
 /// \file
 /// The files that belong to a model: those that it refers to, and those that are written beside it.
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -20,6 +21,9 @@ namespace faqem::detail {
 ///               of OBJ; files outside the folder of the model
 FAQEM_EXPORT std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& model,
                                                                  References which);
+
+/// Returns the total size, in bytes, of the files that exist.
+FAQEM_EXPORT std::uint64_t total_file_size(const std::vector<std::filesystem::path>& files);
 
 /// Finds the files that exist and that save() may replace when it writes the models: buffers, libraries, and
 /// images of any number and extension. On a file system that ignores case, files whose names differ in case are

@@ -50,6 +50,8 @@ faqem_status status_of_exception(faqem_error* error) noexcept {
         return set_error(error, FAQEM_ERROR_INPUT, e.what());
     } catch (const WriteError& e) {
         return set_error(error, FAQEM_ERROR_WRITE, e.what());
+    } catch (const ByteLimitError& e) {
+        return set_error(error, FAQEM_ERROR_BYTE_LIMIT, e.what());
     } catch (const TimeLimitError& e) {
         return set_error(error, FAQEM_ERROR_TIME_LIMIT, e.what());
     } catch (const std::bad_alloc&) {

@@ -2,8 +2,6 @@
 
 #include <new>
 
-#include "cli/budget/byte_budget.hpp"
-
 namespace faqem::cli {
 
 ExitCode exit_code_of(const std::exception& error) {
@@ -11,7 +9,7 @@ ExitCode exit_code_of(const std::exception& error) {
     if (dynamic_cast<const UnsupportedError*>(&error)) return exit_unsupported;
     if (dynamic_cast<const InputError*>(&error)) return exit_bad_input;
     if (dynamic_cast<const WriteError*>(&error)) return exit_cannot_write;
-    if (dynamic_cast<const BudgetError*>(&error)) return exit_too_large;
+    if (dynamic_cast<const ByteLimitError*>(&error)) return exit_too_large;
     if (dynamic_cast<const TimeLimitError*>(&error)) return exit_time_limit;
     if (dynamic_cast<const MemoryError*>(&error) || dynamic_cast<const std::bad_alloc*>(&error))
         return exit_no_memory;

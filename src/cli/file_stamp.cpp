@@ -2,6 +2,8 @@
 
 #include <sys/stat.h>
 
+#include <cstdint>
+
 namespace faqem::cli {
 
 namespace fs = std::filesystem;
@@ -19,15 +21,6 @@ std::string modification_stamp(const std::vector<fs::path>& files) {
         }
     }
     return text;
-}
-
-std::uint64_t total_file_size(const std::vector<fs::path>& files) {
-    std::uint64_t sum = 0;
-    for (const fs::path& file : files) {
-        struct stat status = {};
-        if (::stat(file.c_str(), &status) == 0) sum += static_cast<std::uint64_t>(status.st_size);
-    }
-    return sum;
 }
 
 }  // namespace faqem::cli

@@ -88,6 +88,11 @@ std::string extension_of_format(const std::string& format) {
     throw OptionError("--format: unknown value '" + format + "' (known: " + format_names() + ")");
 }
 
+ModelFormat format_of_output(const fs::path& file) {
+    const detail::FileFormat* format = detail::format_by_name(file);
+    return format ? format->format : ModelFormat::automatic;
+}
+
 void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);

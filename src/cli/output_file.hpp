@@ -41,6 +41,9 @@ std::string default_format();
 /// \throws OptionError  --format has no such value
 std::string extension_of_format(const std::string& format);
 
+/// Returns Options::format for an output file; `automatic` if its extension is unknown.
+ModelFormat format_of_output(const std::filesystem::path& file);
+
 /// Creates a directory and its parents if they do not exist. \throws WriteError  this fails
 void make_folder(const std::filesystem::path& folder);
 

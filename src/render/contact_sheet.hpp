@@ -18,6 +18,6 @@ struct ContactSheetRow {
 /// Composes rows of frames from top to bottom on a grey background, with labels at the lower left of each
 /// row. The result is opaque sRGB.
 /// \pre at least one row with at least one frame; all rows have the same number of frames of the same size
-Pixels compose_contact_sheet(const std::vector<ContactSheetRow>& rows);
+FAQEM_EXPORT Pixels compose_contact_sheet(const std::vector<ContactSheetRow>& rows);
 
 }  // namespace faqem::render

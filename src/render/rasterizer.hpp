@@ -9,6 +9,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/engine/mesh/vector.hpp"
+#include "faqem/export.hpp"
 #include "render/texture.hpp"
 
 namespace faqem::render {
@@ -33,7 +34,7 @@ struct Scene {
 
 /// Transforms an asset to world space, in its pose at rest, and decodes its images. An image that cannot be decoded is
 /// drawn white, with a warning in Scene::warnings.
-Scene make_scene(Asset asset);
+FAQEM_EXPORT Scene make_scene(Asset asset);
 
 /// A perspective camera with a square field of view. `right`, `up` and `back` are orthonormal.
 struct Camera {

@@ -17,7 +17,8 @@ namespace faqem::render {
 /// \param file   path of the scene, for error messages
 /// \param views  number of cameras
 /// \throws InputError  if the scene has no triangles
-std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, std::uint32_t views);
+FAQEM_EXPORT std::vector<Camera> cameras_around(const Scene& scene, const std::string& file,
+                                                std::uint32_t views);
 
 /// Renders each scene as a row of a contact sheet, with one view per camera and the number of faces as label.
 /// The views are rendered in parallel.
@@ -26,10 +27,11 @@ std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, 
 /// \param size     width and height of a view in pixels
 /// \param shading  whether lights are used
 /// \param edges    whether edges are drawn
-std::vector<ContactSheetRow> draw_rows(const std::vector<Scene>& scenes, const std::vector<Camera>& cameras,
-                                       std::uint32_t size, Shading shading, Edges edges);
+FAQEM_EXPORT std::vector<ContactSheetRow> draw_rows(const std::vector<Scene>& scenes,
+                                                    const std::vector<Camera>& cameras, std::uint32_t size,
+                                                    Shading shading, Edges edges);
 
 /// Formats a number with thousands separators: `1,234,567`.
-std::string with_commas(std::uint64_t number);
+FAQEM_EXPORT std::string with_commas(std::uint64_t number);
 
 }  // namespace faqem::render

@@ -69,10 +69,10 @@ TEST_CASE("every member that affects the result changes the key of the options")
         change(options);
         return keys.insert(options_key(options)).second;
     };
-    for (std::size_t k = 0; k < 13; ++k) {
+    for (std::size_t k = 0; k < 16; ++k) {
         CHECK(changes_key([k](Options& o) {
             auto& [target, budget, visibility, max_error, max_seconds, preset, weights, topology, history,
-                   bake, compress, quantize, threads, progress] = o;
+                   format, larger, max_bytes, bake, compress, quantize, threads, progress] = o;
             if (k == 0) target = ratio(0.1);
             if (k == 1) target = faces(1);
             if (k == 2) budget = Budget::mesh;
@@ -82,6 +82,9 @@ TEST_CASE("every member that affects the result changes the key of the options")
             if (k == 6) history = Recording::on;
             if (k == 7) max_seconds = 60;
             if (k == 8) compress = Compression::meshopt;
+            if (k == 13) format = ModelFormat::obj;
+            if (k == 14) larger = LargerFiles::allowed;
+            if (k == 15) max_bytes = 1000;
             auto& [kind, position_bits, normal_bits, uv_bits] = quantize;
             if (k == 9) kind = Quantize::on;
             if (k == 10) position_bits = 16;

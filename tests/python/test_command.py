@@ -35,7 +35,7 @@ class Command(unittest.TestCase):
             (faqem.InputError, "missing.glb", ("info", "missing.glb")),
             (faqem.UnsupportedError, "a.xyz", ("info", self.folder / "a.xyz")),
             (faqem.WriteError, "b.ply", ("simplify", self.file, out)),
-            (faqem.Error, "max-bytes", ("simplify", self.file, self.folder / "c.ply", "--max-bytes", "1")),
+            (faqem.ByteLimitError, "max_bytes", ("simplify", self.file, self.folder / "c.ply", "--max-bytes", "1")),
         ):
             with self.subTest(arguments=arguments), self.assertRaisesRegex(kind, message):
                 faqem.command(*arguments)

@@ -44,6 +44,33 @@ class Models(unittest.TestCase):
         faqem.save(simplified, self.folder / "simplified.glb")
         self.assertEqual(len(faqem.load(self.folder / "simplified.glb").parts), 1)
 
+    def test_results_have_the_bytes_of_the_command(self):
+        source = self.folder / "source.glb"
+        baked = faqem.bake(faqem.load(self.coloured()), bake="atlas", format="glb", texture_size=64, ratio=1.0)
+        faqem.save(baked, source)
+        for extension in ("glb", "gltf", "obj", "ply", "stl"):
+            for limit in (None, 9000):
+                folders = [self.folder / f"{extension}{limit}{by}" for by in ("command", "python")]
+                for folder in folders:
+                    folder.mkdir()
+                options = [] if limit is None else ["--max-bytes", str(limit)]
+                faqem.command("simplify", source, folders[0] / f"out.{extension}", *options)
+                result = faqem.bake(faqem.load(source), format=extension, max_bytes=limit)
+                faqem.save(result, folders[1] / f"out.{extension}")
+                files = [{file.name: file.read_bytes() for file in folder.iterdir()} for folder in folders]
+                self.assertEqual(files[0], files[1])
+                self.assertEqual(result.report["bytes_in"], source.stat().st_size)
+        with self.assertRaisesRegex(faqem.ByteLimitError, "max_bytes allows 100"):
+            faqem.bake(faqem.load(source), max_bytes="100B")
+
+    def test_results_are_made_for_the_format_of_the_source(self):
+        source = faqem.load(self.coloured())
+        faqem.save(source, self.folder / "source.ply")
+        result = faqem.bake(faqem.load(self.folder / "source.ply"), ratio=0.5)
+        self.assertEqual(result.images, [])
+        faqem.save(result, self.folder / "result.obj")
+        self.assertIn("was made for .ply files", result.warnings[-1])
+
     def test_levels_have_separate_or_shared_textures(self):
         source = faqem.load(self.coloured())
         self.assertIsNone(source.error)
@@ -141,7 +168,7 @@ class Models(unittest.TestCase):
             faqem.bake(model, texture_size=100)
         for kind, also in ((faqem.OptionError, ValueError), (faqem.InputError, ValueError), (faqem.ReadError, OSError),
                            (faqem.UnsupportedError, ValueError), (faqem.WriteError, OSError),
-                           (faqem.TimeLimitError, TimeoutError), (faqem.InternalError, Exception)):
+                           (faqem.ByteLimitError, ValueError), (faqem.TimeLimitError, TimeoutError), (faqem.InternalError, Exception)):
             self.assertTrue(issubclass(kind, faqem.Error) and issubclass(kind, also))
 
     def test_a_misspelt_keyword_names_the_right_one(self):

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/budget/picture_error.hpp"
+#include "result/picture_error.hpp"
 #include "support/cli_support.hpp"
 
 namespace tool_test {
@@ -29,8 +29,8 @@ inline faqem::Asset painted_sheet(faqem::Index n) {
 
 /// PSNR of the pictures of a result, beside those of `in.glb` in the same folder, dB.
 inline double psnr_of(const Folder& folder, const std::string& file) {
-    const faqem::cli::PictureMeter meter(faqem::load(folder / "in.glb"), 0);
-    return faqem::cli::picture_psnr(meter(faqem::load(folder / file)));
+    const faqem::detail::PictureMeter meter(faqem::load(folder / "in.glb"), 0);
+    return faqem::detail::picture_psnr(meter(faqem::load(folder / file)));
 }
 
 }  // namespace tool_test

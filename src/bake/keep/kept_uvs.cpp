@@ -231,10 +231,7 @@ void keep_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<
     for (const Index p : which) {
         if (parts[p].is_kept) continue;
         const std::string title = part_title(source, p);
-        remove_part_report(report, simplified.parts[p].report, title);
-        const PhaseSeconds seconds = report.seconds;  // has those of both runs already
-        add_part_report(report, simplified.kept[p].report, title);
-        report.seconds = seconds;
+        replace_part_report(report, simplified.parts[p].report, simplified.kept[p].report, title);
         report.kept_uvs.push_back(title);
         parts[p].simplified = &simplified.kept[p];
         parts[p].map.reset();

@@ -45,4 +45,13 @@ void remove_part_report(Report& sum, const Report& part, const std::string& titl
     }
 }
 
+void replace_part_report(Report& sum, const Report& before, const Report& part, const std::string& title) {
+    const PhaseSeconds seconds = sum.seconds;
+    const std::uint64_t target = sum.target_faces;
+    remove_part_report(sum, before, title);
+    add_part_report(sum, part, title);
+    sum.seconds = seconds;
+    sum.target_faces = target;
+}
+
 }  // namespace faqem::detail

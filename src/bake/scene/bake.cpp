@@ -19,14 +19,13 @@
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/simplify/check_asset.hpp"
 #include "bake/simplify/position_grids.hpp"
+#include "bake/simplify/resolved_options.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
 
-namespace faqem {
-
-namespace detail {
+namespace faqem::detail {
 
 namespace {
 
@@ -184,6 +183,7 @@ UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified,
     UnencodedResult out;
     Report& report = out.asset.report = simplified.report;
     out.asset.asset.source = source.source;
+    out.asset.asset.format = options.format;
     out.asset.asset.warnings = source.warnings;
     if (report.stop == StopReason::cancelled) return out;
     const Stopwatch watch;
@@ -207,12 +207,12 @@ UnencodedResult bake_unencoded(const Asset& given, const SimplifiedParts& simpli
     check_asset(given);
     const std::optional<FinestLevel> finest = finest_level(given);
     const Asset& source = finest ? finest->asset : given;
-    const Options options = bakeable_options(source, requested);
+    const Options options = resolved_options(source, requested);
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
         throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
     }
     return run_bake(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
-        if (options.bake.kind != requested.bake.kind)
+        if (options.bake.kind == Bake::keep && requested.bake.kind != Bake::keep)
             out.asset.report.warnings.push_back(
                 "images of KTX2 or AVIF cannot be baked: the UVs and images of the source are kept");
         bake_parts(source, simplified, options.bake, progress, out);
@@ -225,34 +225,18 @@ UnencodedResult bake_with_uvs(const Asset& given, const SimplifiedParts& simplif
     check_asset(given);
     const std::optional<FinestLevel> finest = finest_level(given);
     const Asset& source = finest ? finest->asset : given;
-    Options options = requested;
+    Options options = resolved_options(source, requested);
     options.bake.kind = Bake::keep;
     return run_bake(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
         keep_all_parts(source, simplified, options.bake, progress, out);
     });
 }
 
-}  // namespace detail
-
-SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
-    const detail::Deadline deadline = detail::deadline_of(options);
-    detail::UnencodedResult result = detail::bake_unencoded(source, simplified, options);
-    detail::encode_images(result, detail::with_time_left(options, deadline));
-    detail::add_histories(simplified, options, result.asset);
+SimplifiedAsset bake_encoded(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
+    const Deadline deadline = deadline_of(options);
+    UnencodedResult result = bake_unencoded(source, simplified, options);
+    encode_images(result, with_time_left(options, deadline));
     return std::move(result.asset);
 }
 
-SimplifiedAsset simplify(const Asset& source, const Options& options) {
-    const detail::Deadline deadline = detail::deadline_of(options);
-    SimplifiedParts simplified = simplify_parts(source, options);
-    detail::UnencodedResult result =
-        detail::bake_unencoded(source, simplified, detail::with_time_left(options, deadline));
-    detail::encode_images(result, detail::with_time_left(options, deadline));
-    if (options.history == Recording::on) {
-        for (SimplifyResult& part : simplified.parts)
-            result.asset.histories.push_back(std::move(part.history));
-    }
-    return std::move(result.asset);
-}
-
-}  // namespace faqem
+}  // namespace faqem::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bake/scene/unencoded_result.hpp"
 #include "bake/simplify/simplify_parts.hpp"
 #include "bake/simplify/step_progress.hpp"
 #include "faqem/error.hpp"
@@ -70,6 +71,8 @@ void check_shared_texture(const Options& options) {
         throw OptionError(
             "shared textures: weld must not be none, since the seams of the new atlas would become "
             "boundaries");
+    if (options.max_bytes)
+        throw OptionError("shared textures: max_bytes must be unset, since all levels have the same images");
     if (options.topology.group_boundaries == GroupBoundaries::kept)
         throw OptionError(
             "shared textures: group boundaries cannot be kept, since the new atlas may merge materials");
@@ -96,8 +99,8 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
     const SimplifiedPartsLevel& finest = made.front();
     std::vector<SimplifiedAssetLevel> out;
     out.reserve(level_targets.size());  // `baked` is a reference to the first element
-    out.push_back(
-        {bake(source, finest.result, finest_level_options(baking(0))), finest.distance, finest.error});
+    out.push_back({bake_encoded(source, finest.result, finest_level_options(baking(0))), finest.distance,
+                   finest.error});
     const SimplifiedAsset& baked = out.front().result;
     if (baked.report.stop == StopReason::cancelled || level_targets.size() == 1) return out;
 
@@ -114,7 +117,7 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
     keep_only_cancelled(others);
     for (SimplifiedPartsLevel& level : others) {
         const SimplifiedParts simplified = std::move(level.result);
-        out.push_back({bake(baked.asset, simplified, other_level_options(baking(out.size() + 1))),
+        out.push_back({bake_encoded(baked.asset, simplified, other_level_options(baking(out.size() + 1))),
                        level.distance, std::max(level.error, finest.error)});
         if (out.back().result.report.stop == StopReason::cancelled) break;
     }

@@ -4,47 +4,47 @@
 
 #include "bake/texture/pending_images.hpp"
 #include "faqem/bake.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
 /// bake() without the encoding of images. \throws as bake()
-FAQEM_EXPORT UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
-                                            const Options& options);
+UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
+                               const Options& options);
+
+/// bake() without the rules about the size of results and without histories. \throws as bake()
+SimplifiedAsset bake_encoded(const Asset& source, const SimplifiedParts& simplified, const Options& options);
 
 /// bake() of parts that were simplified with Bake::keep. All keep their UVs and, other than in bake_unencoded(), their
 /// images are pending, unless BakeOptions::image_format is ImageFormat::source. No part is untouched
 /// (BakeOptions::untouched), and all have FileOrder::for_gpu. The result has all materials and
 /// images of the source, with the same indices.
 /// \throws as bake()
-FAQEM_EXPORT UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simplified,
-                                           const Options& options);
+UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simplified, const Options& options);
 
 /// Encodes the pending images, which stay pending, and reports all images. Does nothing for a cancelled result.
 /// \param options  those of BakeOptions that are about the encoding, the threads, the progress callback, and
 ///     max_seconds, which counts from the call: if it is over, images that ImageFormat::automatic is about get
 ///     the format of the source
-FAQEM_EXPORT void encode_images(UnencodedResult& result, const Options& options);
+void encode_images(UnencodedResult& result, const Options& options);
 
 /// Halves pending images that have a side of more than `side` texels, as long as their sides are even. Images that are
 /// shown without filter keep their resolution.
 /// \return whether an image was halved
 /// Complexity: O(texels).
-FAQEM_EXPORT bool limit_image_sides(UnencodedResult& result, std::uint32_t side);
+bool limit_image_sides(UnencodedResult& result, std::uint32_t side);
 
 /// Removes the materials that neither a face nor a variant of a part has, and the images that no material has.
 /// Complexity: O(faces + variants * materials + images).
-FAQEM_EXPORT void remove_unused_materials(UnencodedResult& result);
+void remove_unused_materials(UnencodedResult& result);
 
 /// Removes the normal maps of materials without one in the source, and the tangents for them.
 /// \return whether there were any
-FAQEM_EXPORT bool remove_new_normal_maps(UnencodedResult& result);
+bool remove_new_normal_maps(UnencodedResult& result);
 
 /// Copies the histories of the parts to the result, if Options::history is on.
-FAQEM_EXPORT void add_histories(const SimplifiedParts& simplified, const Options& options,
-                                SimplifiedAsset& result);
+void add_histories(const SimplifiedParts& simplified, const Options& options, SimplifiedAsset& result);
 
 /// Makes the result that of a run whose progress callback has cancelled.
-FAQEM_EXPORT void set_cancelled(SimplifiedAsset& result);
+void set_cancelled(SimplifiedAsset& result);
 
 }  // namespace faqem::detail

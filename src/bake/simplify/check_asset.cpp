@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "faqem/error.hpp"
 
@@ -119,14 +118,6 @@ void check_material(const Asset& asset, Index material) {
 void check_asset(const Asset& asset) {
     for (std::size_t p = 0; p < asset.parts.size(); ++p) PartChecker(asset, p)();
     for (Index m = 0; m < asset.materials.size(); ++m) check_material(asset, m);
-}
-
-Options bakeable_options(const Asset& asset, const Options& options) {
-    Options own = options;
-    const bool is_baked = makes_atlas(options.bake.kind) || options.bake.kind == Bake::vertex;
-    if (is_baked && std::any_of(asset.images.begin(), asset.images.end(), is_passed_through))
-        own.bake.kind = Bake::keep;
-    return own;
 }
 
 }  // namespace faqem::detail

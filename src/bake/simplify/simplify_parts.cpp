@@ -15,6 +15,7 @@
 #include "bake/simplify/moving_vertices.hpp"
 #include "bake/simplify/parts_error_bound_search.hpp"
 #include "bake/simplify/removed_components.hpp"
+#include "bake/simplify/resolved_options.hpp"
 #include "bake/simplify/scene_size.hpp"
 #include "bake/simplify/simplify_parts.hpp"
 #include "bake/simplify/step_progress.hpp"
@@ -346,7 +347,7 @@ std::vector<SimplifiedParts> detail::simplify_parts_in_steps(const Asset& source
                                                              const Options& requested) {
     validate(requested);
     check_asset(source);
-    const Options options = bakeable_options(source, requested);
+    const Options options = resolved_options(source, requested);
     const Deadline deadline = deadline_of(options);
     const WeldedSource welded(source, options);
     const Options own = with_time_left(options, deadline);
@@ -358,7 +359,7 @@ std::vector<SimplifiedParts> detail::simplify_parts_in_steps(const Asset& source
 SimplifiedParts simplify_parts(const Asset& source, const Options& requested) {
     validate(requested);
     detail::check_asset(source);
-    const Options options = detail::bakeable_options(source, requested);
+    const Options options = detail::resolved_options(source, requested);
     const detail::Deadline deadline = detail::deadline_of(options);
     const detail::WeldedSource welded(source, options);
     const Options own = detail::with_time_left(options, deadline);

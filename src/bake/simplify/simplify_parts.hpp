@@ -8,7 +8,6 @@
 
 #include "faqem/bake.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -39,8 +38,8 @@ SimplifiedParts simplify_welded_parts(const Asset& source, const Options& option
 /// \return one result per target; a single one with StopReason::cancelled if the progress callback cancels
 /// \throws whatever simplify_parts() throws
 /// Complexity: that of one call of simplify_parts(), and O(faces) for each target.
-FAQEM_EXPORT std::vector<SimplifiedParts> simplify_parts_in_steps(const Asset& source,
-                                                                  std::span<const std::uint64_t> targets,
-                                                                  const Options& requested);
+std::vector<SimplifiedParts> simplify_parts_in_steps(const Asset& source,
+                                                     std::span<const std::uint64_t> targets,
+                                                     const Options& requested);
 
 }  // namespace faqem::detail

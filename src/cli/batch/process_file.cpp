@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "asset/model_files.hpp"
-#include "cli/budget/best_picture.hpp"
 #include "cli/file_stamp.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/json.hpp"
@@ -19,10 +18,9 @@
 #include "cli/memory/memory_limit.hpp"
 #include "cli/output_file.hpp"
 #include "cli/simplify_model.hpp"
-#include "faqem/bake.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
+#include "result/simplify_file.hpp"
 
 namespace faqem::cli {
 
@@ -71,33 +69,23 @@ Result cancelled_result() { return {exit_cancelled, "cancelled", "cancelled", 0,
 /// \param overwrite  set to yes when the result is about to be written
 Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchEntry entry,
                          Overwrite& overwrite) {
-    const detail::Deadline deadline = detail::deadline_of(work.options);
-    Asset source = load_model(file.in, work.strictness);
-    Options options = detail::with_time_left(work.options, deadline);
-    const SizeRule rule = {file.out, input_bytes(file.in),
-                           larger_result(work.options.bake, work.allow_larger)};
-    options.bake = resolve_automatic_bake(options.bake, source, file.out);
-    options.quantize = resolve_quantize(options.quantize, file.out);
-    const std::optional<ByteBudget> budget =
-        work.max_bytes ? std::optional(ByteBudget{*work.max_bytes, file.out}) : std::nullopt;
-    SimplifiedAsset simplified = simplify_model(source, file.in, options, rule, budget);
+    SimplifiedAsset simplified = detail::simplify_file(file.in, work.options, [&](const Asset& source) {
+        check_strictness(source, file.in, work.strictness);
+    });
     const Report& report = simplified.report;
     if (report.stop == StopReason::cancelled) return cancelled_result();
-    Result result = {exit_ok, "done", "", report.faces_in, report.faces_out, source.warnings};
-    result.warnings.insert(result.warnings.end(), report.warnings.begin(), report.warnings.end());
+    Result result = {exit_ok, "done", "", report.faces_in, report.faces_out, report.warnings};
     result.code = rejection_code(report, work.strict_target);
     if (result.code != exit_ok) {
         result.status = "failed";
         result.message = rejection_message(result.code, file.in, file.out, report);
         return result;
     }
-    source = {};
     entry.faces_in = report.faces_in;
     entry.faces_out = report.faces_out;
     work.record.add(file.out_name, entry);
-    const std::vector<std::string> save_warnings =
-        save(simplified.asset, file.out, std::exchange(overwrite, Overwrite::yes));
-    result.warnings.insert(result.warnings.end(), save_warnings.begin(), save_warnings.end());
+    detail::save_result(simplified, file.out, std::exchange(overwrite, Overwrite::yes));
+    result.warnings = report.warnings;
     entry.result = modification_stamp({file.out});
     work.record.add(file.out_name, entry);
     return result;
@@ -136,9 +124,9 @@ Result try_process(const BatchFile& file, const BatchContext& work, Sharing shar
     require_memory(file.in, loading, process_limit);
     std::optional<MemoryReservation> reservation;
     if (sharing == Sharing::allowed) {
-        reservation.emplace(work.memory,
-                            loading + estimated_work_memory(file.in, total_file_size(inputs), work.options,
-                                                            picture_search(work.options, work.max_bytes)));
+        reservation.emplace(
+            work.memory,
+            loading + estimated_work_memory(file.in, detail::total_file_size(inputs), work.options));
         if (is_interrupted()) return cancelled_result();
     }
     watch = {};

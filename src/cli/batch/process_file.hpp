@@ -3,7 +3,6 @@
 /// Processing of one model of a batch.
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "cli/batch/memory_semaphore.hpp"
@@ -12,6 +11,7 @@
 #include "cli/exit_code.hpp"
 #include "cli/simplify_model.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/options.hpp"
 
 namespace faqem::cli {
 
@@ -20,9 +20,7 @@ struct BatchContext {
     Options options;
     std::string options_key;  ///< everything except the input files that results depend on
     Strictness strictness = Strictness::lenient;
-    std::optional<std::uint64_t> max_bytes;  ///< of the files of one model
     bool strict_target = false;
-    bool allow_larger = false;
     bool resume = false;
     Overwrite overwrite = Overwrite::no;
     BatchRecord& record;

@@ -3,7 +3,6 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +29,7 @@ struct BatchArguments : SimplifyArguments {
     std::string in, out, format = default_format();
     std::uint32_t jobs = 0;
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
-    std::optional<std::uint64_t> max_bytes;
-    bool resume = false, allow_larger = false, force = false;
+    bool resume = false, force = false;
 };
 
 /// Checks before the first model that no result, with the files beside it, is an input of the batch or belongs
@@ -49,6 +47,7 @@ void check_outputs_unprotected(const std::vector<BatchFile>& files, const std::s
 int run(const BatchArguments& arguments) {
     Options options = make_options(arguments.options);
     const std::string extension = extension_of_format(arguments.format);
+    options.format = format_of_output("model" + extension);
     const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, extension);
     check_outputs_unprotected(files, arguments.out);
     make_folder(arguments.out);
@@ -67,15 +66,11 @@ int run(const BatchArguments& arguments) {
     options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
     const std::string key = std::string(version()) + " " + extension + " " + detail::options_key(options) +
                             (arguments.strict ? " strict" : "") +
-                            (arguments.strict_target ? " strict-target" : "") +
-                            (arguments.allow_larger ? " allow-larger" : "") +
-                            (arguments.max_bytes ? " max-bytes " + std::to_string(*arguments.max_bytes) : "");
+                            (arguments.strict_target ? " strict-target" : "");
     const BatchContext work = {options,
                                key,
                                arguments.strictness(),
-                               arguments.max_bytes,
                                arguments.strict_target,
-                               arguments.allow_larger,
                                arguments.resume,
                                arguments.force ? Overwrite::yes : Overwrite::no,
                                record,
@@ -109,13 +104,8 @@ CommandInfo batch_command() {
     command.positionals = {
         positional("DIR", arguments->in, "Directory of the models; subdirectories are included"),
         positional("OUTDIR", arguments->out, "Directory for the results; created if necessary")};
-    OptionInfo max_bytes = size_option(
-        "--max-bytes", arguments->max_bytes,
-        "Maximum total size of the files of each model, as 2MB or 500KB; without a face count, faces "
-        "and images are chosen for the best picture, otherwise reduced until they fit");
-    max_bytes.excludes = {"--max-error"};
     command.options = {
-        format_option(arguments->format), max_bytes,
+        format_option(arguments->format),
         number_option("--jobs", "N", arguments->jobs, {.max = 1024},
                       "Models at a time; 0: the number of threads (default)"),
         size_option("--max-memory", arguments->max_memory,
@@ -129,9 +119,8 @@ CommandInfo batch_command() {
             option.description = "Maximum number of threads per model; 0: all, divided by the jobs (default)";
     }
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
-    add_options(command.options,
-                {allow_larger_option(arguments->allow_larger), profile_option(), builtin_profile_option(),
-                 flag_option("--force", arguments->force, "Overwrite existing files")});
+    add_options(command.options, {profile_option(), builtin_profile_option(),
+                                  flag_option("--force", arguments->force, "Overwrite existing files")});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -9,14 +9,11 @@
 #include "asset/file_format.hpp"
 #include "bake/simplify/level_coverage.hpp"
 #include "bake/simplify/scene_size.hpp"
-#include "bake/simplify/step_progress.hpp"
-#include "cli/budget/level_budget.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/lod_level.hpp"
 #include "cli/commands/lod_manifest.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/no_larger.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/builtin_profiles.hpp"
 #include "cli/options/profile.hpp"
@@ -29,6 +26,8 @@
 #include "faqem/error.hpp"
 #include "faqem/save_levels.hpp"
 #include "faqem/truncate.hpp"
+#include "result/simplify_file.hpp"
+#include "result/simplify_levels.hpp"
 
 namespace faqem::cli {
 
@@ -40,8 +39,7 @@ struct LodArguments : SimplifyArguments {
     std::string in, out, history, format = default_format(), textures = "each";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     ViewSettings view_settings;
-    std::optional<std::uint64_t> max_bytes;  ///< of the files of each level
-    bool without_original = false, one_file = false, allow_larger = false, force = false, quiet = false;
+    bool without_original = false, one_file = false, force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
     LevelTextures level_textures() const {
@@ -85,8 +83,8 @@ void check_shared_textures(const LodArguments& a, const Options& options) {
 }
 
 /// Checks the options of --max-bytes.
-void check_budget(const LodArguments& a) {
-    if (!a.max_bytes) return;
+void check_max_bytes(const LodArguments& a, const Options& options) {
+    if (!options.max_bytes) return;
     if (a.level_textures() == LevelTextures::shared)
         throw OptionError(
             "--max-bytes: cannot be used with --textures shared, where levels have the same images");
@@ -143,12 +141,7 @@ class LodWriter {
 public:
     LodWriter(const LodArguments& arguments, const Outputs& outputs, const Asset& source,
               const std::vector<Level>& levels, const Options& options)
-        : arguments_(arguments),
-          outputs_(outputs),
-          source_(source),
-          levels_(levels),
-          options_(options),
-          larger_(larger_result(options.bake, arguments.allow_larger)) {}
+        : arguments_(arguments), outputs_(outputs), source_(source), levels_(levels), options_(options) {}
 
     ExitCode operator()() {
         size_ = detail::scene_size(source_);
@@ -182,7 +175,7 @@ public:
 private:
     /// Bakes and writes one level at a time, so that only the images of one level are in memory.
     ExitCode write_with_separate_textures() {
-        std::vector<SimplifiedPartsLevel> levels = with_file_in_errors(
+        std::vector<SimplifiedPartsLevel> levels = detail::with_file_in_errors(
             arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
         const ExitCode rejection = check_reports(levels);
         if (rejection != exit_ok) return rejection;
@@ -192,35 +185,26 @@ private:
             write_histories(arguments_, levels);
         }
         write_original();
-        const SizeRule rule = {outputs_.models[0], input_bytes(arguments_.in), larger_};
-        for (SimplifiedPartsLevel& level : levels) {
-            const auto before = static_cast<double>(&level - levels.data()),
-                       count = static_cast<double>(levels.size());
-            const Options step =
-                detail::step_options(options_, Phase::bake, before / count, (before + 1) / count);
-            SimplifiedAsset simplified = with_file_in_errors(arguments_.in, [&] {
-                return arguments_.max_bytes ? baked_within_bytes(level.result, step)
-                                            : bake_no_larger(source_, level.result, step, rule);
-            });
-            level.result = {};
-            if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return exit_cancelled;
-            write_level(std::move(simplified), level.distance, level.error);
-        }
-        return exit_ok;
+        return detail::with_file_in_errors(arguments_.in, [&] { return bake_levels(std::move(levels)); });
     }
 
-    /// \throws BudgetError  names the file of the level
-    SimplifiedAsset baked_within_bytes(const SimplifiedParts& parts, const Options& step) {
-        const fs::path& file = outputs_.models[written_.size()];
-        try {
-            return bake_within_bytes(source_, parts, step, {*arguments_.max_bytes, file});
-        } catch (const BudgetError& error) {
-            throw BudgetError(file.string() + ": " + error.what());
-        }
+    ExitCode bake_levels(std::vector<SimplifiedPartsLevel> levels) try {
+        ExitCode code = exit_ok;
+        detail::bake_levels(source_, std::move(levels), options_, [&](SimplifiedAssetLevel level) {
+            if (is_interrupted() || level.result.report.stop == StopReason::cancelled) {
+                code = exit_cancelled;
+                return Continue::cancel;
+            }
+            write_level(std::move(level.result), level.distance, level.error);
+            return Continue::yes;
+        });
+        return code;
+    } catch (const ByteLimitError& error) {
+        throw ByteLimitError(outputs_.models[written_.size()].string() + ": " + error.what());
     }
 
     ExitCode write_with_shared_texture() {
-        std::vector<SimplifiedAssetLevel> levels = with_file_in_errors(arguments_.in, [&] {
+        std::vector<SimplifiedAssetLevel> levels = detail::with_file_in_errors(arguments_.in, [&] {
             return simplify_levels(source_, levels_, options_, LevelTextures::shared);
         });
         const ExitCode rejection = check_reports(levels);
@@ -289,7 +273,6 @@ private:
     const Asset& source_;
     const std::vector<Level>& levels_;
     const Options& options_;
-    LargerResult larger_;  // of the options as they were given
     std::vector<Report> reports_;
     std::vector<std::string> warnings_;
     std::vector<WrittenLevel> written_;
@@ -304,8 +287,9 @@ int run(const LodArguments& arguments) {
     for (const std::string& text : arguments.levels)
         levels.push_back(parse_lod_level(text, arguments.view_settings));
     check_shared_textures(arguments, options);
-    check_budget(arguments);
+    check_max_bytes(arguments, options);
     const Outputs outputs(arguments);
+    options.format = format_of_output(outputs.models[0]);
     prepare_outputs(arguments, outputs);
     install_signal_handlers();
     Asset source;
@@ -319,8 +303,6 @@ int run(const LodArguments& arguments) {
         };
         bar.show(Phase::load, 0);
         source = load_model(arguments.in, arguments.strictness());
-        options.bake = resolve_automatic_bake(options.bake, source, outputs.models[0]);
-        options.quantize = resolve_quantize(options.quantize, outputs.models[0]);
         code = writer();
     }
     if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";
@@ -345,10 +327,6 @@ std::vector<OptionInfo> chain_options(LodArguments& a) {
                     "New textures: each (one for every level; default), shared (one for all levels, baked "
                     "for the finest)"),
         format_option(a.format),
-        size_option(
-            "--max-bytes", a.max_bytes,
-            "Maximum total size of the files of each level but the original, as 2MB or 500KB; images get "
-            "the sizes and qualities of the best picture"),
         text_option("--history", "FILE", a.history,
                     "Write the collapse history of all levels to this file, for faqem truncate"),
         number_option("--pixel-error", "N", a.view_settings.pixel_error, above_zero,
@@ -375,7 +353,7 @@ CommandInfo lod_command() {
     add_options(command.options, table_options(detail::in_lod, arguments->options));
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
     add_options(command.options,
-                {allow_larger_option(arguments->allow_larger), profile_option(), builtin_profile_option(),
+                {profile_option(), builtin_profile_option(),
                  flag_option("--force", arguments->force, "Overwrite existing files"),
                  flag_option("--quiet", arguments->quiet, "Print no summary and no progress bar")});
     command.run = [arguments] { return run(*arguments); };

@@ -4,10 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "asset/model_files.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/file_stamp.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/output_file.hpp"
@@ -39,10 +37,7 @@ struct ReportArguments {
 };
 
 ReportedModel describe_model(const FlattenedModel& model, const MeshInfo& info) {
-    std::vector<std::filesystem::path> files =
-        detail::referenced_files(model.file, detail::References::readable);
-    files.emplace_back(model.file);
-    return {model.file, total_file_size(files), info, model.asset.materials.size(),
+    return {model.file, model.asset.file_bytes, info, model.asset.materials.size(),
             model.asset.images.size()};
 }
 

@@ -6,14 +6,11 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "asset/file_format.hpp"
-#include "asset/model_files.hpp"
-#include "cli/budget/best_picture.hpp"
-#include "cli/budget/byte_budget.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
-#include "cli/file_stamp.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory/machine_memory.hpp"
 #include "cli/memory/memory_estimate.hpp"
@@ -29,23 +26,21 @@
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report_json.hpp"
+#include "result/simplify_file.hpp"
 
 namespace faqem::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
 using detail::Stopwatch;
 
 /// The parsed command line.
 struct SimplifyCommandArguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
-    std::optional<std::uint64_t> max_bytes;
     std::uint64_t max_memory = 0;  ///< bytes; 0: machine_memory()
-    bool allow_larger = false, force = false, quiet = false;
+    bool force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
 };
@@ -131,14 +126,6 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
     std::cout << out.str();
 }
 
-Asset load_input(const SimplifyCommandArguments& arguments, PhaseSeconds& seconds) {
-    const ExitOnInterrupt exit_on_interrupt;
-    const Stopwatch watch;
-    Asset asset = load_model(arguments.in, arguments.strictness());
-    seconds.load = watch.seconds();
-    return asset;
-}
-
 int cancelled() {
     std::cerr << "faqem: cancelled\n";
     return exit_cancelled;
@@ -147,30 +134,32 @@ int cancelled() {
 /// Adds the model, the history and the correspondence to the set of files. The model is first: save() rejects
 /// names of images that would overwrite files of the input. The report is added later, because it has the
 /// time that saving took.
-void save_result(const SimplifyCommandArguments& arguments, SimplifiedAsset& simplified,
-                 detail::FileSet& set) {
+void save_files(const SimplifyCommandArguments& arguments, SimplifiedAsset& simplified,
+                detail::FileSet& set) {
     const ExitOnInterrupt exit_on_interrupt;
     const detail::CollectWrites collect(set);
-    const Stopwatch watch;
-    const detail::EncodedModel model = detail::encode_model(simplified.asset, arguments.out);
-    detail::write_model(model, fs::path(arguments.out).parent_path(), arguments.overwrite());
-    simplified.report.bytes_out = model.bytes();
-    simplified.report.buffer_views = model.views;
+    detail::save_result(simplified, arguments.out, arguments.overwrite());
     if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
     if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
-    simplified.report.warnings.insert(simplified.report.warnings.end(), model.losses.begin(),
-                                      model.losses.end());
-    simplified.report.seconds.save = watch.seconds();
 }
 
-std::optional<ByteBudget> byte_budget(const SimplifyCommandArguments& arguments) {
-    if (!arguments.max_bytes) return std::nullopt;
-    return ByteBudget{*arguments.max_bytes, arguments.out};
+/// Loads and simplifies the model if the memory is enough.
+SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, const Options& options) {
+    const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
+    require_memory(arguments.in, estimated_loading_memory(arguments.in, allowed), allowed);
+    // Image libraries start a thread per hardware thread, besides those of --threads.
+    limit_process_memory(allowed, detail::thread_count(options.threads) + detail::thread_count(0));
+    std::optional<ExitOnInterrupt> exit_on_interrupt(std::in_place);  // load() cannot be cancelled
+    return detail::simplify_file(arguments.in, options, [&](const Asset& source) {
+        exit_on_interrupt.reset();
+        check_strictness(source, arguments.in, arguments.strictness());
+        require_memory(arguments.in, estimated_peak_memory(source, options), allowed);
+    });
 }
 
 int run(const SimplifyCommandArguments& arguments) {
     Options options = make_options(arguments.options);
-    const detail::Deadline deadline = detail::deadline_of(options);
+    options.format = format_of_output(arguments.out);
     if (!arguments.history.empty()) options.history = Recording::on;
     if (!arguments.correspondence.empty()) {
         if (!makes_atlas(options.bake.kind))
@@ -187,31 +176,13 @@ int run(const SimplifyCommandArguments& arguments) {
             bar.show(phase, fraction);
             return is_interrupted() ? Continue::cancel : Continue::yes;
         };
-        PhaseSeconds seconds;
         bar.show(Phase::load, 0);
-        const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
-        require_memory(arguments.in, estimated_loading_memory(arguments.in, allowed), allowed);
-        // Image libraries start a thread per hardware thread, besides those of --threads.
-        limit_process_memory(allowed, detail::thread_count(options.threads) + detail::thread_count(0));
-        const Asset source = load_input(arguments, seconds);
-        const SizeRule rule = {arguments.out, input_bytes(arguments.in),
-                               larger_result(options.bake, arguments.allow_larger)};
-        options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
-        options.quantize = resolve_quantize(options.quantize, arguments.out);
-        require_memory(arguments.in,
-                       estimated_peak_memory(source, options, picture_search(options, arguments.max_bytes)),
-                       allowed);
-        options = detail::with_time_left(options, deadline);
-        simplified = simplify_model(source, arguments.in, options, rule, byte_budget(arguments));
-        simplified.report.seconds.load = seconds.load;
-        simplified.report.bytes_in = rule.bytes_in;
-        simplified.report.warnings.insert(simplified.report.warnings.begin(), source.warnings.begin(),
-                                          source.warnings.end());
+        simplified = simplified_model(arguments, options);
         if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return cancelled();
     }
     const ExitCode rejection = rejection_code(simplified.report, arguments.strict_target);
     detail::FileSet set;
-    if (rejection == exit_ok) save_result(arguments, simplified, set);
+    if (rejection == exit_ok) save_files(arguments, simplified, set);
     simplified.report.seconds.total = watch.seconds();
     if (!arguments.report.empty()) {
         const ExitOnInterrupt exit_on_interrupt;
@@ -227,13 +198,7 @@ int run(const SimplifyCommandArguments& arguments) {
 }
 
 std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
-    OptionInfo max_bytes = size_option(
-        "--max-bytes", a.max_bytes,
-        "Maximum total size of all output files, as 2MB or 500KB; without a face count, faces and "
-        "images are chosen for the best picture, otherwise reduced until they fit");
-    max_bytes.excludes = {"--max-error"};
-    return {max_bytes,
-            size_option("--max-memory", a.max_memory,
+    return {size_option("--max-memory", a.max_memory,
                         "Use at most this memory, as 8GB or 500MB, or end with code 11 (default: the "
                         "machine's memory)"),
             text_option("--report", "FILE", a.report, "Write counts, warnings and times to this JSON file"),
@@ -242,7 +207,6 @@ std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
                         "Write the position of each texel of the new atlas on the original to this file"),
             profile_option(),
             builtin_profile_option(),
-            allow_larger_option(a.allow_larger),
             flag_option("--force", a.force, "Overwrite existing files"),
             flag_option("--quiet", a.quiet, "Print no summary and no progress bar")};
 }

@@ -2,7 +2,6 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +9,6 @@
 #include "asset/file_format.hpp"
 #include "asset/io/recovery.hpp"
 #include "bake/simplify/parts_from_histories.hpp"
-#include "cli/budget/level_budget.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/interrupt.hpp"
@@ -21,6 +19,7 @@
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
 #include "faqem/truncate.hpp"
+#include "result/simplify_file.hpp"
 
 namespace faqem::cli {
 
@@ -30,7 +29,6 @@ struct TruncateArguments {
     GivenOptions options;
     std::string history, out, source;
     std::uint64_t faces = 0;
-    std::optional<std::uint64_t> max_bytes;
     bool strict = false, force = false, quiet = false;
 
     Strictness strictness() const { return strict ? Strictness::strict : Strictness::lenient; }
@@ -69,31 +67,23 @@ SimplifiedAsset geometry_only(const SimplifiedParts& simplified_parts) {
     return bake(original, simplified_parts, geometry_options);
 }
 
-/// Bakes the original model. The warnings of its reading are the first ones of the report.
+/// Bakes the original model.
 SimplifiedAsset baked_model(const TruncateArguments& arguments, const SimplifiedParts& simplified_parts,
                             const Options& options) {
     const Asset source = load_model(arguments.source, arguments.strictness());
-    Options bake_options = options;
-    bake_options.bake = resolve_automatic_bake(options.bake, source, arguments.out);
-    bake_options.quantize = resolve_quantize(bake_options.quantize, arguments.out);
-    return with_file_in_errors(arguments.source, [&] {
+    return detail::with_file_in_errors(arguments.source, [&] {
         detail::check_source_matches_histories(source, simplified_parts);
-        SimplifiedAsset baked = arguments.max_bytes
-                                    ? bake_within_bytes(source, simplified_parts, bake_options,
-                                                        {*arguments.max_bytes, arguments.out})
-                                    : bake(source, simplified_parts, bake_options);
-        baked.report.warnings.insert(baked.report.warnings.begin(), source.warnings.begin(),
-                                     source.warnings.end());
-        return baked;
+        return bake(source, simplified_parts, options);
     });
 }
 
 int run(const TruncateArguments& arguments) {
-    const Options options = make_options(arguments.options);
+    Options options = make_options(arguments.options);
+    options.format = format_of_output(arguments.out);
     if (options.bake.kind == Bake::keep)
         throw OptionError("--bake keep: cannot be used, because a history does not contain UVs");
     if (arguments.strict && arguments.source.empty()) throw OptionError("--strict: requires --source");
-    if (arguments.max_bytes && arguments.source.empty()) throw OptionError("--max-bytes: requires --source");
+    if (options.max_bytes && arguments.source.empty()) throw OptionError("--max-bytes: requires --source");
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.history);
     if (!arguments.source.empty()) protect_input(arguments.source);
@@ -145,14 +135,9 @@ CommandInfo truncate_command() {
         positional("OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write))};
     OptionInfo faces = number_option("--faces", "N", arguments->faces, from_one(), "Maximum number of faces");
     faces.is_required = true;
-    command.options = {
-        faces,
-        text_option("--source", "FILE", arguments->source,
-                    "The original model, from which the appearance is baked with the "
-                    "options below. Without it: geometry only"),
-        size_option("--max-bytes", arguments->max_bytes,
-                    "Maximum total size of all output files, as 2MB or 500KB; images get the sizes "
-                    "and qualities of the best picture. Requires --source")};
+    command.options = {faces, text_option("--source", "FILE", arguments->source,
+                                          "The original model, from which the appearance is baked with the "
+                                          "options below. Without it: geometry only")};
     add_options(command.options, table_options(detail::in_truncate, arguments->options));
     add_options(command.options, {strict_option(arguments->strict),
                                   flag_option("--force", arguments->force, "Overwrite an existing file"),

@@ -11,11 +11,12 @@
 #include "asset/image/image_size.hpp"
 #include "asset/model_files.hpp"
 #include "asset/scene/measured_instances.hpp"
+#include "bake/simplify/resolved_options.hpp"
 #include "bake/source/page_groups.hpp"
-#include "cli/file_stamp.hpp"
 #include "cli/memory/gltf_json_memory.hpp"
 #include "cli/memory/gltf_memory.hpp"
 #include "faqem/options.hpp"
+#include "result/best_picture.hpp"
 
 namespace faqem::cli {
 
@@ -119,7 +120,7 @@ std::uint64_t estimated_model_memory(const std::filesystem::path& model, std::ui
     files.push_back(model);
     // Factor 5: the bytes, the arrays decoded from them, and the copies made while the arrays grow. The arrays
     // of glTF are counted below.
-    const std::uint64_t stored_bytes = total_file_size(files);
+    const std::uint64_t stored_bytes = detail::total_file_size(files);
     if (!format || !format->is_gltf) return 5 * stored_bytes;
     std::uint64_t bytes = 3 * stored_bytes;
     if (bytes <= allowed) bytes += estimated_json_memory(model, allowed - bytes);
@@ -132,7 +133,8 @@ std::uint64_t estimated_loading_memory(const std::filesystem::path& model, std::
     return used + estimated_model_memory(model, used < allowed ? allowed - used : 0);
 }
 
-std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options, PictureSearch search) {
+std::uint64_t estimated_peak_memory(const Asset& asset, const Options& requested) {
+    const Options options = detail::resolved_options(asset, requested);
     double all = 0, largest = 0, values = 0;
     for (const Part& part : asset.parts) {
         const auto faces = static_cast<double>(part.triangles.size());
@@ -144,7 +146,7 @@ std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options, 
     if (options.bake.kind == Bake::keep) work += search_factor(options) * bytes_per_corner_value * values;
     if (options.visibility == Visibility::weighted)
         work = std::max(work, visibility_bytes_per_face * instanced_face_count(asset));
-    const bool searches = search == PictureSearch::yes;
+    const bool searches = detail::searches_best_picture(options);
     double baking = 0;
     if (options.bake.kind != Bake::keep && options.bake.kind != Bake::none)
         baking += decoded_image_bytes(asset);
@@ -161,9 +163,9 @@ std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options, 
 }
 
 std::uint64_t estimated_work_memory(const std::filesystem::path& model, std::uint64_t stored_bytes,
-                                    const Options& options, PictureSearch search) {
+                                    const Options& options) {
     double bytes = 64e6;  // the process and its threads
-    const bool searches = search == PictureSearch::yes;
+    const bool searches = detail::searches_best_picture(options);
     const double texel_bytes =
         searches ? texture_bytes_per_texel + tried_bytes_per_texel : bake_bytes_per_texel;
     if (makes_atlas(options.bake.kind))

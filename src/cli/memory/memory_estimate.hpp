@@ -7,10 +7,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "cli/budget/best_picture.hpp"
 #include "cli/exit_code.hpp"
 #include "faqem/asset.hpp"
-#include "faqem/option_types.hpp"
+#include "faqem/options.hpp"
 
 namespace faqem::cli {
 
@@ -28,19 +27,16 @@ std::uint64_t estimated_loading_memory(const std::filesystem::path& model,
 /// Returns an upper estimate, in bytes, of the peak memory of the whole run: the process, the model, its
 /// history, the simplification of the largest mesh, and decoded and baked images. The factors are measured,
 /// see docs/measurements/stress.md.
-/// \param search  whether it searches for the best picture
 /// Complexity: O(parts + images).
-std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options,
-                                    PictureSearch search = PictureSearch::no);
+std::uint64_t estimated_peak_memory(const Asset& asset, const Options& options);
 
 /// Returns an upper estimate, in bytes, of the memory of a run besides that for loading the model, before it is
 /// loaded: as estimated_peak_memory() for the largest number of faces that the files can have, and one texture. For
 /// `faqem batch`, which decides by it how many models run at the same time.
 /// \param model         only its extension is used
 /// \param stored_bytes  total size of the model and the files it refers to
-/// \param search        whether it searches for the best picture
 std::uint64_t estimated_work_memory(const std::filesystem::path& model, std::uint64_t stored_bytes,
-                                    const Options& options, PictureSearch search = PictureSearch::no);
+                                    const Options& options);
 
 /// Checks an estimate against the limit.
 /// \param file             file name for the message

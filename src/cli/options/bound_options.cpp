@@ -26,17 +26,6 @@ OptionInfo bound_number(const std::string& name, const std::string& value_name, 
     return info;
 }
 
-// The bytes of a size with or without unit; nothing if it is none.
-std::optional<std::uint64_t> read_size(std::string text) {
-    try {
-        // The result is a text for a wrong unit, and an exception for what is not a number.
-        std::uint64_t bytes = 0;
-        if (CLI::AsSizeValue(true)(text).empty() && CLI::detail::lexical_cast(text, bytes)) return bytes;
-    } catch (const CLI::Error&) {
-    }
-    return std::nullopt;
-}
-
 }  // namespace
 
 OptionInfo flag_option(const std::string& name, bool& value, const std::string& description) {
@@ -75,22 +64,10 @@ OptionInfo number_option(const std::string& name, const std::string& value_name,
 OptionInfo size_option(const std::string& name, std::uint64_t& bytes, const std::string& description) {
     OptionInfo info{{name}, "SIZE", description, OptionKind::size};
     info.read = [&bytes, name](const std::vector<std::string>& values) {
-        const std::optional<std::uint64_t> size = read_size(values.back());
-        if (!size || *size == 0)
-            throw OptionError(name + ": '" + values.back() +
-                              "' is not a size above 0, such as 500MB or 2GiB");
-        bytes = *size;
-    };
-    return info;
-}
-
-OptionInfo size_option(const std::string& name, std::optional<std::uint64_t>& bytes,
-                       const std::string& description) {
-    OptionInfo info{{name}, "SIZE", description, OptionKind::size};
-    info.read = [&bytes, name](const std::vector<std::string>& values) {
-        bytes = read_size(values.back());
-        if (!bytes)
-            throw OptionError(name + ": '" + values.back() + "' is not a size, such as 500MB or 2GiB");
+        const detail::OptionRange above_zero_bytes = {.max = 0x1p63, .excludes_min = true};
+        bytes = static_cast<std::uint64_t>(
+            *detail::parse_option_number(values.back(), OptionKind::size, above_zero_bytes, "bytes", name)
+                 .number);
     };
     return info;
 }

@@ -4,7 +4,6 @@
 /// several commands share.
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,10 +36,6 @@ OptionInfo number_option(const std::string& name, const std::string& value_name,
 
 /// A number of bytes above 0: `1000`, `2MB` (10^6 bytes each) or `2MiB` (2^20).
 OptionInfo size_option(const std::string& name, std::uint64_t& bytes, const std::string& description);
-
-/// The same for a size that may be 0. \param bytes  receives the size if the option is given
-OptionInfo size_option(const std::string& name, std::optional<std::uint64_t>& bytes,
-                       const std::string& description);
 
 /// Words separated by commas or spaces.
 OptionInfo list_option(const std::string& name, std::vector<std::string>& words,

@@ -1,7 +1,6 @@
 #include "cli/options/simplify_options.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -34,7 +33,6 @@ OptionInfo option_of(const OptionRow& row, GivenOptions& given) {
         info.value_name = row.choices;
     }
     info.suffix_choice = row.suffix_choice;
-    if (!row.excludes.empty()) info.excludes = {"--" + std::string(row.excludes)};
     info.read = [&row, &given,
                  is_plain_flag = is_flag && info.flag_value.empty()](const std::vector<std::string>& values) {
         given.emplace_back(&row, is_plain_flag ? std::string(row.flag_value) : values.back());
@@ -48,7 +46,10 @@ std::vector<OptionInfo> table_options(detail::EntryPoint command, GivenOptions& 
                                       detail::OptionTable table) {
     std::vector<OptionInfo> options;
     for (const OptionRow& row : table) {
-        if (row.entry_points & command) options.push_back(option_of(row, given));
+        if (!(row.entry_points & command)) continue;
+        OptionInfo& info = options.emplace_back(option_of(row, given));
+        if (!row.excludes.empty() && (named_option(row.excludes, table).entry_points & command))
+            info.excludes = {"--" + std::string(row.excludes)};
     }
     return options;
 }
@@ -64,30 +65,13 @@ std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target) {
                                                "Exit with 5, and write no model, if the target is missed")};
 }
 
-OptionInfo allow_larger_option(bool& allow_larger) {
-    return flag_option("--allow-larger", allow_larger,
-                       "Give nothing up if a textured result has more bytes than its input");
-}
-
 bool is_given(const GivenOptions& given, std::string_view name) {
     return std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first->name == name; });
-}
-
-// Options for images that are given apply to all meshes, also with their default values.
-bool asks_for_new_images(const GivenOptions& given) {
-    return std::any_of(given.begin(), given.end(), [](const auto& one) {
-        const auto& [row, text] = one;
-        constexpr std::array<std::string_view, 5> names = {"texture-size", "texel-density", "normal-map",
-                                                           "image-format", "image-quality"};
-        return std::find(names.begin(), names.end(), row->name) != names.end() && text != "source";
-    });
 }
 
 Options make_options(const GivenOptions& given, detail::OptionTable table) {
     Options options;
     for (const auto& [row, text] : given) set_option(options, *row, text, detail::command_spelling, table);
-    if (options.bake.kind == Bake::automatic && asks_for_new_images(given))
-        options.bake.untouched = UntouchedParts::baked;
     check_options(options, detail::command_spelling, table);
     return options;
 }

@@ -36,9 +36,6 @@ OptionInfo strict_option(bool& strict);
 /// --strict and --strict-target.
 std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target);
 
-/// `--allow-larger`: see LargerResult.
-OptionInfo allow_larger_option(bool& allow_larger);
-
 /// Tests whether an option is given. \param name  OptionRow::name
 bool is_given(const GivenOptions& given, std::string_view name);
 

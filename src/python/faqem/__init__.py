@@ -12,6 +12,7 @@ from __future__ import annotations
 import importlib
 
 from .errors import (
+    ByteLimitError,
     Error,
     InputError,
     InternalError,
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "ByteLimitError",
     "Collapses",
     "Error",
     "History",

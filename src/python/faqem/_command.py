@@ -27,8 +27,7 @@ def command(*arguments: str | os.PathLike[str]) -> str:
     arguments  as in a shell, one by one; docs/cli.md describes them
 
     Returns the standard output. Warnings of the command go to standard error. Raises the exception that belongs to the
-    exit code, with the message of the command; Error for codes that the functions of the module do not have, as 10 of
-    --max-bytes.
+    exit code, with the message of the command; Error for codes that the functions of the module do not have.
     """
     program = pathlib.Path(__file__).with_name("faqem")
     words = [os.fspath(argument) for argument in arguments]

@@ -151,6 +151,7 @@ exceptions: dict[int, type[Exception]] = {
     4: errors.UnsupportedError,
     7: errors.WriteError,
     8: errors.Error,  # cancelled by an exception in the progress callback, which Options.run() raises instead
+    10: errors.ByteLimitError,
     11: MemoryError,
     12: errors.TimeLimitError,
 }

@@ -155,7 +155,8 @@ def load(path: Path) -> Model:
 def bake(model: Model, /, **options: Unpack[BakeOptions]) -> Model:
     """Simplifies a model and bakes its appearance into new textures; the given model is unchanged.
 
-    options  those of simplify(), and those for models; see docs/python.md
+    options  those of simplify(), and those for models; see docs/python.md. The result is made for the format of the loaded
+             file: `format` names another one, in which it will be saved
 
     Returns a Model. Raises OptionError, InputError, UnsupportedError, MemoryError, and the exceptions of
     `progress`.

@@ -43,6 +43,9 @@ class CommonBakeOptions(CommonOptions, total=False):
 
     budget: Literal["scene", "mesh"] | None
     visibility: Literal["ignored", "weighted"] | None
+    format: Literal["auto", "glb", "gltf", "obj", "ply", "stl"] | None
+    allow_larger: bool | None
+    max_bytes: int | str | None
     bake: Literal["automatic", "atlas", "per_triangle", "vertex", "keep", "none"] | None
     texture_size: int | None
     texel_density: float | None

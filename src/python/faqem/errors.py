@@ -28,6 +28,10 @@ class WriteError(Error, OSError):
     """A file could not be written. An existing file is unchanged."""
 
 
+class ByteLimitError(Error, ValueError):
+    """No result has at most max_bytes."""
+
+
 class TimeLimitError(Error, TimeoutError):
     """max_seconds was over before there was a result that the options allow."""
 

@@ -19,6 +19,24 @@ inline constexpr OptionRow appearance_rows[] = {
                                       .help = "Errors on hidden surface: ignored (visibility has no effect), "
                                               "weighted (they count less)",
                                       .entry_points = in_all_but_truncate}),
+    option_row<&Options::format>({.name = "format",
+                                  .choices = "auto|glb|gltf|obj|ply|stl",
+                                  .help = "Format of the files that the result is for"}),
+    option_row<&Options::larger>(
+        {.name = "allow-larger",
+         .member_name = "larger",
+         .choices = "avoided|allowed",
+         .flag_value = "allowed",
+         .help = "Give nothing up if a textured result has more bytes than its input",
+         .entry_points = in_all}),
+    option_row<&Options::max_bytes>(
+        {.name = "max-bytes",
+         .value_name = "SIZE",
+         .help = "Maximum total size of the files of a model or level, as 2MB or 500KB: without a face "
+                 "count, faces "
+                 "and images are chosen for the best picture, otherwise images are reduced, and then faces",
+         .excludes = "max-error",
+         .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::kind>(
         {.name = "bake",
          .choices = "auto|atlas|per-triangle|vertex|keep|none",

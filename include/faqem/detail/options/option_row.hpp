@@ -2,6 +2,7 @@
 /// \file
 /// A row of the table of options: name, kind, range and help text of a member of Options.
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -21,11 +22,11 @@ enum class OptionKind {
     integer,
     share,   ///< `0.1` or `10%`, which is 0.1
     length,  ///< `0.01` (model units) or `0.1%` (of the diagonal)
+    size,    ///< bytes: `1000`, `2MB` (10^6 bytes each) or `2MiB` (2^20)
     choice,  ///< one of several words
     // Kinds of options that only commands have:
     flag,  ///< no value
     text,  ///< for example a file name
-    size,  ///< bytes: `1000`, `2MB` or `2MiB`
     list,  ///< words separated by commas
 };
 
@@ -95,6 +96,9 @@ inline OptionValue option_value(const std::optional<double>& number) { return {n
 inline OptionValue option_value(const std::optional<std::uint32_t>& number) {
     return number ? option_value(*number) : OptionValue{};
 }
+inline OptionValue option_value(const std::optional<std::uint64_t>& number) {
+    return number ? option_value(static_cast<double>(*number)) : OptionValue{};
+}
 inline OptionValue option_value(const std::optional<Length>& length) {
     return length ? OptionValue{length->value, true, length->unit} : OptionValue{};
 }
@@ -107,6 +111,10 @@ inline void assign_option(std::optional<double>& member, const OptionValue& valu
 inline void assign_option(std::optional<std::uint32_t>& member, const OptionValue& value) {
     member.reset();
     if (value.number) member = static_cast<std::uint32_t>(*value.number);
+}
+inline void assign_option(std::optional<std::uint64_t>& member, const OptionValue& value) {
+    member.reset();
+    if (value.number) member = static_cast<std::uint64_t>(std::min(*value.number, 0x1p63));
 }
 inline void assign_option(std::optional<Length>& member, const OptionValue& value) {
     member.reset();
@@ -132,6 +140,7 @@ constexpr OptionRow option_row(OptionRow row) {
     if constexpr (std::is_integral_v<Member> || std::is_same_v<Member, std::optional<std::uint32_t>>)
         row.kind = OptionKind::integer;
     if constexpr (std::is_same_v<Member, std::optional<Length>>) row.kind = OptionKind::length;
+    if constexpr (std::is_same_v<Member, std::optional<std::uint64_t>>) row.kind = OptionKind::size;
     row.get = [](const Options& options) { return option_value(member_at<path...>(options)); };
     row.set = [](Options& options, const OptionValue& value) {
         assign_option(member_at<path...>(options), value);

@@ -28,6 +28,8 @@ inline constexpr OptionRule option_rules[] = {
      },
      "{visibility} must be ignored if {max-error} is given without {ratio} or {faces}: distances are not "
      "weighted"},
+    {[](const Options& o) { return !o.max_bytes || !o.max_error; },
+     "{max-bytes} cannot be given with {max-error}"},
     {[](const Options& o) {
          return o.bake.normals != Normals::none || o.bake.kind == Bake::none || o.bake.kind == Bake::keep;
      },
@@ -86,8 +88,8 @@ FAQEM_INLINE std::string range_text(OptionKind kind, const OptionRange& range, s
     if (kind >= OptionKind::choice) return {};
     const std::string min = number_text(range.min);
     if (std::isinf(range.max)) {
-        return (kind == OptionKind::integer ? "" : "finite and ") +
-               std::string(range.excludes_min ? "> " : ">= ") + min;
+        const bool is_whole = kind == OptionKind::integer || kind == OptionKind::size;
+        return (is_whole ? "" : "finite and ") + std::string(range.excludes_min ? "> " : ">= ") + min;
     }
     return std::string(range.power_of_two ? "a power of two in " : "in ") + (range.excludes_min ? "(" : "[") +
            min + ", " + number_text(range.max) + "]" + (unit.empty() ? "" : " ") + std::string(unit);
@@ -106,16 +108,34 @@ FAQEM_INLINE std::string default_text(const OptionRow& row) {
     return value.is_given ? option_text({}, row) : "";
 }
 
+/// Bytes per unit of a size, in lower case; 0 if there is no such unit.
+inline double bytes_per_unit(std::string_view unit) {
+    std::string lower(unit.substr(std::min(unit.find_first_not_of(' '), unit.size())));
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (lower.empty() || lower == "b") return 1;
+    const std::size_t power = std::string_view("kmgt").find(lower[0]);
+    if (power == std::string_view::npos) return 0;
+    const std::string_view rest = std::string_view(lower).substr(1);
+    if (rest != "" && rest != "b" && rest != "ib") return 0;
+    return std::pow(rest == "ib" ? 1024.0 : 1000.0, static_cast<double>(power) + 1);
+}
+
 FAQEM_INLINE OptionValue parse_option_number(std::string_view text, OptionKind kind, const OptionRange& range,
                                              std::string_view unit, const std::string& shown) {
     OptionValue value{0, true};
     const char* const end = text.data() + text.size();
     std::from_chars_result result{};
     const bool in_percent = (kind == OptionKind::share || kind == OptionKind::length) && text.ends_with('%');
-    if (kind == OptionKind::integer) {
+    if (kind == OptionKind::integer || kind == OptionKind::size) {
         std::uint64_t number = 0;
         result = std::from_chars(text.data(), end, number);
         value.number = static_cast<double>(number);
+        if (kind == OptionKind::size && result.ec == std::errc{}) {
+            const double factor = bytes_per_unit({result.ptr, end});
+            if (factor > 0) result.ptr = end;
+            *value.number *= factor;
+        }
     } else {
         double number = 0;
         result = std::from_chars(text.data(), end - in_percent, number);
@@ -123,7 +143,9 @@ FAQEM_INLINE OptionValue parse_option_number(std::string_view text, OptionKind k
     }
     if (result.ec != std::errc{} || result.ptr != end - in_percent) {
         throw OptionError(shown + ": '" + std::string(text) + "' is not a " +
-                          (kind == OptionKind::integer ? "whole number" : "number"));
+                          (kind == OptionKind::size      ? "size, such as 500MB or 2GiB"
+                           : kind == OptionKind::integer ? "whole number"
+                                                         : "number"));
     }
     if (kind == OptionKind::length && in_percent) value.unit = Length::Unit::diagonal;
     if (!is_in_range(*value.number, range))

@@ -253,6 +253,6 @@ TEST_CASE("simplify writes WebP images to glTF only") {
     for (const faqem::Image& image : asset.images) CHECK(image.mime_type == "image/webp");
     const Outcome obj = run(folder, "simplify colored.glb out.obj --faces 100 --image-format webp");
     CHECK(obj.code == 2);
-    CHECK(obj.err.find("--image-format webp") != std::string::npos);
+    CHECK(obj.err.find("WebP images: ") != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "out.obj"));
 }

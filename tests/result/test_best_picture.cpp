@@ -1,6 +1,6 @@
 // --max-bytes without a face target: faces and images with the best pictures for the bytes.
 
-#include "cli/budget/best_picture.hpp"
+#include "result/best_picture.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "support/painted_sheet.hpp"
 
 using namespace tool_test;
-using namespace faqem::cli;
+using namespace faqem::detail;
 
 namespace {
 
@@ -114,19 +114,21 @@ TEST_CASE("--max-bytes keeps the options of images and the kind of baking that w
           faqem::load(folder / "in.glb").images[0].encoded);
 }
 
-TEST_CASE("only options that leave the face count open leave it to the budget") {
+TEST_CASE("only options that leave the face count open are followed by a search for the best picture") {
     faqem::Options options;
-    CHECK(leaves_faces_to_budget(options));
+    CHECK_FALSE(searches_best_picture(options));
+    options.max_bytes = 1000;
+    CHECK(searches_best_picture(options));
     options.bake.untouched = faqem::UntouchedParts::baked;  // an image option was given
-    CHECK(leaves_faces_to_budget(options));
+    CHECK(searches_best_picture(options));
     options.target = faqem::ratio(0.1);
-    CHECK_FALSE(leaves_faces_to_budget(options));
+    CHECK_FALSE(searches_best_picture(options));
     options.target = {};
     options.bake.kind = faqem::Bake::atlas;
-    CHECK_FALSE(leaves_faces_to_budget(options));
+    CHECK_FALSE(searches_best_picture(options));
     options.bake.kind = faqem::Bake::automatic;
     options.history = faqem::Recording::on;
-    CHECK_FALSE(leaves_faces_to_budget(options));
+    CHECK_FALSE(searches_best_picture(options));
 }
 
 TEST_CASE(

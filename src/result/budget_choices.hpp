@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "cli/budget/picture_error.hpp"
+#include "result/picture_error.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 /// Geometry that was tried, with perfect images and exact vertices.
 struct TriedFaces {
@@ -79,4 +79,4 @@ std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, cons
 /// \param count   at least 2
 std::vector<ImagesPoint> images_curve(const TriedImages& images, std::size_t count);
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

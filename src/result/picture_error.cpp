@@ -1,4 +1,4 @@
-#include "cli/budget/picture_error.hpp"
+#include "result/picture_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "asset/image/srgb.hpp"
 #include "render/views.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 namespace {
 
@@ -28,7 +28,7 @@ Eigen::Vector4f shown_pixel(const Eigen::Vector4f& pixel) {
     Eigen::Vector4f result = pixel;
     for (int k = 0; k < 3; ++k) {
         const double linear = double{pixel[k]} + (1 - double{pixel[3]}) * grey_behind;
-        result[k] = static_cast<float>(detail::srgb_from_linear(std::clamp(linear, 0.0, 1.0)));
+        result[k] = static_cast<float>(srgb_from_linear(std::clamp(linear, 0.0, 1.0)));
     }
     return result;
 }
@@ -59,7 +59,7 @@ std::vector<render::Frame> pictures(const render::Scene& scene, const std::vecto
                                     render::Shading shading, std::uint32_t threads) {
     std::vector<render::Frame> result(cameras.size());
     const Eigen::Vector4f behind = shown_pixel(Eigen::Vector4f::Zero());
-    detail::parallel_blocks(cameras.size(), 1, threads, [&](std::size_t i, std::size_t) {
+    parallel_blocks(cameras.size(), 1, threads, [&](std::size_t i, std::size_t) {
         result[i] = render::render(scene, cameras[i], picture_size, shading, render::Edges::hidden);
         for (Eigen::Vector4f& pixel : result[i].pixels) pixel = pixel.isZero(0) ? behind : shown_pixel(pixel);
     });
@@ -71,7 +71,7 @@ double picture_psnr(const PictureError& error) {
     return (psnr(error.unlit) + psnr(error.lit)) / 2;
 }
 
-PictureMeter::PictureMeter(Asset source, const detail::Workers& workers)
+PictureMeter::PictureMeter(Asset source, const Workers& workers)
     : threads_(workers.threads), has_normal_map_(has_normal_map(source)) {
     source_ = render::make_scene(std::move(source));
     cameras_ = render::cameras_around(source_, "", picture_views);
@@ -128,4 +128,4 @@ PictureError PictureMeter::compare(const render::Scene& scene) const {
     return {unlit, has_normal_map_ ? difference(scene, render::Shading::lit_without_occlusion, lit_) : unlit};
 }
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

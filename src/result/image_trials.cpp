@@ -1,4 +1,4 @@
-#include "cli/budget/image_trials.hpp"
+#include "result/image_trials.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "bake/texture/image_choice.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 namespace {
 
@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t least_side = 64, first_side = 256;
 
 // The fineness that is measured for a new size; the errors of the others are estimated from what was measured.
-constexpr std::uint32_t measured_fineness = 2 * detail::fineness_step;
+constexpr std::uint32_t measured_fineness = 2 * fineness_step;
 
 // An image is not tried in a larger size, or finer, if its error has less than this share of the error of all.
 constexpr double least_share = 0.02;
@@ -56,11 +56,9 @@ std::uint64_t encoded_bytes(const std::vector<Image>& images) {
     return result;
 }
 
-ImageTrials::ImageTrials(detail::UnencodedResult full, SearchSteps& steps)
-    : full_(std::move(full)), steps_(steps) {
+ImageTrials::ImageTrials(UnencodedResult full, SearchSteps& steps) : full_(std::move(full)), steps_(steps) {
     if (full_.pending.empty()) return;
-    for (const detail::PendingImage& pending : full_.pending)
-        full_.asset.asset.images[pending.image].encoded.clear();
+    for (const PendingImage& pending : full_.pending) full_.asset.asset.images[pending.image].encoded.clear();
     meter_.emplace(full_.asset.asset, full_.pending, steps_.workers());
     full_.asset.asset.parts.clear();
     make_sizes();
@@ -74,25 +72,23 @@ ImageTrials::ImageTrials(detail::UnencodedResult full, SearchSteps& steps)
 void ImageTrials::make_sizes() {
     sizes_.resize(full_.pending.size());
     std::uint32_t side = 0;
-    for (const detail::PendingImage& pending : full_.pending)
-        side = std::max(side, longer_side(pending.pixels));
+    for (const PendingImage& pending : full_.pending) side = std::max(side, longer_side(pending.pixels));
     for (;;) {
         for (std::size_t i = 0; i < sizes_.size(); ++i) {
-            const detail::PendingImage& pending = full_.pending[i];
+            const PendingImage& pending = full_.pending[i];
             const bool is_new = sizes_[i].empty() ||
                                 longer_side(sizes_[i].back().pending.pixels) > longer_side(pending.pixels);
             if (!is_new) continue;
-            std::vector<detail::ImageEncoding> encodings =
-                detail::image_encodings(pending, steps_.options().bake);
+            std::vector<ImageEncoding> encodings = image_encodings(pending, steps_.options().bake);
             std::vector<std::uint8_t> is_tried(encodings.size(), 0);
             sizes_[i].push_back({pending, std::move(encodings), std::move(is_tried)});
         }
         side /= 2;
         if (side < least_side) break;
-        detail::limit_image_sides(full_, side);
+        limit_image_sides(full_, side);
     }
     for (std::vector<Size>& sizes : sizes_) std::reverse(sizes.begin(), sizes.end());
-    for (detail::PendingImage& pending : full_.pending) pending.pixels = {};
+    for (PendingImage& pending : full_.pending) pending.pixels = {};
 }
 
 void ImageTrials::try_all(std::span<const TriedFaces> faces, std::span<const TriedRounding> roundings,
@@ -122,7 +118,7 @@ void ImageTrials::try_all(std::span<const TriedFaces> faces, std::span<const Tri
         const std::optional<BudgetChoice> best = best_choice();
         requests = best ? next_requests(*best) : smaller_requests();
     }
-    for (std::uint32_t distance = detail::fineness_step / 2; distance > 0; distance /= 2) {
+    for (std::uint32_t distance = fineness_step / 2; distance > 0; distance /= 2) {
         const std::optional<BudgetChoice> best = best_choice();
         if (!best) return;
         requests = refining_requests(*best, distance, bytes / many_images);
@@ -150,7 +146,7 @@ std::vector<ImageTrials::Request> ImageTrials::next_requests(const BudgetChoice&
         const SizeError& error = *size_errors_[i][trial.size];
         if (trial.fineness == size.last_tried_fineness() && trial.fineness < size.encodings.back().fineness &&
             sum(estimated_error(error, trial.difference)) - sum(error.own) > least_error)
-            result.push_back({i, trial.size, 0, trial.fineness + detail::fineness_step});
+            result.push_back({i, trial.size, 0, trial.fineness + fineness_step});
         const std::size_t next = trial.size + 1;
         if (next < sizes_[i].size() && !sizes_[i][next].has_trials() && sum(error.own) > least_error)
             result.push_back({i, next, 0, std::max(trial.fineness, measured_fineness)});
@@ -190,16 +186,15 @@ void ImageTrials::encode(std::span<const Request> requests) {
         }
     }
     std::vector<Trial> made(tasks.size());
-    detail::parallel_blocks(tasks.size(), 1, steps_.workers(),
-                            [&](std::size_t k, std::size_t, detail::CancellationCheck check_cancelled) {
-                                check_cancelled.now();
-                                const Size& size = sizes_[tasks[k].image][tasks[k].size];
-                                const detail::ImageEncoding& encoding = size.encodings[tasks[k].encoding];
-                                Image image =
-                                    detail::encode_as(size.pending, steps_.options().bake, encoding);
-                                const double difference = detail::mean_square_error(size.pending, image);
-                                made[k] = {tasks[k].size, encoding.fineness, difference, std::move(image)};
-                            });
+    parallel_blocks(tasks.size(), 1, steps_.workers(),
+                    [&](std::size_t k, std::size_t, CancellationCheck check_cancelled) {
+                        check_cancelled.now();
+                        const Size& size = sizes_[tasks[k].image][tasks[k].size];
+                        const ImageEncoding& encoding = size.encodings[tasks[k].encoding];
+                        Image image = encode_as(size.pending, steps_.options().bake, encoding);
+                        const double difference = mean_square_error(size.pending, image);
+                        made[k] = {tasks[k].size, encoding.fineness, difference, std::move(image)};
+                    });
     for (std::size_t k = 0; k < tasks.size(); ++k) trials_[tasks[k].image].push_back(std::move(made[k]));
 }
 
@@ -235,10 +230,10 @@ void ImageTrials::measure_sizes(std::span<const Request> requests) {
     const double gain = seen_sizes_ > 0 ? seen_gain_ / seen_sizes_ : 1;
     for (const auto& [i, s, first, last, step] : requests) {
         if (size_errors_[i][s]) continue;
-        const detail::PendingImage& largest = sizes_[i].back().pending;
+        const PendingImage& largest = sizes_[i].back().pending;
         const double weight = data_weight * gain * std::max(meter_->shares()[i], least_seen);
-        const double lost = std::pow(
-            10, -detail::image_loss(largest.pixels, sizes_[i][s].pending.pixels, *largest.known).psnr / 10);
+        const double lost =
+            std::pow(10, -image_loss(largest.pixels, sizes_[i][s].pending.pixels, *largest.known).psnr / 10);
         size_errors_[i][s] = SizeError{unseen_error(weight * lost), {{1, unseen_error(weight)}}};
     }
     update_errors();
@@ -317,4 +312,4 @@ std::vector<Image> ImageTrials::chosen_images(const std::vector<std::size_t>& ch
     return result;
 }
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

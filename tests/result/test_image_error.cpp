@@ -1,6 +1,6 @@
 // Errors of pictures, attributed to the images of a model.
 
-#include "cli/budget/image_error.hpp"
+#include "result/image_error.hpp"
 
 #include <memory>
 
@@ -9,7 +9,7 @@
 
 using namespace tool_test;
 using namespace faqem;
-using namespace faqem::cli;
+using namespace faqem::detail;
 
 namespace {
 

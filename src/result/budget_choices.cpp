@@ -1,10 +1,10 @@
-#include "cli/budget/budget_choices.hpp"
+#include "result/budget_choices.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 namespace {
 
@@ -270,4 +270,4 @@ std::vector<ImagesPoint> images_curve(const TriedImages& images, std::size_t cou
     return result;
 }
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

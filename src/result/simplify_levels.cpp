@@ -3,18 +3,20 @@
 #include "bake/scene/shared_texture.hpp"
 #include "bake/simplify/check_asset.hpp"
 #include "bake/simplify/parts_error_bound_search.hpp"
+#include "bake/simplify/resolved_options.hpp"
 #include "bake/simplify/simplify_parts.hpp"
 #include "bake/simplify/step_progress.hpp"
 #include "bake/simplify/welded_source.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
+#include "result/simplify_levels.hpp"
 
 namespace faqem {
 
 std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
                                                         const Options& requested) try {
     validate(requested);
-    const Options options = detail::bakeable_options(source, requested);
+    const Options options = detail::resolved_options(source, requested);
     const Options own = detail::step_options(options, Phase::simplify, 0, 1);
     detail::check_asset(source);
     const detail::MeasurementMonitor monitor(own, 0);
@@ -41,8 +43,9 @@ std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, con
 namespace {
 
 std::vector<SimplifiedAssetLevel> with_shared_texture(const Asset& source, const std::vector<Level>& levels,
-                                                      const Options& options) try {
-    validate(options);
+                                                      const Options& requested) try {
+    validate(requested);
+    const Options options = detail::resolved_options(source, requested);
     detail::check_shared_texture(options);
     detail::check_asset(source);
     const detail::MeasurementMonitor monitor(options, 0);
@@ -63,20 +66,28 @@ std::vector<SimplifiedAssetLevel> with_shared_texture(const Asset& source, const
 
 }  // namespace
 
+void detail::bake_levels(const Asset& source, std::vector<SimplifiedPartsLevel> levels,
+                         const Options& options, const std::function<Continue(SimplifiedAssetLevel)>& use) {
+    const auto count = static_cast<double>(levels.size());
+    double before = 0;
+    for (SimplifiedPartsLevel& level : levels) {
+        const SimplifiedParts simplified = std::move(level.result);
+        const Options step = step_options(options, Phase::bake, before / count, (before + 1) / count);
+        ++before;
+        if (use({bake(source, simplified, step), level.distance, level.error}) == Continue::cancel) return;
+    }
+}
+
 std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
                                                   const Options& options, LevelTextures textures) {
     if (textures == LevelTextures::shared) return with_shared_texture(source, levels, options);
     std::vector<SimplifiedAssetLevel> out;
     std::vector<SimplifiedPartsLevel> made = simplify_parts_levels(source, levels, options);
     detail::keep_only_cancelled(made);
-    const auto count = static_cast<double>(made.size());
-    for (SimplifiedPartsLevel& level : made) {
-        const SimplifiedParts simplified = std::move(level.result);
-        const auto before = static_cast<double>(out.size());
-        const Options step = detail::step_options(options, Phase::bake, before / count, (before + 1) / count);
-        out.push_back({bake(source, simplified, step), level.distance, level.error});
-        if (out.back().result.report.stop == StopReason::cancelled) break;
-    }
+    detail::bake_levels(source, std::move(made), options, [&](SimplifiedAssetLevel level) {
+        out.push_back(std::move(level));
+        return out.back().result.report.stop == StopReason::cancelled ? Continue::cancel : Continue::yes;
+    });
     return out;
 }
 

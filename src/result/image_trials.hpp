@@ -10,11 +10,11 @@
 
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/image_encodings.hpp"
-#include "cli/budget/budget_choices.hpp"
-#include "cli/budget/image_error.hpp"
-#include "cli/budget/search_steps.hpp"
+#include "result/budget_choices.hpp"
+#include "result/image_error.hpp"
+#include "result/search_steps.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 /// Total size of encoded images, bytes.
 std::uint64_t encoded_bytes(const std::vector<Image>& images);
@@ -24,7 +24,7 @@ class ImageTrials {
 public:
     /// \param full   all faces, with pending images unless those of the source are kept
     /// \param steps  outlives this
-    ImageTrials(detail::UnencodedResult full, SearchSteps& steps);
+    ImageTrials(UnencodedResult full, SearchSteps& steps);
 
     /// Tries each image in a small size with every fineness. Then it tries what is next to the choices that are
     /// best for the budget: larger images, and finer encodings.
@@ -51,9 +51,9 @@ public:
 private:
     /// An image in one size.
     struct Size {
-        detail::PendingImage pending;
-        std::vector<detail::ImageEncoding> encodings;  // by ascending fineness
-        std::vector<std::uint8_t> is_tried;            // by encoding
+        PendingImage pending;
+        std::vector<ImageEncoding> encodings;  // by ascending fineness
+        std::vector<std::uint8_t> is_tried;    // by encoding
 
         bool has_trials() const;
         std::uint32_t last_tried_fineness() const;  // \pre has_trials()
@@ -68,7 +68,7 @@ private:
     /// Encodings of an image in one size that are to be tried: with a fineness from `first` to `last` in steps.
     struct Request {
         std::size_t image = 0, size = 0;
-        std::uint32_t first = 0, last = 0, step = detail::fineness_step;
+        std::uint32_t first = 0, last = 0, step = fineness_step;
     };
 
     /// What an encoding with a difference adds to the error of pictures.
@@ -95,7 +95,7 @@ private:
                                            std::uint64_t least_bytes) const;
     PictureError unseen_error(double error) const;
 
-    detail::UnencodedResult full_;
+    UnencodedResult full_;
     SearchSteps& steps_;
     std::optional<ImageErrorMeter> meter_;
     std::vector<std::vector<Size>> sizes_;  // by pending image, from small to large
@@ -107,4 +107,4 @@ private:
     int seen_sizes_ = 0;
 };
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

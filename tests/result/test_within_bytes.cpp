@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/budget/byte_budget.hpp"
+#include "faqem/asset.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 
@@ -42,47 +42,34 @@ TEST_CASE("simplify --max-bytes does not change a result that fits") {
     REQUIRE(run(folder, "simplify in.glb a.glb --ratio 0.5").code == 0);
     REQUIRE(run(folder, "simplify in.glb b.glb --ratio 0.5 --max-bytes 10MB --report r.json").code == 0);
     CHECK(read(folder / "a.glb") == read(folder / "b.glb"));
-    CHECK(warnings(folder).find("--max-bytes") == std::string::npos);
+    CHECK(warnings(folder).find("max_bytes") == std::string::npos);
 }
 
 TEST_CASE("simplify --max-bytes reduces faces and images and adds a warning to the report") {
     const Folder folder;
     faqem::save(noisy_sheet(60), folder / "in.glb");
-    REQUIRE(run(folder, "simplify in.glb full.glb --ratio 0.9").code == 0);
+    REQUIRE(run(folder, "simplify in.glb full.glb --ratio 0.9 --allow-larger").code == 0);
     REQUIRE(fs::file_size(folder / "full.glb") > 300000);
     const Outcome outcome =
         run(folder, "simplify in.glb out.glb --ratio 0.9 --max-bytes 60000 --report r.json");
     REQUIRE(outcome.code == 0);
     CHECK(fs::file_size(folder / "out.glb") <= 60000);
     CHECK(fs::file_size(folder / "out.glb") > 15000);
-    CHECK(warnings(folder).find("reduced to fit --max-bytes") != std::string::npos);
+    CHECK(warnings(folder).find("reduced to fit max_bytes") != std::string::npos);
     const faqem::Asset out = faqem::load(folder / "out.glb");
     REQUIRE(out.images.size() == 1);
-    CHECK(warnings(folder).find("(within 34 dB") != std::string::npos);
     const std::size_t faces = out.parts[0].triangles.size();
     CHECK(faces < 6480);
     CHECK(faces > 300);
-    const auto size = faqem::cli::model_bytes(out, "x.glb");
-    CHECK(size.geometry <= 30000);
-    CHECK(size.images == out.images[0].encoded.size());
+    CHECK(fs::file_size(folder / "out.glb") - out.images[0].encoded.size() <= 30000);
 }
 
-TEST_CASE("--max-bytes counts images as such whatever the case of the extension") {
-    for (const std::string extension : {".glb", ".gltf", ".obj"}) {
-        std::string upper = extension;
-        for (char& c : upper)
-            if (c != '.') c = static_cast<char>(c - 'a' + 'A');
-        const auto lower_size = faqem::cli::model_bytes(noisy_sheet(10), "out" + extension);
-        const auto upper_size = faqem::cli::model_bytes(noisy_sheet(10), "OUT" + upper);
-        CHECK(upper_size.images == lower_size.images);
-        CHECK(upper_size.geometry == lower_size.geometry);
-        CHECK(upper_size.images > 100'000);
-    }
+TEST_CASE("--max-bytes does not depend on the name of the result") {
     const Folder folder;
     faqem::save(noisy_sheet(60), folder / "in.glb");
-    for (const std::string name : {"out.glb", "OUT.GLB"})
+    for (const std::string name : {"out.glb", "OUTPUT.GLB"})
         REQUIRE(run(folder, "simplify in.glb " + name + " --ratio 1 --max-bytes 60000").code == 0);
-    CHECK(read(folder / "OUT.GLB") == read(folder / "out.glb"));
+    CHECK(read(folder / "OUTPUT.GLB") == read(folder / "out.glb"));
 }
 
 TEST_CASE("simplify --max-bytes keeps an image format that was specified") {
@@ -119,7 +106,7 @@ TEST_CASE("simplify --max-bytes exits with 10 and writes no model if no result f
     faqem::save(sheet(20), folder / "in.glb");
     const Outcome outcome = run(folder, "simplify in.glb out.glb --max-bytes 200");
     CHECK(outcome.code == 10);
-    CHECK(outcome.err.find("--max-bytes allows 200") != std::string::npos);
+    CHECK(outcome.err.find("max_bytes allows 200") != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "out.glb"));
     CHECK(run(folder, "simplify in.glb out.glb --max-bytes 0").code == 10);
     CHECK(run(folder, "simplify in.glb out.glb --max-bytes 1MB --max-error 1%").code == 2);

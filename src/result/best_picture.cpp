@@ -1,4 +1,4 @@
-#include "cli/budget/best_picture.hpp"
+#include "result/best_picture.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,13 +14,14 @@
 #include "bake/simplify/position_grids.hpp"
 #include "bake/simplify/simplify_parts.hpp"
 #include "bake/simplify/step_progress.hpp"
-#include "cli/budget/budget_choices.hpp"
-#include "cli/budget/image_trials.hpp"
-#include "cli/budget/search_steps.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/simplify/run.hpp"
+#include "result/budget_choices.hpp"
+#include "result/image_trials.hpp"
+#include "result/model_size.hpp"
+#include "result/search_steps.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 namespace {
 
@@ -28,7 +29,7 @@ namespace {
 constexpr std::array<double, 7> first_ratios = {1, 0.7, 0.45, 0.28, 0.16, 0.09, 0.045};
 
 // Bits of positions that are tried if none are given; the usual ones first.
-constexpr std::array<std::uint32_t, 4> tried_position_bits = {detail::usual_position_bits, 13, 15, 16};
+constexpr std::array<std::uint32_t, 4> tried_position_bits = {usual_position_bits, 13, 15, 16};
 
 // Number of choices that are made and compared, and by which factor the bytes of their images differ at least.
 constexpr std::size_t compared_choices = 2;
@@ -63,8 +64,8 @@ bool is_shown_flat(const Asset& asset) {
 /// One search, see best_picture_within_bytes().
 class BestPictureSearch {
 public:
-    BestPictureSearch(const Asset& source, const Options& options, const ByteBudget& budget)
-        : source_(source), steps_(options), budget_(budget), faces_(total_faces(source)) {
+    BestPictureSearch(const Asset& source, const Options& options)
+        : source_(source), steps_(options), limit_(*options.max_bytes), faces_(total_faces(source)) {
         keeps_images_ = options.bake.kind != Bake::automatic;
         if (options.bake.kind == Bake::automatic) {
             options_.bake.kind = Bake::keep;
@@ -78,15 +79,15 @@ public:
     std::optional<SimplifiedAsset> operator()() try {
         std::vector<std::uint64_t> targets;
         for (const double share : first_ratios) {
-            const std::uint64_t target = detail::target_face_count(ratio(share), static_cast<double>(faces_));
+            const std::uint64_t target = target_face_count(ratio(share), static_cast<double>(faces_));
             if (targets.empty() || target < targets.back())
-                targets.push_back(std::max(target, detail::min_target_faces));
+                targets.push_back(std::max(target, min_target_faces));
         }
         std::vector<SimplifiedParts> levels = simplified(targets, Phase::simplify, 0, 1);
         if (steps_.is_late()) return std::nullopt;
-        meter_.emplace(source_, detail::Workers{options_.threads});
+        meter_.emplace(source_, Workers{options_.threads});
         try_faces(std::move(levels));
-        if (tried_faces_.back().bytes >= budget_.bytes) return std::nullopt;
+        if (tried_faces_.back().bytes >= limit_) return std::nullopt;
         images_->try_all(tried_faces_, tried_roundings_, bytes_to_share(), begin_of_images, begin_of_choices);
         try_choices();
         return reported_best();
@@ -100,18 +101,18 @@ public:
 private:
     std::vector<SimplifiedParts> simplified(std::span<const std::uint64_t> targets, Phase phase, double from,
                                             double to) {
-        const detail::Stopwatch watch;
+        const Stopwatch watch;
         const Options own =
-            phase == Phase::simplify ? detail::step_options(options_, phase, from, to) : steps_.step();
+            phase == Phase::simplify ? step_options(options_, phase, from, to) : steps_.step();
         std::vector<SimplifiedParts> result =
-            detail::simplify_parts_in_steps(source_, targets, detail::with_time_left(own, steps_.deadline()));
+            simplify_parts_in_steps(source_, targets, with_time_left(own, steps_.deadline()));
         seconds_of_simplify_ += watch.seconds();
         if (result.back().report.stop == StopReason::cancelled) throw engine::Cancelled{};
         return result;
     }
 
     // The result with the images of the source or, if `pending`, with images that are encoded later.
-    detail::UnencodedResult made(const SimplifiedParts& parts, bool pending) {
+    UnencodedResult made(const SimplifiedParts& parts, bool pending) {
         Options own = steps_.step();
         if (!pending) own.bake.image_format = ImageFormat::source;
         if (parts.report.faces_out >= least_flat_faces_) own.bake.normals = Normals::none;
@@ -120,12 +121,12 @@ private:
 
     // The same for a level that is tried, which are in descending order. As long as it looks better, normals are left
     // out.
-    detail::UnencodedResult made_level(const SimplifiedParts& parts, bool pending) {
+    UnencodedResult made_level(const SimplifiedParts& parts, bool pending) {
         if (!may_omit_normals_) return made(parts, pending);
         const std::uint64_t before = std::exchange(least_flat_faces_, no_faces);
-        detail::UnencodedResult with_normals = made(parts, pending);
+        UnencodedResult with_normals = made(parts, pending);
         least_flat_faces_ = parts.report.faces_out;
-        detail::UnencodedResult flat = made(parts, pending);
+        UnencodedResult flat = made(parts, pending);
         const double error = meter_->lit_with_source_images(flat.asset.asset);
         if (error <= meter_->lit_with_source_images(with_normals.asset.asset)) return flat;
         least_flat_faces_ = before;
@@ -133,10 +134,9 @@ private:
         return with_normals;
     }
 
-    detail::UnencodedResult baked(const SimplifiedParts& parts, const Options& own) {
-        detail::UnencodedResult result = own.bake.kind == Bake::keep
-                                             ? detail::bake_with_uvs(source_, parts, own)
-                                             : detail::bake_unencoded(source_, parts, own);
+    UnencodedResult baked(const SimplifiedParts& parts, const Options& own) {
+        UnencodedResult result = own.bake.kind == Bake::keep ? bake_with_uvs(source_, parts, own)
+                                                             : bake_unencoded(source_, parts, own);
         if (result.asset.report.stop == StopReason::cancelled) throw engine::Cancelled{};
         return result;
     }
@@ -146,13 +146,13 @@ private:
         const Image placeholder = encode_png({1, 1, {0, 0, 0, 255}, false}, "");
         for (std::size_t i = 0; i < levels.size(); ++i) {
             steps_.report(begin_of_images * static_cast<double>(i) / static_cast<double>(levels.size()));
-            detail::UnencodedResult result = made_level(levels[i], i == 0 && !keeps_images_);
+            UnencodedResult result = made_level(levels[i], i == 0 && !keeps_images_);
             if (i == 0) images_.emplace(result, steps_);
             Asset& asset = result.asset.asset;
             const PictureError error = meter_->with_source_images(asset);
             for (Image& image : asset.images) image.encoded = placeholder.encoded;
             tried_faces_.push_back(
-                {result.asset.report.faces_out, model_bytes(asset, budget_.file).geometry, error});
+                {result.asset.report.faces_out, model_size(asset, options_.format).geometry, error});
             levels[i] = {};
             if (i == 0) try_roundings(asset);
         }
@@ -168,9 +168,9 @@ private:
             // Only new grids depend on the bits.
             if (!tried_roundings_.empty() && spacings(asset) == last) break;
             Asset rounded = asset;
-            const bool is_rounded = detail::round_vertices(rounded);
+            const bool is_rounded = round_vertices(rounded);
             tried_roundings_.push_back(
-                {bits, model_bytes(asset, budget_.file).geometry,
+                {bits, model_size(asset, options_.format).geometry,
                  is_rounded ? meter_->with_source_images(std::move(rounded)) : PictureError{}});
         }
         if (tried_roundings_.size() == 1) tried_roundings_[0].position_bits = options_.quantize.position_bits;
@@ -186,13 +186,11 @@ private:
         Options own = options_;
         own.quantize.position_bits = bits;
         Report unused;
-        detail::set_quantization(source_, own, asset, unused);
+        set_quantization(source_, own, asset, unused);
     }
 
     // Bytes of the budget for geometry and encoded images.
-    std::uint64_t bytes_to_share() const {
-        return budget_.bytes - std::min(budget_.bytes, images_->kept_bytes());
-    }
+    std::uint64_t bytes_to_share() const { return limit_ - std::min(limit_, images_->kept_bytes()); }
 
     // The best choices, whose images have different numbers of bytes.
     std::vector<BudgetChoice> different_choices() const {
@@ -252,10 +250,9 @@ private:
         const std::uint64_t bytes = encoded_bytes(images);
         options_.quantize.position_bits = tried_roundings_[choice.rounding].position_bits;
         std::optional<std::uint64_t> faces =
-            bytes < budget_.bytes
-                ? faces_within(tried_faces_,
-                               as_first_rounding(tried_roundings_, choice.rounding, budget_.bytes - bytes))
-                : std::nullopt;
+            bytes < limit_ ? faces_within(tried_faces_, as_first_rounding(tried_roundings_, choice.rounding,
+                                                                          limit_ - bytes))
+                           : std::nullopt;
         bool has_result = false;
         for (int attempt = 0; faces && attempt < most_attempts; ++attempt) {
             steps_.check();
@@ -263,21 +260,21 @@ private:
             const double margin = attempt == 0 ? face_margin : near_face_margin;
             if (target < faces_) target = static_cast<std::uint64_t>(margin * static_cast<double>(target));
             const SimplifiedParts parts = std::move(simplified({&target, 1}, Phase::bake, 0, 1).front());
-            detail::UnencodedResult result = made(parts, false);
+            UnencodedResult result = made(parts, false);
             if (images_->are_encoded()) result.asset.asset.images = images;
-            detail::remove_unused_materials(result);
-            const ModelBytes size = model_bytes(result.asset.asset, budget_.file);
-            const bool fits = size.total() <= budget_.bytes;
+            remove_unused_materials(result);
+            const ModelSize size = model_size(result.asset.asset, options_.format);
+            const bool fits = size.total() <= limit_;
             // At once, so that there is a result if the time is over before the next one.
             if (fits) finish(std::move(result), parts, longest_side(choice), size);
             has_result = has_result || fits;
             const bool is_full =
-                static_cast<double>(size.total()) >= full_share * static_cast<double>(budget_.bytes);
+                static_cast<double>(size.total()) >= full_share * static_cast<double>(limit_);
             if (has_result && (!fits || is_full || target >= faces_)) return;
-            const double share = static_cast<double>(budget_.bytes - std::min(budget_.bytes, size.images)) /
+            const double share = static_cast<double>(limit_ - std::min(limit_, size.images)) /
                                  static_cast<double>(size.geometry);
             faces = std::min(faces_, static_cast<std::uint64_t>(share * static_cast<double>(target)));
-            if (*faces < detail::min_target_faces) return;
+            if (*faces < min_target_faces) return;
         }
     }
 
@@ -288,17 +285,17 @@ private:
         return result;
     }
 
-    void finish(detail::UnencodedResult result, const SimplifiedParts& parts, std::uint32_t image_side,
-                const ModelBytes& size) {
-        detail::encode_images(result, steps_.step());  // none is pending, but all are reported
+    void finish(UnencodedResult result, const SimplifiedParts& parts, std::uint32_t image_side,
+                const ModelSize& size) {
+        encode_images(result, steps_.step());  // none is pending, but all are reported
         if (result.asset.report.stop == StopReason::cancelled) throw engine::Cancelled{};
         Asset shown = result.asset.asset;
-        detail::round_vertices(shown);
+        round_vertices(shown);
         const double psnr = picture_psnr((*meter_)(std::move(shown)));
         points_.push_back({options_.bake.kind, result.asset.report.faces_out, size.total(), image_side,
                            options_.quantize.position_bits, psnr});
         if (best_ && !(psnr > best_psnr_)) return;
-        detail::add_histories(parts, options_, result.asset);
+        add_histories(parts, options_, result.asset);
         best_ = std::move(result.asset);
         best_psnr_ = psnr;
     }
@@ -306,12 +303,12 @@ private:
     const Asset& source_;
     SearchSteps steps_;
     Options& options_ = steps_.options();
-    const ByteBudget& budget_;
+    const std::uint64_t limit_;  // bytes
     const std::uint64_t faces_;
     bool keeps_images_ = false;
     bool may_omit_normals_ = false;
     std::uint64_t least_flat_faces_ = no_faces;  // that are shown flat, as in the source
-    detail::Stopwatch watch_;
+    Stopwatch watch_;
     double seconds_of_simplify_ = 0;
     std::optional<PictureMeter> meter_;
     std::vector<TriedFaces> tried_faces_;
@@ -324,19 +321,18 @@ private:
 
 }  // namespace
 
-bool leaves_faces_to_budget(const Options& options) {
-    if (options.target.kind != Target::Kind::unset || options.max_error) return false;
+bool searches_best_picture(const Options& options) {
+    if (!options.max_bytes || options.target.kind != Target::Kind::unset || options.max_error) return false;
     const Bake kind = options.bake.kind;
     if (kind == Bake::keep || kind == Bake::vertex || kind == Bake::none) return true;
     // Format and size of images hold for kept UVs, too.
     Options own = options;
     own.bake.untouched = UntouchedParts::automatic;
-    return detail::may_keep_uvs(own);
+    return may_keep_uvs(own);
 }
 
-std::optional<SimplifiedAsset> best_picture_within_bytes(const Asset& source, const Options& options,
-                                                         const ByteBudget& budget) {
-    return BestPictureSearch(source, options, budget)();
+std::optional<SimplifiedAsset> best_picture_within_bytes(const Asset& source, const Options& options) {
+    return BestPictureSearch(source, options)();
 }
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

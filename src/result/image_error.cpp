@@ -1,4 +1,4 @@
-#include "cli/budget/image_error.hpp"
+#include "result/image_error.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "faqem/error.hpp"
 #include "render/views.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 namespace {
 
@@ -33,12 +33,12 @@ std::vector<std::uint8_t> images_in_role(const Asset& model, TextureRef Material
     return result;
 }
 
-std::vector<Texture> textures(const Asset& model, std::span<const detail::PendingImage> pending,
+std::vector<Texture> textures(const Asset& model, std::span<const PendingImage> pending,
                               TextureRef Material::*role, ColorSpace color_space) {
     const std::vector<std::uint8_t> is_used = images_in_role(model, role);
     std::vector<std::uint8_t> is_pending(is_used.size(), 0);
     std::vector<Texture> result(is_used.size());
-    for (const detail::PendingImage& image : pending) {
+    for (const PendingImage& image : pending) {
         is_pending[image.image] = 1;
         if (is_used[image.image]) result[image.image] = render::make_texture(image.pixels, color_space);
     }
@@ -53,8 +53,8 @@ bool has_any(const std::vector<Texture>& all) {
 
 }  // namespace
 
-ImageErrorMeter::ImageErrorMeter(const Asset& model, std::span<const detail::PendingImage> pending,
-                                 const detail::Workers& workers)
+ImageErrorMeter::ImageErrorMeter(const Asset& model, std::span<const PendingImage> pending,
+                                 const Workers& workers)
     : threads_(workers.threads) {
     std::vector<Texture> colors = textures(model, pending, &Material::base_color_texture, ColorSpace::srgb);
     std::vector<Texture> normals = textures(model, pending, &Material::normal_texture, ColorSpace::linear);
@@ -76,14 +76,13 @@ ImageErrorMeter::ImageErrorMeter(const Asset& model, std::span<const detail::Pen
             ++pixels_;
         }
     }
-    for (const detail::PendingImage& image : pending) {
+    for (const PendingImage& image : pending) {
         images_.push_back(image.image);
         std::uint64_t own = 0;
         for (std::size_t m = 0; m < model.materials.size(); ++m) {
             bool has_it = false;
-            detail::for_each_texture(model.materials[m], [&](const TextureRef& texture) {
-                has_it |= texture.image == image.image;
-            });
+            for_each_texture(model.materials[m],
+                             [&](const TextureRef& texture) { has_it |= texture.image == image.image; });
             if (has_it) own += pixels[m];
         }
         shares_.push_back(static_cast<double>(own) /
@@ -144,4 +143,4 @@ std::vector<std::optional<PictureError>> ImageErrorMeter::operator()(std::vector
     return result;
 }
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "bake/texture/pending_images.hpp"
-#include "cli/budget/picture_error.hpp"
 #include "faqem/asset.hpp"
 #include "render/rasterizer.hpp"
+#include "result/picture_error.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 /// Renders a model with other images, and attributes the errors to the images by the materials that pixels show.
 class ImageErrorMeter {
@@ -22,8 +22,7 @@ public:
     /// \param pending  images of the model
     /// \param workers  threads; the cancellation check is not used
     /// Complexity: O(faces + texels).
-    ImageErrorMeter(const Asset& model, std::span<const detail::PendingImage> pending,
-                    const detail::Workers& workers);
+    ImageErrorMeter(const Asset& model, std::span<const PendingImage> pending, const Workers& workers);
 
     /// The errors that images add which replace the pending ones.
     /// \param shown  by pending image: its replacement; empty: the perfect one stays
@@ -51,4 +50,4 @@ private:
     std::vector<double> shares_;
 };
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

@@ -5,7 +5,7 @@
 #include "faqem/detail/base/time_limit.hpp"
 #include "faqem/options.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 /// What the steps of a search have in common. Not copied.
 class SearchSteps {
@@ -19,7 +19,7 @@ public:
     Options& options() { return options_; }
     const Options& options() const { return options_; }
 
-    detail::Deadline deadline() const { return deadline_; }
+    Deadline deadline() const { return deadline_; }
 
     /// Whether Options::max_seconds is over.
     bool is_late() const { return engine::is_over(deadline_); }
@@ -42,7 +42,7 @@ public:
     void check() { monitor_.check_now(); }
 
     /// Threads of a step, with this check.
-    detail::Workers workers() { return {options_.threads, detail::CancellationCheck(monitor_)}; }
+    Workers workers() { return {options_.threads, CancellationCheck(monitor_)}; }
 
 private:
     Continue shown_progress() const {
@@ -50,9 +50,9 @@ private:
     }
 
     Options options_;
-    detail::Deadline deadline_ = detail::deadline_of(options_);
+    Deadline deadline_ = deadline_of(options_);
     double fraction_ = 0;
     engine::ProgressMonitor monitor_{[this] { return shown_progress(); }};
 };
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

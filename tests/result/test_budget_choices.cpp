@@ -1,10 +1,10 @@
-#include "cli/budget/budget_choices.hpp"
+#include "result/budget_choices.hpp"
 
 #include <cmath>
 
 #include "support/catch.hpp"
 
-using namespace faqem::cli;
+using namespace faqem::detail;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "faqem/detail/base/parallel.hpp"
 #include "render/rasterizer.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 /// Mean squared differences of sRGB values in [0, 1], over the pixels that show one of the two models.
 struct PictureError {
@@ -42,7 +42,7 @@ public:
     /// \param source   at least one face; its images are decoded and kept
     /// \param workers  threads; the cancellation check is not used
     /// Complexity: O(faces + texels of the source).
-    PictureMeter(Asset source, const detail::Workers& workers);
+    PictureMeter(Asset source, const Workers& workers);
 
     /// Compares a model with the source. An image that cannot be decoded is drawn white in both.
     PictureError operator()(Asset model) const;
@@ -69,4 +69,4 @@ private:
     std::vector<render::Frame> unlit_, lit_;  // of the source, by camera; `lit_` is empty until it is needed
 };
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail

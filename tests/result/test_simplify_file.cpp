@@ -1,0 +1,138 @@
+// Options::format, and simplify() of files: the library and the command give the same bytes.
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "asset/file_format.hpp"
+#include "faqem/bake.hpp"
+#include "faqem/error.hpp"
+#include "support/catch.hpp"
+#include "support/painted_sheet.hpp"
+
+using namespace tool_test;
+
+namespace {
+
+// All files of a folder, by name.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+    std::map<std::string, std::string> result;
+    for (const auto& entry : fs::directory_iterator(folder))
+        result[entry.path().filename().string()] = read(entry.path());
+    return result;
+}
+
+faqem::Options options_for(faqem::ModelFormat format, std::uint64_t max_bytes) {
+    faqem::Options options;
+    options.format = format;
+    if (max_bytes > 0) options.max_bytes = max_bytes;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("load, simplify for a format, and save: the bytes of the command, for each format") {
+    const Folder folder;
+    faqem::save(painted_sheet(12), folder / "in.glb");
+    faqem::save(sheet(12), folder / "in.obj");
+    faqem::Asset coloured = sheet(12, 0.3);
+    coloured.materials.clear();
+    coloured.images.clear();
+    coloured.parts[0].face_material.clear();
+    coloured.parts[0].uvs.clear();
+    coloured.parts[0].colors.assign(coloured.parts[0].positions.size(), {0.5f, 0.25f, 1, 1});
+    faqem::save(coloured, folder / "in.ply");
+    for (const std::string in : {"in.glb", "in.obj", "in.ply"}) {
+        for (const faqem::detail::FileFormat& format : faqem::detail::file_formats()) {
+            if (!format.encode) continue;
+            for (const std::uint64_t bytes : {0, 6000}) {
+                if (bytes > 0 && (in != "in.glb" || format.extension == ".gltf")) continue;
+                const std::string out = "out" + std::string(format.extension);
+                INFO(in << " to " << out << " with " << bytes << " bytes");
+                for (const char* by : {"command", "steps", "call"}) {
+                    fs::remove_all(folder / by);
+                    fs::create_directory(folder / by);
+                }
+                const std::string limit = bytes > 0 ? " --max-bytes " + std::to_string(bytes) : "";
+                REQUIRE(run(folder, "simplify " + in + " command/" + out + limit).code == 0);
+                const faqem::Options options = options_for(format.format, bytes);
+                const auto result = simplify(faqem::load(folder / in), options);
+                CHECK(result.asset.format == format.format);
+                for (const std::string& warning : faqem::save(result.asset, folder / "steps" / out))
+                    CHECK(warning.find("was made for") == std::string::npos);
+                const faqem::Report report = faqem::simplify(folder / in, folder / "call" / out, options);
+                CHECK(contents(folder / "steps") == contents(folder / "command"));
+                CHECK(contents(folder / "call") == contents(folder / "command"));
+                std::uint64_t total = 0;
+                for (const auto& [name, text] : contents(folder / "call")) total += text.size();
+                CHECK(report.bytes_out == total);
+                CHECK(report.bytes_in ==
+                      fs::file_size(folder / in) + (in == "in.obj" ? fs::file_size(folder / "in.mtl") +
+                                                                         fs::file_size(folder / "in_0.png")
+                                                                   : 0));
+                if (bytes > 0) CHECK(total <= bytes);
+            }
+        }
+    }
+}
+
+TEST_CASE("a result is made for the format of the loaded file, and for GLB without one") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.obj");
+    faqem::Asset source = faqem::load(folder / "in.obj");
+    CHECK(source.format == faqem::ModelFormat::obj);
+    CHECK(simplify(source).asset.format == faqem::ModelFormat::obj);
+    CHECK(simplify(sheet(8)).asset.format == faqem::ModelFormat::glb);
+    write(folder / "in.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    CHECK(simplify(faqem::load(folder / "in.off")).asset.format == faqem::ModelFormat::glb);
+}
+
+TEST_CASE("saving to another format than a result was made for gives a warning") {
+    const Folder folder;
+    const auto is_warned = [&](const faqem::Asset& asset, const std::string& name) {
+        for (const std::string& warning : faqem::save(asset, folder / name, faqem::Overwrite::yes))
+            if (warning.find("was made for .glb files") != std::string::npos) return true;
+        return false;
+    };
+    const faqem::SimplifiedAsset result = simplify(sheet(8));
+    CHECK(is_warned(result.asset, "a.ply"));
+    CHECK(is_warned(result.asset, "a.obj"));
+    CHECK_FALSE(is_warned(result.asset, "a.gltf"));
+    CHECK_FALSE(is_warned(sheet(8), "a.ply"));
+    CHECK_FALSE(is_warned(faqem::load(folder / "a.gltf"), "b.ply"));
+}
+
+TEST_CASE("simplify of a file saves nothing that is cancelled, empty or beyond the maximum error") {
+    const Folder folder;
+    faqem::save(sheet(8, 0.4), folder / "in.glb");
+    faqem::Options options;
+    options.progress = [](faqem::Phase, double) { return faqem::Continue::cancel; };
+    const faqem::Report cancelled = faqem::simplify(folder / "in.glb", folder / "out.glb", options);
+    CHECK(cancelled.stop == faqem::StopReason::cancelled);
+    CHECK(cancelled.bytes_out == 0);
+    options = {};
+    options.target = faqem::faces(8);
+    options.max_error = faqem::model_units(1e-9);
+    CHECK_FALSE(faqem::simplify(folder / "in.glb", folder / "out.glb", options).max_error->within());
+    CHECK_FALSE(fs::exists(folder / "out.glb"));
+
+    CHECK_THROWS_AS(faqem::simplify(folder / "in.glb", folder / "out.off"), faqem::UnsupportedError);
+    CHECK_THROWS_AS(faqem::simplify(folder / "in.glb", folder / "out"), faqem::UnsupportedError);
+    faqem::simplify(folder / "in.glb", folder / "out.glb");
+    CHECK_THROWS_AS(faqem::simplify(folder / "in.glb", folder / "out.glb"), faqem::WriteError);
+    CHECK_NOTHROW(faqem::simplify(folder / "in.glb", folder / "out.glb", {}, faqem::Overwrite::yes));
+}
+
+TEST_CASE("options that only glTF files can hold are errors for other formats") {
+    faqem::Options options;
+    options.format = faqem::ModelFormat::ply;
+    options.quantize.kind = faqem::Quantize::on;
+    CHECK_THROWS_AS(simplify(sheet(4), options), faqem::OptionError);
+    options.quantize = {};
+    options.bake.image_format = faqem::ImageFormat::webp;
+    CHECK_THROWS_AS(simplify(sheet(4), options), faqem::OptionError);
+    options = {};
+    options.max_bytes = 1000;
+    options.max_error = faqem::of_diagonal(0.1);
+    CHECK_THROWS_AS(simplify(sheet(4), options), faqem::OptionError);
+}
