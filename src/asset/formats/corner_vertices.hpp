@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "asset/scene/part_arrays.hpp"
 #include "asset/scene/value_numbers.hpp"
 #include "faqem/mesh.hpp"
 
@@ -49,5 +50,16 @@ private:
     std::vector<std::uint8_t> seen_;
     UniqueValues<CornerKey> extra_;
 };
+
+/// Gives a part the vertices of corners: those after its own have the values of the vertex at their position.
+inline void add_corner_vertices(Part& part, const CornerVertices& vertices) {
+    visit_vertex_arrays(
+        [&](const VertexArray&, auto& values) {
+            const std::size_t old = values.size();
+            if (old > 0) values.resize(vertices.count());
+            for (std::size_t v = old; v < values.size(); ++v) values[v] = values[vertices.corner(v)[0]];
+        },
+        part);
+}
 
 }  // namespace faqem::detail

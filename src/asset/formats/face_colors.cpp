@@ -19,18 +19,9 @@ void set_face_colors(Part& part, Polygons& polygons, const std::vector<Vec4f>& c
             if (vertices.count() > max_index_count) check_index_count(vertices.count(), file, "corner");
         }
     }
-    const std::size_t count = vertices.count();
-    part.colors.assign(count, {1, 1, 1, 1});
-    const auto extend = [&](auto& values) {
-        if (values.empty()) return;
-        const std::size_t old = values.size();
-        values.resize(count);
-        for (std::size_t v = old; v < count; ++v) values[v] = values[vertices.corner(v)[0]];
-    };
-    extend(part.positions);
-    extend(part.normals);
-    for (auto& set : part.uvs) extend(set);
-    for (std::size_t v = 0; v < count; ++v) {
+    part.colors.assign(part.positions.size(), {1, 1, 1, 1});
+    add_corner_vertices(part, vertices);
+    for (std::size_t v = 0; v < part.colors.size(); ++v) {
         const Index color = vertices.corner(v)[1];
         if (color != no_index) part.colors[v] = distinct.values()[color];
     }

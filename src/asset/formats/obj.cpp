@@ -15,6 +15,7 @@
 #include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
@@ -251,39 +252,15 @@ void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& co
     }
 }
 
-/// Adds the objects that have faces, in the order of their first faces, if there are several. Faces before the first
-/// object belong to one with the name of the file.
+/// Adds the objects that have faces, if there are several. Faces before the first object belong to one with the name of
+/// the file.
 void add_objects(Part& part, const ObjStatements& in, const std::vector<Index>& source_polygon,
                  const std::string& stem) {
-    const auto slot = [&](Index object) { return std::min<std::size_t>(object, in.objects.size()); };
-    std::vector<Index> number(in.objects.size() + 1, no_index);
-    for (const Index p : source_polygon) {
-        const Index object = in.face_object[p];
-        if (number[slot(object)] != no_index) continue;
-        number[slot(object)] = static_cast<Index>(part.object_names.size());
-        part.object_names.push_back(object == no_index ? stem : in.objects[object]);
-    }
-    if (part.object_names.size() < 2) {
-        part.object_names.clear();
-        return;
-    }
-    part.face_object.reserve(source_polygon.size());
-    for (const Index p : source_polygon) part.face_object.push_back(number[slot(in.face_object[p])]);
-}
-
-/// Adds the groups that have faces, in the order of their first faces.
-void add_groups(Part& part, const ObjStatements& in, const std::vector<Index>& source_polygon) {
-    std::vector<Index> number(in.groups.size(), no_index);
-    for (const Index p : source_polygon) {
-        const Index group = in.face_group[p];
-        if (group == no_index || number[group] != no_index) continue;
-        number[group] = static_cast<Index>(part.group_names.size());
-        part.group_names.push_back(in.groups[group]);
-    }
-    if (part.group_names.empty()) return;
-    part.face_group.reserve(source_polygon.size());
-    for (const Index p : source_polygon)
-        part.face_group.push_back(in.face_group[p] == no_index ? no_index : number[in.face_group[p]]);
+    std::vector<Index> objects = gather(in.face_object, source_polygon);
+    std::vector<std::string> names = in.objects;
+    std::replace(objects.begin(), objects.end(), no_index, static_cast<Index>(names.size()));
+    names.push_back(stem);
+    set_objects(part, objects, names);
 }
 
 /// Adds the used materials in the order of their first use by a face.
@@ -339,10 +316,10 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
                                  " with fewer than three corners left out");
     part.triangles = std::move(split.triangles);
     check_index_count(part.triangles.size(), file.string(), "triangle");
-    part.face_material.reserve(part.triangles.size());
-    for (const Index p : split.source_polygon) part.face_material.push_back(in.face_material[p]);
+    part.face_material = gather(in.face_material, split.source_polygon);
     add_objects(part, in, split.source_polygon, file.stem().string());
-    add_groups(part, in, split.source_polygon);
+    set_face_names(part, group_array, gather(in.face_group, split.source_polygon), in.groups);
+    if (part.group_names.empty()) part.face_group.clear();
     repair_non_finite(part, file.string(), split.non_finite, asset.warnings);
     add_materials(asset, in, file);
     asset.not_understood = ignored_messages(in.ignored);

@@ -141,26 +141,14 @@ private:
 
     void copy_attributes(const CornerVertices& vertices, const std::vector<Vec2f>& uvs,
                          const std::vector<Vec4f>& colors) {
-        const std::size_t count = vertices.count();
-        const std::vector<Vec4f> own_colors = part_.colors;
-        if (!faces_.uvs.empty()) part_.uvs.assign(1, std::vector<Vec2f>(count, {0, 0}));
-        if (!faces_.colors.empty()) part_.colors.assign(part_.positions.size(), {1, 1, 1, 1});
-        const auto extend = [&](auto& values) {
-            if (!values.empty()) values.resize(count);
-        };
-        extend(part_.positions);
-        extend(part_.normals);
-        extend(part_.colors);
-        for (auto& set : part_.uvs) extend(set);
-        for (std::size_t v = 0; v < count; ++v) {
+        const std::size_t positions = part_.positions.size();
+        if (!faces_.uvs.empty()) part_.uvs.assign(1, std::vector<Vec2f>(positions, {0, 0}));
+        if (!faces_.colors.empty()) part_.colors.assign(positions, {1, 1, 1, 1});
+        add_corner_vertices(part_, vertices);
+        for (std::size_t v = 0; v < part_.positions.size(); ++v) {
             const auto [position, uv, color] = vertices.corner(v);
-            part_.positions[v] = part_.positions[position];
-            if (!part_.normals.empty()) part_.normals[v] = part_.normals[position];
-            if (!part_.uvs.empty()) part_.uvs[0][v] = has_value(uv) ? uvs[uv] : part_.uvs[0][position];
-            if (has_value(color))
-                part_.colors[v] = colors[color];
-            else if (!own_colors.empty())
-                part_.colors[v] = own_colors[position];
+            if (has_value(uv)) part_.uvs[0][v] = uvs[uv];
+            if (has_value(color)) part_.colors[v] = colors[color];
         }
     }
 

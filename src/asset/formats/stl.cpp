@@ -15,6 +15,7 @@
 #include "asset/io/file.hpp"
 #include "asset/io/little_endian.hpp"
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/scene/value_numbers.hpp"
 #include "asset/text/text_scanner.hpp"
@@ -67,20 +68,11 @@ bool equals_lower_case(std::string_view word, std::string_view lower) {
 }
 
 /// Makes the solids that have facets objects of the part, if there are several.
-void add_solids(Part& part, const std::vector<std::string>& names, const std::vector<Index>& solids,
+void add_solids(Part& part, std::vector<std::string> names, const std::vector<Index>& solids,
                 const std::string& file) {
-    std::vector<Index> number(names.size(), no_index);
-    for (const Index solid : solids) {
-        if (number[solid] != no_index) continue;
-        number[solid] = static_cast<Index>(part.object_names.size());
-        part.object_names.push_back(names[solid].empty() ? std::filesystem::path(file).stem().string()
-                                                         : names[solid]);
-    }
-    if (part.object_names.size() < 2) {
-        part.object_names.clear();
-        return;
-    }
-    for (const Index solid : solids) part.face_object.push_back(number[solid]);
+    for (std::string& name : names)
+        if (name.empty()) name = std::filesystem::path(file).stem().string();
+    set_objects(part, solids, names);
 }
 
 /// Reads the next word of the file, which must equal `expected`, ignoring case.

@@ -6,14 +6,15 @@
 #include <limits>
 
 #include "asset/scene/affine.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "asset/scene/repair.hpp"
 
 namespace faqem::detail {
 namespace {
 
-/// Vertex attributes of the flattened part, and whether its faces have groups.
+/// Vertex attributes of the flattened part.
 struct VertexLayout {
-    bool normals = false, colors = false, groups = false;
+    bool normals = false, colors = false;
     std::size_t uv_sets = 0;
 };
 
@@ -24,6 +25,21 @@ void append(std::vector<Value>& to, const std::vector<Value>& values, std::size_
         to.insert(to.end(), count, neutral);
     else
         to.insert(to.end(), values.begin(), values.end());
+}
+
+/// Appends an array by face, with its names. Faces of other parts have no_index. Objects are not kept.
+void append_faces(Part& flat, const Part& part, const FaceArray& array) {
+    const std::vector<Index>& values = part.*array.values;
+    if (values.empty() || array.values == object_array.values) return;
+    Index first_name = 0;
+    if (array.names) {
+        std::vector<std::string>& names = flat.*array.names;
+        first_name = static_cast<Index>(names.size());
+        names.insert(names.end(), (part.*array.names).begin(), (part.*array.names).end());
+    }
+    std::vector<Index>& to = flat.*array.values;
+    to.resize(flat.triangles.size() - part.triangles.size(), no_index);
+    for (const Index value : values) to.push_back(value == no_index ? no_index : first_name + value);
 }
 
 void append(Part& flat, const Part& part, const std::array<double, 16>& m, const VertexLayout& layout) {
@@ -46,14 +62,7 @@ void append(Part& flat, const Part& part, const std::array<double, 16>& m, const
         flat.triangles.push_back(
             {first + t[0], first + t[is_mirrored ? 2 : 1], first + t[is_mirrored ? 1 : 2]});
     }
-    append(flat.face_material, part.face_material, part.triangles.size(), no_index);
-    if (!layout.groups) return;
-    const std::size_t first_face = flat.face_group.size();
-    append(flat.face_group, part.face_group, part.triangles.size(), no_index);
-    const auto first_group = static_cast<Index>(flat.group_names.size());
-    for (std::size_t f = first_face; f < flat.face_group.size(); ++f)
-        if (flat.face_group[f] != no_index) flat.face_group[f] += first_group;
-    flat.group_names.insert(flat.group_names.end(), part.group_names.begin(), part.group_names.end());
+    for (const FaceArray& array : face_arrays) append_faces(flat, part, array);
 }
 
 std::size_t uninstanced_part_count(const Asset& asset) {
@@ -84,7 +93,6 @@ Part flatten(const Asset& asset, const std::vector<PosedInstance>& all) {
         faces += part.triangles.size();
         layout.normals |= !part.normals.empty();
         layout.colors |= !part.colors.empty();
-        layout.groups |= !part.face_group.empty();
         layout.uv_sets = std::max(layout.uv_sets, part.uvs.size());
     }
     check_index_count(vertices, "", "vertices of the flattened scene");
@@ -99,6 +107,9 @@ Part flatten(const Asset& asset, const std::vector<PosedInstance>& all) {
         else
             append(flat, part, instance.transform, layout);
     }
+    flat.face_material.resize(faces, no_index);
+    for (const FaceArray& array : face_arrays)
+        if (!(flat.*array.values).empty()) (flat.*array.values).resize(faces, no_index);
     if (all.size() == 1) flat.name = asset.parts[all[0].part].name;
     return flat;
 }

@@ -1,73 +1,30 @@
 #include "asset/scene/objects.hpp"
 
 #include <algorithm>
-#include <map>
-#include <utility>
+
+#include "asset/scene/part_arrays.hpp"
 
 namespace faqem::detail {
 namespace {
 
-/// Copies the values of some vertices; nothing if the part has no such values.
-template <class Value>
-void copy_vertices(std::vector<Value>& to, const std::vector<Value>& from,
-                   const std::vector<Index>& vertices) {
-    if (from.empty()) return;
-    to.reserve(vertices.size());
-    for (const Index v : vertices) to.push_back(from[v]);
-}
-
-/// The groups of some faces of a part, with the names of these groups only.
-void copy_groups(const Part& part, const std::vector<Index>& faces, Part& to) {
-    if (part.face_group.empty()) return;
-    std::map<Index, Index> number;
-    for (const Index f : faces) {
-        const Index group = part.face_group[f];
-        if (group == no_index) {
-            to.face_group.push_back(no_index);
-            continue;
-        }
-        const auto [entry, is_new] = number.try_emplace(group, static_cast<Index>(to.group_names.size()));
-        if (is_new) to.group_names.push_back(part.group_names[group]);
-        to.face_group.push_back(entry->second);
-    }
-}
-
 /// The part with the given faces, in their order, and with the vertices that they use.
 /// \param number  by vertex of the part: scratch memory, no_index everywhere before and after
 Part with_faces(const Part& part, const std::vector<Index>& faces, std::vector<Index>& number) {
-    std::vector<Index> vertices;
-    for (const Index f : faces) {
-        for (const Index v : part.triangles[f]) {
-            if (number[v] != no_index) continue;
-            number[v] = 0;
-            vertices.push_back(v);
-        }
-    }
-    std::sort(vertices.begin(), vertices.end());
-    for (std::size_t i = 0; i < vertices.size(); ++i) number[vertices[i]] = static_cast<Index>(i);
+    std::vector<Index> vertices, corners;
+    number_corners(part, faces, number, vertices, corners);
     Part result;
-    for (const Index f : faces) {
-        Triangle t = part.triangles[f];
-        for (Index& v : t) v = number[v];
-        result.triangles.push_back(t);
-        if (!part.face_material.empty()) result.face_material.push_back(part.face_material[f]);
+    for (std::size_t c = 0; c < corners.size(); c += 3)
+        result.triangles.push_back({corners[c], corners[c + 1], corners[c + 2]});
+    for (const FaceArray& array : face_arrays) {
+        if (array.values == object_array.values) continue;
+        const std::vector<Index> values = gather(part.*array.values, faces);
+        if (array.names)
+            set_face_names(result, array, values, part.*array.names);
+        else
+            result.*array.values = values;
     }
-    copy_groups(part, faces, result);
-    for (const Index v : vertices) number[v] = no_index;
-    copy_vertices(result.positions, part.positions, vertices);
-    copy_vertices(result.normals, part.normals, vertices);
-    copy_vertices(result.tangents, part.tangents, vertices);
-    copy_vertices(result.colors, part.colors, vertices);
-    copy_vertices(result.joints, part.joints, vertices);
-    copy_vertices(result.weights, part.weights, vertices);
-    result.uvs.resize(part.uvs.size());
-    for (std::size_t set = 0; set < part.uvs.size(); ++set)
-        copy_vertices(result.uvs[set], part.uvs[set], vertices);
-    result.morph_targets.resize(part.morph_targets.size());
-    for (std::size_t m = 0; m < part.morph_targets.size(); ++m) {
-        copy_vertices(result.morph_targets[m].positions, part.morph_targets[m].positions, vertices);
-        copy_vertices(result.morph_targets[m].normals, part.morph_targets[m].normals, vertices);
-    }
+    select_vertices(part, vertices, result);
+    result.custom_attributes.clear();  // formats that have objects have none
     result.position_spacing = part.position_spacing;
     result.file_order = part.file_order;
     return result;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "asset/scene/part_arrays.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -22,49 +23,23 @@ void reset(std::vector<Vector>& values, const Vector& neutral, const char* noun,
     if (count) warnings.push_back(pluralized(count, noun) + " with non-finite values set to " + what);
 }
 
-/// Removes the values of vertices whose new index is no_index.
-template <class Value>
-void compact(std::vector<Value>& values, const std::vector<Index>& renumbered) {
-    if (values.empty()) return;
-    std::size_t kept = 0;
-    for (std::size_t v = 0; v < renumbered.size(); ++v)
-        if (renumbered[v] != no_index) values[kept++] = values[v];
-    values.resize(kept);
-}
-
-std::uint64_t drop_faces(Part& part, const std::vector<Index>& renumbered) {
-    std::size_t kept = 0;
-    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
-        Triangle t = part.triangles[f];
-        for (Index& v : t) v = renumbered[v];
-        if (std::find(t.begin(), t.end(), no_index) != t.end()) continue;
-        part.triangles[kept] = t;
-        if (!part.face_material.empty()) part.face_material[kept] = part.face_material[f];
-        if (!part.face_object.empty()) part.face_object[kept] = part.face_object[f];
-        if (!part.face_group.empty()) part.face_group[kept] = part.face_group[f];
-        ++kept;
-    }
-    const std::uint64_t dropped = part.triangles.size() - kept;
-    part.triangles.resize(kept);
-    if (!part.face_material.empty()) part.face_material.resize(kept);
-    if (!part.face_object.empty()) part.face_object.resize(kept);
-    if (!part.face_group.empty()) part.face_group.resize(kept);
-    return dropped;
-}
-
 std::uint64_t drop_vertices(Part& part) {
-    std::vector<Index> renumbered(part.positions.size());
-    Index next = 0;
-    for (std::size_t v = 0; v < renumbered.size(); ++v)
-        renumbered[v] = is_finite(part.positions[v]) ? next++ : no_index;
-    if (next == renumbered.size()) return 0;
-    const std::uint64_t dropped = drop_faces(part, renumbered);
-    compact(part.positions, renumbered);
-    compact(part.normals, renumbered);
-    compact(part.tangents, renumbered);
-    for (auto& set : part.uvs) compact(set, renumbered);
-    compact(part.colors, renumbered);
-    return dropped;
+    if (std::all_of(part.positions.begin(), part.positions.end(), is_finite<double, 3>)) return 0;
+    std::vector<Index> renumbered(part.positions.size(), no_index), vertices, faces;
+    for (Index v = 0; v < renumbered.size(); ++v) {
+        if (!is_finite(part.positions[v])) continue;
+        renumbered[v] = static_cast<Index>(vertices.size());
+        vertices.push_back(v);
+    }
+    const std::size_t before = part.triangles.size();
+    for (Index f = 0; f < before; ++f) {
+        Triangle& t = part.triangles[f];
+        for (Index& v : t) v = renumbered[v];
+        if (std::find(t.begin(), t.end(), no_index) == t.end()) faces.push_back(f);
+    }
+    select_faces(part, faces, part);
+    visit_vertex_arrays([&](const VertexArray&, auto& values) { values = gather(values, vertices); }, part);
+    return before - faces.size();
 }
 
 }  // namespace

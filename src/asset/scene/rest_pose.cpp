@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "asset/scene/affine.hpp"
+#include "asset/scene/part_arrays.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -62,14 +63,13 @@ Part posed_part(const Part& part, const PosedInstance& instance) {
     posed.name = part.name;
     posed.positions = part.positions;
     posed.triangles = part.triangles;
-    posed.face_material = part.face_material;
     posed.normals = part.normals;
     posed.uvs = part.uvs;
     posed.colors = part.colors;
-    posed.face_object = part.face_object;
-    posed.object_names = part.object_names;
-    posed.face_group = part.face_group;
-    posed.group_names = part.group_names;
+    for (const FaceArray& array : face_arrays) {
+        posed.*array.values = part.*array.values;
+        if (array.names) posed.*array.names = part.*array.names;
+    }
     const RestPose& pose = *instance.pose;
     apply_morph_weights(part, pose.morph_weights, posed);
     const bool is_skinned = !pose.joints.empty() && part.joints.size() == part.positions.size() &&

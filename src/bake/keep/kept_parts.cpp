@@ -7,6 +7,7 @@
 #include "asset/gltf/uv_dependents.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "bake/source/material_groups.hpp"
 
 namespace faqem::detail {
@@ -53,16 +54,7 @@ private:
 // The part with the faces that the result has.
 Part part_with_kept_faces(const Part& source, const std::vector<Index>& kept) {
     Part part = source;
-    if (kept.size() == source.triangles.size()) return part;
-    const auto select = [&](auto& values, const auto& of_source) {
-        if (values.empty()) return;
-        values.resize(kept.size());
-        for (std::size_t f = 0; f < kept.size(); ++f) values[f] = of_source[kept[f]];
-    };
-    select(part.triangles, source.triangles);
-    select(part.face_material, source.face_material);
-    select(part.face_object, source.face_object);
-    select(part.face_group, source.face_group);
+    if (kept.size() != source.triangles.size()) select_faces(source, kept, part);
     return part;
 }
 

@@ -3,8 +3,15 @@
 #include <algorithm>
 #include <bit>
 
+#include "asset/scene/part_arrays.hpp"
+
 namespace faqem::detail {
 namespace {
+
+template <class T, std::size_t N>
+int compare(const std::array<T, N>& a, const std::array<T, N>& b) {
+    return a == b ? 0 : a < b ? -1 : 1;
+}
 
 // Compares bit patterns, since kept UVs can be NaN. -0 and 0 are equal.
 template <std::size_t N>
@@ -17,21 +24,14 @@ int compare(const std::array<float, N>& a, const std::array<float, N>& b) {
     return 0;
 }
 
-int compare(const CornerValues& values, std::uint64_t a, std::uint64_t b) {
-    if (!values.normals.empty()) {
-        if (const int c = compare(values.normals[a], values.normals[b])) return c;
-    }
-    for (const std::vector<Vec2f>& uvs : values.uvs) {
-        if (const int c = compare(uvs[a], uvs[b])) return c;
-    }
-    if (!values.tangents.empty()) {
-        if (const int c = compare(values.tangents[a], values.tangents[b])) return c;
-    }
-    for (const CustomAttribute& attribute : values.custom) {
-        if (attribute.values[a] != attribute.values[b])
-            return attribute.values[a] < attribute.values[b] ? -1 : 1;
-    }
-    return values.colors.empty() ? 0 : compare(values.colors[a], values.colors[b]);
+int compare(const CornerValues& corners, std::uint64_t a, std::uint64_t b) {
+    int result = 0;
+    visit_vertex_arrays(
+        [&](const VertexArray&, const auto& values) {
+            if (result == 0 && !values.empty()) result = compare(values[a], values[b]);
+        },
+        corners);
+    return result;
 }
 
 // By corner: the first corner of its vertex that agrees with it in all values.
@@ -86,25 +86,17 @@ WeldedPart weld_corners(const BakePart& bake_part, const CornerValues& values) {
     part.name = bake_part.source->name;
     part.source = bake_part.source->source;
     part.triangles.resize(mesh.triangles.size());
-    part.uvs.resize(values.uvs.size());
-    part.custom_attributes = bake_part.source->custom_attributes;
-    part.custom_attributes.resize(values.custom.size());
-    for (CustomAttribute& attribute : part.custom_attributes) attribute.values.clear();
     for (std::uint64_t c = 0; c < first.size(); ++c) {
         Index& n = number[first[c]];
         if (n == no_index) {
             n = static_cast<Index>(result.corner.size());
             result.corner.push_back(c);
-            part.positions.push_back(mesh.positions[mesh.triangles[c / 3][c % 3]]);
-            if (!values.normals.empty()) part.normals.push_back(values.normals[c]);
-            for (std::size_t s = 0; s < values.uvs.size(); ++s) part.uvs[s].push_back(values.uvs[s][c]);
-            if (!values.colors.empty()) part.colors.push_back(values.colors[c]);
-            if (!values.tangents.empty()) part.tangents.push_back(values.tangents[c]);
-            for (std::size_t a = 0; a < values.custom.size(); ++a)
-                part.custom_attributes[a].values.push_back(values.custom[a].values[c]);
         }
         part.triangles[c / 3][c % 3] = n;
     }
+    select_vertices(values, result.corner, part);
+    for (const std::uint64_t c : result.corner)
+        part.positions.push_back(mesh.positions[mesh.triangles[c / 3][c % 3]]);
     return result;
 }
 

@@ -63,14 +63,9 @@ inline constexpr std::array<Vec3, 4> quarter_points = {{{1.0 / 3, 1.0 / 3, 1.0 /
                                                         {1.0 / 6, 2.0 / 3, 1.0 / 6},
                                                         {1.0 / 6, 1.0 / 6, 2.0 / 3}}};
 
-/// Attributes by corner of the simplified mesh. Empty ones are not written.
-struct CornerValues {
-    std::vector<Vec3f> normals;
-    std::vector<std::vector<Vec2f>> uvs;
-    std::vector<Vec4f> colors;
-    std::vector<Vec4f> tangents = {};
-    std::vector<CustomAttribute> custom = {};
-};
+/// Attributes of the simplified mesh: a part without positions, whose vertices are the corners. Empty ones are not
+/// written.
+using CornerValues = Part;
 
 /// An output part.
 struct WeldedPart {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asset/scene/part_arrays.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -60,10 +62,7 @@ std::vector<CustomAttribute> corner_custom_attributes(const BakePart& part,
                                                       engine::CancellationCheck check_cancelled) {
     const std::vector<CustomAttribute>& from = part.source->custom_attributes;
     if (from.empty() || !part.map) return {};
-    std::vector<CustomAttribute> result;
-    for (const CustomAttribute& attribute : from)
-        result.push_back(
-            {attribute.name, {}, attribute.components, attribute.component_type, attribute.normalized});
+    std::vector<CustomAttribute> result = without_values(from);
     const TriangleMesh& mesh = part.simplified->mesh;
     for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
         check_cancelled(2 * map_query_cost);

@@ -11,7 +11,7 @@ namespace faqem::detail {
 Part make_output_part(const BakePart& part, CornerValues values, std::vector<Index> materials,
                       engine::CancellationCheck check_cancelled) {
     values.normals = part.normals.normals;
-    values.custom = corner_custom_attributes(part, check_cancelled);
+    values.custom_attributes = corner_custom_attributes(part, check_cancelled);
     WeldedPart welded = weld_corners(part, values);
     transfer_skin_and_morphs(part, welded, check_cancelled);
     welded.part.face_material = std::move(materials);

@@ -10,6 +10,7 @@
 
 #include "asset/finest_level.hpp"
 #include "asset/scene/messages.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "bake/keep/kept_images.hpp"
 #include "bake/keep/kept_parts.hpp"
 #include "bake/keep/kept_uvs.hpp"
@@ -102,15 +103,11 @@ void keep_file_records(std::span<const BakePart> parts, std::span<const std::uin
         Part& to = result.parts[part.index];
         const bool lost_faces = part.faces() < part.source->triangles.size();
         to.file_order = lost_faces ? FileOrder::for_gpu : part.source->file_order;
-        const auto select = [&](std::vector<Index>& values, const std::vector<Index>& of_source) {
-            values.clear();
-            if (of_source.empty()) return;
-            for (const Index f : part.simplified->history.kept_faces) values.push_back(of_source[f]);
-        };
-        select(to.face_object, part.source->face_object);
-        select(to.face_group, part.source->face_group);
-        to.object_names = part.source->object_names;
-        to.group_names = part.source->group_names;
+        for (const FaceArray& array : face_arrays) {
+            if (!array.names) continue;
+            to.*array.values = gather(part.source->*array.values, part.simplified->history.kept_faces);
+            to.*array.names = part.source->*array.names;
+        }
     }
 }
 

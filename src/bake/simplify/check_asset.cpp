@@ -7,6 +7,7 @@
 #include <string>
 
 #include "asset/scene/material_textures.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -18,27 +19,8 @@ public:
         : asset_(asset), part_(asset.parts[part]), title_(part_title(asset, part)) {}
 
     void operator()() const {
-        for (std::size_t set = 0; set < part_.uvs.size(); ++set) {
-            const std::string name = "uvs " + std::to_string(set);
-            check_size(part_.uvs[set], name);
-            check_finite(part_.uvs[set], name);
-        }
-        check(part_.positions, "positions");
-        check(part_.normals, "normals");
-        check(part_.tangents, "tangents");
-        check(part_.colors, "colors");
-        check(part_.weights, "weights");
-        check_size_or_empty(part_.joints, "joints");
-        for (const MorphTarget& target : part_.morph_targets) {
-            check(target.positions, "positions of a morph target");
-            check(target.normals, "normals of a morph target");
-        }
-        for (const CustomAttribute& attribute : part_.custom_attributes) {
-            check_size(attribute.values, attribute.name);
-            check_finite(attribute.values, attribute.name);
-            if (attribute.components < 1 || attribute.components > 4)
-                fail(attribute.name, "must have 1 to 4 components");
-        }
+        visit_vertex_arrays([&](const VertexArray& array, const auto& values) { check(array, values); },
+                            part_);
         check_faces();
     }
 
@@ -47,48 +29,32 @@ private:
         throw InputError(title_, element, what);
     }
     template <class T>
-    void check_size(const std::vector<T>& values, const std::string& name) const {
-        if (values.size() != part_.positions.size())
+    void check(const VertexArray& array, const std::vector<T>& values) const {
+        const std::string name = array.title();
+        if (values.size() != part_.positions.size() && !(values.empty() && array.may_be_empty()))
             fail(name, "has " + std::to_string(values.size()) + " entries, expected one for each of " +
                            std::to_string(part_.positions.size()) + " vertices");
-    }
-    template <class T>
-    void check_size_or_empty(const std::vector<T>& values, const std::string& name) const {
-        if (!values.empty()) check_size(values, name);
-    }
-    template <class T>
-    void check_finite(const std::vector<T>& values, const std::string& name) const {
         for (std::size_t v = 0; v < values.size(); ++v)
             for (const auto x : values[v])
                 if (!std::isfinite(x)) fail(name + ", vertex " + std::to_string(v), "is not finite");
-    }
-    template <class T>
-    void check(const std::vector<T>& values, const std::string& name) const {
-        check_size_or_empty(values, name);
-        check_finite(values, name);
+        if (array.attribute && (array.attribute->components < 1 || array.attribute->components > 4))
+            fail(name, "must have 1 to 4 components");
     }
     void check_faces() const {
         for (std::size_t f = 0; f < part_.triangles.size(); ++f)
             for (const Index v : part_.triangles[f])
                 if (!(v < part_.positions.size()))
                     fail("face " + std::to_string(f), "vertex index out of range");
-        const std::vector<Index>& materials = part_.face_material;
-        if (!materials.empty() && materials.size() != part_.triangles.size())
-            fail("face_material", "needs one entry per face or none");
-        for (std::size_t f = 0; f < materials.size(); ++f)
-            if (materials[f] != no_index && !(materials[f] < asset_.materials.size()))
-                fail("face " + std::to_string(f), "material index out of range");
-        check_names(part_.face_object, part_.object_names, "object");
-        check_names(part_.face_group, part_.group_names, "group");
-    }
-    // Checks the objects or groups of the faces.
-    void check_names(const std::vector<Index>& of_face, const std::vector<std::string>& names,
-                     const std::string& kind) const {
-        if (!of_face.empty() && of_face.size() != part_.triangles.size())
-            fail("face_" + kind, "needs one entry per face or none");
-        for (std::size_t f = 0; f < of_face.size(); ++f)
-            if (of_face[f] != no_index && !(of_face[f] < names.size()))
-                fail("face " + std::to_string(f), kind + " index out of range");
+        for (const FaceArray& array : face_arrays) {
+            const std::vector<Index>& values = part_.*array.values;
+            const std::string kind(array.kind);
+            if (!values.empty() && values.size() != part_.triangles.size())
+                fail("face_" + kind, "needs one entry per face or none");
+            const std::size_t count = array.names ? (part_.*array.names).size() : asset_.materials.size();
+            for (std::size_t f = 0; f < values.size(); ++f)
+                if (values[f] != no_index && !(values[f] < count))
+                    fail("face " + std::to_string(f), kind + " index out of range");
+        }
     }
 
     const Asset& asset_;

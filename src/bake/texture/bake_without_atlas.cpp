@@ -78,7 +78,8 @@ std::vector<Vec4f> kept_tangents(const Asset& source, const BakePart& part,
 // \param attributes  by corner: UVs of all sets, then the colour if the source has vertex colours
 CornerValues values_of_attributes(const BakePart& part, const std::vector<float>& attributes) {
     const std::size_t sets = part.source->uvs.size();
-    CornerValues values{{}, std::vector<std::vector<Vec2f>>(sets), {}};
+    CornerValues values;
+    values.uvs.resize(sets);
     for (auto at = attributes.begin(); at != attributes.end();) {
         for (std::size_t s = 0; s < sets; ++s, at += 2) values.uvs[s].push_back({at[0], at[1]});
         if (part.source->colors.empty()) continue;

@@ -15,6 +15,7 @@
 #include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/scene/messages.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "asset/scene/repair.hpp"
 
 namespace faqem::detail {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "asset/gltf/write/gpu_order.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -157,18 +158,7 @@ Vec3 local_origin(const std::vector<Part>& parts) {
 PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces, const Vec3& origin,
                                std::vector<Index>& scratch) {
     PrimitiveData data;
-    for (const Index f : faces)
-        for (const Index v : part.triangles[f])
-            if (scratch[v] == no_index) {
-                scratch[v] = 0;
-                data.vertices.push_back(v);
-            }
-    std::sort(data.vertices.begin(), data.vertices.end());
-    for (Index i = 0; i < data.vertices.size(); ++i) scratch[data.vertices[i]] = i;
-    data.corners.reserve(faces.size() * 3);
-    for (const Index f : faces)
-        for (const Index v : part.triangles[f]) data.corners.push_back(scratch[v]);
-    for (const Index v : data.vertices) scratch[v] = no_index;
+    number_corners(part, faces, scratch, data.vertices, data.corners);
     if (part.file_order == FileOrder::for_gpu) order_for_gpu(data.vertices, data.corners);
 
     gather_positions(part, origin, data);

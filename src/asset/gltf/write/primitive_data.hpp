@@ -37,13 +37,4 @@ Vec3 local_origin(const std::vector<Part>& parts);
 PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces, const Vec3& origin,
                                std::vector<Index>& scratch);
 
-/// Returns values[vertices[i]] for all i.
-template <class T>
-std::vector<T> gather(const std::vector<T>& values, const std::vector<Index>& vertices) {
-    std::vector<T> result;
-    result.reserve(vertices.size());
-    for (const Index v : vertices) result.push_back(values[v]);
-    return result;
-}
-
 }  // namespace faqem::detail
