@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/scene/material_textures.hpp"
 #include "capi/c_asset.hpp"
 #include "faqem/asset.hpp"
 
@@ -28,21 +29,17 @@ const Image* find_image(const faqem_asset* asset, std::size_t image) {
     return asset && image < asset->asset.images.size() ? &asset->asset.images[image] : nullptr;
 }
 
+// The values of faqem_texture are those of CoreTexture.
 const TextureRef* find_texture(const Material& material, faqem_texture texture) {
-    switch (texture) {
-        case FAQEM_TEXTURE_BASE_COLOR:
-            return &material.base_color_texture;
-        case FAQEM_TEXTURE_METALLIC_ROUGHNESS:
-            return &material.metallic_roughness_texture;
-        case FAQEM_TEXTURE_NORMAL:
-            return &material.normal_texture;
-        case FAQEM_TEXTURE_OCCLUSION:
-            return &material.occlusion_texture;
-        case FAQEM_TEXTURE_EMISSIVE:
-            return &material.emissive_texture;
-    }
-    return nullptr;
+    const auto number = static_cast<std::size_t>(texture);
+    return number < detail::core_slots.size() ? &(material.*detail::core_slots[number].texture) : nullptr;
 }
+static_assert(detail::core_slots[FAQEM_TEXTURE_BASE_COLOR].texture == &Material::base_color_texture &&
+              detail::core_slots[FAQEM_TEXTURE_METALLIC_ROUGHNESS].texture ==
+                  &Material::metallic_roughness_texture &&
+              detail::core_slots[FAQEM_TEXTURE_NORMAL].texture == &Material::normal_texture &&
+              detail::core_slots[FAQEM_TEXTURE_OCCLUSION].texture == &Material::occlusion_texture &&
+              detail::core_slots[FAQEM_TEXTURE_EMISSIVE].texture == &Material::emissive_texture);
 
 }  // namespace
 

@@ -3,12 +3,14 @@
 #include "asset/scene/messages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file_names.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/text/text_buffer.hpp"
 
@@ -96,40 +98,47 @@ bool has_same_uvs(const TextureRef& a, const TextureRef& b) {
     return a.uv_set == b.uv_set && a.offset == b.offset && a.scale == b.scale && a.rotation == b.rotation;
 }
 
+/// The textures that MTL has, in the order of leading_texture().
+constexpr std::array mtl_textures = {&Material::base_color_texture, &Material::emissive_texture,
+                                     &Material::metallic_roughness_texture, &Material::normal_texture};
+
 bool uses_other_uvs(const Material& m) {
     const auto differs = [&](const TextureRef& ref) { return ref && !has_same_uvs(ref, leading_texture(m)); };
     return differs(m.emissive_texture) || differs(m.metallic_roughness_texture) || differs(m.normal_texture);
 }
 
 bool has_unsupported_wrap(const Material& m) {
-    const auto unusual = [](const TextureRef& ref) {
+    return std::any_of(mtl_textures.begin(), mtl_textures.end(), [&](auto texture) {
+        const TextureRef& ref = m.*texture;
         return ref && (ref.wrap_u != ref.wrap_v || ref.wrap_u == Wrap::mirror);
-    };
-    return unusual(m.base_color_texture) || unusual(m.emissive_texture) ||
-           unusual(m.metallic_roughness_texture) || unusual(m.normal_texture);
+    });
 }
 
 void add_losses(const std::vector<Material>& materials, std::vector<std::string>& losses) {
     struct Loss {
-        const char* what;
+        std::string what;
         std::function<bool(const Material&)> occurs;
     };
-    const Loss kinds[] = {{"factors of metallic-roughness textures",
-                           [](const Material& m) {
-                               return m.metallic_roughness_texture && (m.roughness != 1 || m.metallic != 1);
-                           }},
-                          {"occlusion textures", [](const Material& m) { return bool(m.occlusion_texture); }},
-                          {"alpha cutoffs: alpha masks become alpha blending",
-                           [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
-                          {"unlit materials", [](const Material& m) { return m.unlit; }},
-                          {"double-sided materials", [](const Material& m) { return m.double_sided; }},
-                          {"material extensions", [](const Material& m) { return !m.extensions.empty(); }},
-                          {"different UVs for the textures of a material", uses_other_uvs},
-                          {"mirrored wrapping, or wrapping that differs in u and v", has_unsupported_wrap}};
+    std::vector<Loss> kinds = {
+        {"factors of metallic-roughness textures",
+         [](const Material& m) {
+             return m.metallic_roughness_texture && (m.roughness != 1 || m.metallic != 1);
+         }},
+        {"alpha cutoffs: alpha masks become alpha blending",
+         [](const Material& m) { return m.alpha_mode == AlphaMode::mask; }},
+        {"unlit materials", [](const Material& m) { return m.unlit; }},
+        {"double-sided materials", [](const Material& m) { return m.double_sided; }},
+        {"material extensions", [](const Material& m) { return !m.extensions.empty(); }},
+        {"different UVs for the textures of a material", uses_other_uvs},
+        {"mirrored wrapping, or wrapping that differs in u and v", has_unsupported_wrap}};
+    for (const CoreSlot& slot : core_slots)
+        if (std::find(mtl_textures.begin(), mtl_textures.end(), slot.texture) == mtl_textures.end())
+            kinds.insert(kinds.begin() + 1, {std::string(slot.title) + " textures",
+                                             [&](const Material& m) { return bool(m.*slot.texture); }});
     for (const Loss& kind : kinds) {
         const auto count = std::count_if(materials.begin(), materials.end(), kind.occurs);
         if (count)
-            losses.push_back(std::string("OBJ cannot hold ") + kind.what + " (" +
+            losses.push_back("OBJ cannot hold " + kind.what + " (" +
                              pluralized(static_cast<std::uint64_t>(count), "material") + ")");
     }
 }
@@ -137,10 +146,9 @@ void add_losses(const std::vector<Material>& materials, std::vector<std::string>
 }  // namespace
 
 const TextureRef& leading_texture(const Material& material) {
-    if (material.base_color_texture) return material.base_color_texture;
-    if (material.emissive_texture) return material.emissive_texture;
-    return material.metallic_roughness_texture ? material.metallic_roughness_texture
-                                               : material.normal_texture;
+    for (const auto texture : mtl_textures)
+        if (material.*texture) return material.*texture;
+    return material.normal_texture;
 }
 
 MtlLibrary make_mtl(const Asset& asset, const std::vector<Index>& used, const std::string& stem,

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 #include "faqem/asset.hpp"
@@ -67,16 +69,54 @@ inline const KnownTexture* find_known_texture(std::string_view extension, std::s
     return found == known_textures.end() ? nullptr : &*found;
 }
 
-/// Calls visit(texture) for the five textures of glTF's material, in a fixed order, whether they are set or
-/// not.
+/// The textures of glTF's material, as numbers of rows of core_slots.
+enum class CoreTexture : std::uint8_t { base_color, metallic_roughness, normal, occlusion, emissive };
+
+/// The images with values in RGB that core textures are baked to. Base colours and normals, which are no plain values,
+/// have images of their own.
+inline constexpr std::size_t orm_image = 0;  ///< occlusion, roughness and metalness
+inline constexpr std::size_t emissive_image = 1;
+inline constexpr std::array plain_images = {TextureContent::data, TextureContent::color};  ///< their contents
+inline constexpr std::size_t own_image = plain_images.size();                              ///< none of them
+
+/// A texture of glTF's material.
+struct CoreSlot {
+    TextureRef Material::*texture;
+    const char* key;                    ///< in glTF
+    bool is_in_pbr;                     ///< whether it is a member of pbrMetallicRoughness
+    const char* title;                  ///< for messages
+    TextureContent content;             ///< the alpha of base colours is unused in opaque materials
+    std::size_t image;                  ///< of `plain_images`
+    float Material::*factor = nullptr;  ///< a member of the texture in glTF, 1 if it is not set; null: none
+    const char* factor_key = "";
+};
+
+/// By CoreTexture.
+inline constexpr std::array core_slots = {
+    CoreSlot{&Material::base_color_texture, "baseColorTexture", true, "base colour",
+             TextureContent::color_and_alpha, own_image},
+    CoreSlot{&Material::metallic_roughness_texture, "metallicRoughnessTexture", true, "metallic-roughness",
+             TextureContent::data, orm_image},
+    CoreSlot{&Material::normal_texture, "normalTexture", false, "normal", TextureContent::normal, own_image,
+             &Material::normal_scale, "scale"},
+    CoreSlot{&Material::occlusion_texture, "occlusionTexture", false, "occlusion", TextureContent::data,
+             orm_image, &Material::occlusion_strength, "strength"},
+    CoreSlot{&Material::emissive_texture, "emissiveTexture", false, "emissive", TextureContent::color,
+             emissive_image},
+};
+
+/// Finds a texture of glTF's material by its key; null if there is none.
+inline const CoreSlot* find_core_slot(std::string_view key) {
+    const auto found = std::find_if(core_slots.begin(), core_slots.end(),
+                                    [&](const CoreSlot& slot) { return key == slot.key; });
+    return found == core_slots.end() ? nullptr : &*found;
+}
+
+/// Calls visit(texture) for the core textures of a material, in the order of core_slots, whether they are set or not.
 /// \param material  Material or const Material
 template <class M, class Visit>
 void for_each_core_texture(M& material, const Visit& visit) {
-    visit(material.base_color_texture);
-    visit(material.metallic_roughness_texture);
-    visit(material.normal_texture);
-    visit(material.occlusion_texture);
-    visit(material.emissive_texture);
+    for (const CoreSlot& slot : core_slots) visit(material.*slot.texture);
 }
 
 /// Calls visit(texture) as for_each_core_texture() does, then for the textures of extensions.
@@ -84,6 +124,15 @@ template <class M, class Visit>
 void for_each_texture(M& material, const Visit& visit) {
     for_each_core_texture(material, visit);
     for (auto& extension : material.extension_textures) visit(extension.texture);
+}
+
+/// Removes all textures of a material, with what only applies to them.
+inline void remove_textures(Material& material) {
+    for (const CoreSlot& slot : core_slots) {
+        material.*slot.texture = {};
+        if (slot.factor) material.*slot.factor = 1;
+    }
+    material.extension_textures.clear();
 }
 
 /// Whether a material refers to an image.

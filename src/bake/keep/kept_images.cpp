@@ -33,15 +33,11 @@ struct ImageUse {
 // Calls visit(texture, content); content is null for a texture of an unknown extension.
 template <class Visit>
 void for_each_content(const Material& m, const Visit& visit) {
-    const auto known = [&](const TextureRef& texture, TextureContent content) {
-        if (texture) visit(texture, &content);
-    };
-    known(m.base_color_texture,
-          m.alpha_mode == AlphaMode::opaque ? TextureContent::color : TextureContent::color_and_alpha);
-    known(m.metallic_roughness_texture, TextureContent::data);
-    known(m.occlusion_texture, TextureContent::data);
-    known(m.normal_texture, TextureContent::normal);
-    known(m.emissive_texture, TextureContent::color);
+    for (const CoreSlot& slot : core_slots) {
+        const bool is_opaque = m.alpha_mode == AlphaMode::opaque && is_color(slot.content);
+        const TextureContent content = is_opaque ? TextureContent::color : slot.content;
+        if (m.*slot.texture) visit(m.*slot.texture, &content);
+    }
     for (const ExtensionTexture& e : m.extension_textures) {
         if (!e.texture) continue;
         const KnownTexture* found = find_known_texture(e.extension, e.name);

@@ -200,7 +200,7 @@ std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart
 ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
                         const PartsWithUvs& candidates, DecodedImages& decoded, const Workers& workers) {
     const std::vector<PartSet>& sets = candidates.sets;
-    const Channels seen{.base = true, .normal = true};
+    const Channels seen{CoreTexture::base_color, CoreTexture::normal};
     const SourceSampler sampler(source, seen, workers, kept_flags(parts), &decoded);
     const SourceSampler kept_sampler(candidates.asset, seen, workers, {}, &decoded);
     const ExpectedPages pages = expected_pages(source, bake, parts, sampler, workers);

@@ -29,11 +29,10 @@ void write_rgb(const Vec3f& sum, float share, std::uint8_t (*encode)(double), st
 
 PageCanvas::PageCanvas(const PageRequest& page) : page_(page) {
     const Channels& channels = page.channels;
-    images_.base = blank(page, channels.base, page.alpha_mode != AlphaMode::opaque);
-    images_.occlusion_roughness_metallic =
-        blank(page, channels.occlusion || channels.metallic_roughness, false);
-    images_.emissive = blank(page, channels.emissive, false);
-    images_.normal = blank(page, channels.normal, false);
+    images_.base = blank(page, channels[CoreTexture::base_color], page.alpha_mode != AlphaMode::opaque);
+    for (std::size_t i = 0; i < plain_images.size(); ++i)
+        images_.plain[i] = blank(page, channels.has_plain(i), false);
+    images_.normal = blank(page, channels[CoreTexture::normal], false);
     for (const ExtensionLayer& layer : page.layers)
         images_.layers.push_back(blank(page, true, layer.has_alpha()));
     is_covered_.assign(page.texels(), 0);
@@ -59,10 +58,10 @@ void PageCanvas::write(std::uint32_t x, std::uint32_t y, const TexelSums& texel)
     closest_samples_[at] = samples_by(MapStep::closest);
     if (!images_.origins.empty()) images_.origins[at] = texel.origin;
     const float share = 1.0f / static_cast<float>(texel.samples);
-    if (page_.channels.base) write_base(at, texel, share);
-    write_rgb(texel.orm, share, linear_byte, at, images_.occlusion_roughness_metallic);
-    write_rgb(texel.emissive, share, srgb_byte, at, images_.emissive);
-    if (page_.channels.normal) write_normal(texel.normal, &images_.normal.rgba[4 * at]);
+    if (page_.channels[CoreTexture::base_color]) write_base(at, texel, share);
+    for (std::size_t i = 0; i < plain_images.size(); ++i)
+        write_rgb(texel.plain[i], share, plain_encoder(i), at, images_.plain[i]);
+    if (page_.channels[CoreTexture::normal]) write_normal(texel.normal, &images_.normal.rgba[4 * at]);
     if (texel.layer_samples == 0) return;
     has_layer_samples_[at] = 1;
     for (std::size_t i = 0; i < page_.layers.size(); ++i)
@@ -112,8 +111,7 @@ void PageCanvas::run_last_steps(const Workers& workers) {
         });
     };
     add_fill(images_.base, images_.base.has_alpha ? has_color_ : is_covered_, is_covered_);
-    add_fill(images_.occlusion_roughness_metallic, is_covered_, is_covered_);
-    add_fill(images_.emissive, is_covered_, is_covered_);
+    for (Pixels& image : images_.plain) add_fill(image, is_covered_, is_covered_);
     add_fill(images_.normal, is_covered_, is_covered_);
     for (Pixels& layer : images_.layers) add_fill(layer, has_layer_samples_, has_layer_samples_);
     steps.emplace_back([&] { images_.known = shown_texels(page_.layout.atlas); });

@@ -40,11 +40,12 @@ struct PageRequest {
 
 /// The images of a page. Channels that were not requested have no pixels.
 struct PageImages {
-    Pixels base, occlusion_roughness_metallic, emissive, normal;
-    std::vector<Pixels> layers;                 ///< by PageRequest::layers
-    std::array<std::uint64_t, 3> samples = {};  ///< number of samples by MapStep
-    std::uint64_t uncertain_texels = 0;         ///< texels with a sample not found by MapStep::history
-    std::uint64_t texels = 0;                   ///< texels that show a triangle
+    Pixels base, normal;
+    std::array<Pixels, plain_images.size()> plain;  ///< by image of `plain_images`
+    std::vector<Pixels> layers;                     ///< by PageRequest::layers
+    std::array<std::uint64_t, 3> samples = {};      ///< number of samples by MapStep
+    std::uint64_t uncertain_texels = 0;             ///< texels with a sample not found by MapStep::history
+    std::uint64_t texels = 0;                       ///< texels that show a triangle
     std::vector<std::uint8_t> known;  ///< by texel: nonzero if a triangle shows it, see shown_texels()
     /// By texel: nonzero if `layers` are known. Empty without layers.
     std::vector<std::uint8_t> known_layers;

@@ -29,8 +29,6 @@ bool differ(const ExtensionLayer& layer, const LinearColor& a, const LinearColor
     return differ(p[0], q[0]) || differ(p[1], q[1]) || differ(p[2], q[2]) || differ(p[3], q[3]);
 }
 
-Vec3f orm(const Appearance& a) { return {a.occlusion, a.roughness, a.metallic}; }
-
 }  // namespace
 
 void write_normal(const Vector3& sum, std::uint8_t* to) {
@@ -51,13 +49,12 @@ void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float shar
 bool differ_visibly(const Channels& channels, std::span<const ExtensionLayer> layers, const SampleValues& a,
                     const SampleValues& b) {
     const Appearance &p = a.appearance, &q = b.appearance;
-    if (channels.base &&
+    if (channels[CoreTexture::base_color] &&
         (differ(p.base, q.base, 3, srgb_byte) || differ(linear_byte(p.base[3]), linear_byte(q.base[3]))))
         return true;
-    if ((channels.occlusion || channels.metallic_roughness) && differ(orm(p), orm(q), 3, linear_byte))
-        return true;
-    if (channels.emissive && differ(p.emissive, q.emissive, 3, srgb_byte)) return true;
-    if (channels.normal && differ(a.normal, b.normal)) return true;
+    for (std::size_t i = 0; i < plain_images.size(); ++i)
+        if (channels.has_plain(i) && differ(p.plain[i], q.plain[i], 3, plain_encoder(i))) return true;
+    if (channels[CoreTexture::normal] && differ(a.normal, b.normal)) return true;
     if (layers.empty()) return false;
     if (a.has_layers != b.has_layers) return true;
     for (std::size_t i = 0; i < layers.size() && a.has_layers; ++i)

@@ -32,8 +32,7 @@ struct TexelSums {
     explicit TexelSums(std::size_t layer_count) : layers(layer_count) {}
 
     LinearColor base{};
-    Vec3f orm{};  ///< occlusion, roughness, metalness
-    Vec3f emissive{};
+    std::array<Vec3f, plain_images.size()> plain{};
     engine::Vector3 normal = engine::Vector3::Zero();
     std::vector<LinearColor> layers;
     std::uint32_t samples = 0, layer_samples = 0;
@@ -48,9 +47,8 @@ struct TexelSums {
 inline void TexelSums::add(const SampleValues& sample) {
     const Appearance& a = sample.appearance;
     for (std::size_t k = 0; k < 4; ++k) base[k] += a.base[k];
-    const Vec3f values = {a.occlusion, a.roughness, a.metallic};
-    for (std::size_t k = 0; k < 3; ++k) orm[k] += values[k];
-    for (std::size_t k = 0; k < 3; ++k) emissive[k] += a.emissive[k];
+    for (std::size_t i = 0; i < plain.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) plain[i][k] += a.plain[i][k];
     normal += sample.normal;
     ++samples;
     ++steps[static_cast<std::size_t>(sample.origin.point.step)];
@@ -62,6 +60,11 @@ inline void TexelSums::add(const SampleValues& sample) {
     ++layer_samples;
     for (std::size_t i = 0; i < layers.size(); ++i)
         for (std::size_t k = 0; k < 4; ++k) layers[i][k] += sample.layers[i][k];
+}
+
+/// The encoding of an image of `plain_images`.
+inline auto plain_encoder(std::size_t image) {
+    return is_color(plain_images[image]) ? srgb_byte : linear_byte;
 }
 
 /// Encodes the direction of `sum` in three bytes; (0, 0, 1) if its length is zero.

@@ -42,7 +42,7 @@ struct Model {
           surface(detail::extract_nonempty_surface({part().positions, part().triangles}, name)),
           face_normals(surface.normals),
           tree(surface.positions, surface.triangles),
-          colors(asset, {.base = true}) {
+          colors(asset, {detail::CoreTexture::base_color}) {
         if (part().normals.empty()) return;
         for (std::size_t i = 0; i < face_normals.size(); ++i) {
             Vector3 sum = Vector3::Zero();

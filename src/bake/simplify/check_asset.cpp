@@ -73,10 +73,11 @@ void check_material(const Asset& asset, Index material) {
     });
     for (const ExtensionTexture& texture : m.extension_textures)
         if (!std::isfinite(texture.normal_scale)) fail("the scale of a normal map is not finite");
-    for (const float x :
-         {m.base_color[0], m.base_color[1], m.base_color[2], m.base_color[3], m.metallic, m.roughness,
-          m.normal_scale, m.occlusion_strength, m.emissive[0], m.emissive[1], m.emissive[2], m.alpha_cutoff})
+    for (const float x : {m.base_color[0], m.base_color[1], m.base_color[2], m.base_color[3], m.metallic,
+                          m.roughness, m.emissive[0], m.emissive[1], m.emissive[2], m.alpha_cutoff})
         if (!std::isfinite(x)) fail("a factor is not finite");
+    for (const CoreSlot& slot : core_slots)
+        if (slot.factor && !std::isfinite(m.*slot.factor)) fail("a factor is not finite");
 }
 
 }  // namespace

@@ -85,21 +85,24 @@ SourceSampler::MaterialSlots SourceSampler::load_material(Index index, const Dec
     MaterialSlots result;
     result.material = &material_or_default(asset_, index);
     const Material& m = *result.material;
-    const TexelEncoding color =
-        m.alpha_mode == AlphaMode::opaque ? TexelEncoding::opaque_color : TexelEncoding::color;
     const auto set = [&](TextureSlot& to, bool wanted, const TextureRef& texture_ref,
                          TexelEncoding encoding) {
         if (wanted) to = load_slot(texture_ref, encoding, index, images, missing);
     };
-    set(result.base, wanted_.base, m.base_color_texture, color);
-    set(result.metallic_roughness, wanted_.metallic_roughness, m.metallic_roughness_texture,
-        TexelEncoding::data);
-    set(result.occlusion, wanted_.occlusion, m.occlusion_texture, TexelEncoding::data);
-    result.shares_occlusion = result.occlusion.image &&
-                              result.occlusion.image == result.metallic_roughness.image &&
+    for (const bool are_normals :
+         {false, true}) {  // of several damaged images, that of a normal map is reported last
+        for (std::size_t i = 0; i < core_slots.size(); ++i) {
+            const TextureContent content = core_slots[i].content;
+            if ((content == TextureContent::normal) != are_normals || (are_normals && m.unlit)) continue;
+            TexelEncoding encoding = is_color(content) ? TexelEncoding::opaque_color : TexelEncoding::data;
+            if (content == TextureContent::color_and_alpha && m.alpha_mode != AlphaMode::opaque)
+                encoding = TexelEncoding::color;
+            set(result.core[i], wanted_.core[i], m.*core_slots[i].texture, encoding);
+        }
+    }
+    const auto& occlusion = result[CoreTexture::occlusion].image;
+    result.shares_occlusion = occlusion && occlusion == result[CoreTexture::metallic_roughness].image &&
                               m.occlusion_texture == m.metallic_roughness_texture;
-    set(result.emissive, wanted_.emissive, m.emissive_texture, TexelEncoding::opaque_color);
-    set(result.normal, wanted_.normal && !m.unlit, m.normal_texture, TexelEncoding::data);
     if (!wanted_.layers) return result;
     result.extensions.resize(m.extension_textures.size());
     for (const ExtensionLayer& layer : extension_layers(m)) {
@@ -224,9 +227,9 @@ Vec3f SourceSampler::stored_base_color(Index p, const SurfacePoint& point) const
     const MaterialSlots& s = slots(p, point);
     const Vec4f factor = base_factor(*s.material, part, point);
     Vec3f color = {1, 1, 1};
-    if (s.base.image) {
-        const auto uv = uv_at(s.base, part, point);
-        color = s.base.image->stored_color(*s.base.texture_ref, uv[0], uv[1]);
+    if (const TextureSlot& base = s[CoreTexture::base_color]; base.image) {
+        const auto uv = uv_at(base, part, point);
+        color = base.image->stored_color(*base.texture_ref, uv[0], uv[1]);
     }
     for (std::size_t k = 0; k < 3; ++k) color[k] *= factor[k];
     return color;
@@ -239,27 +242,27 @@ Appearance SourceSampler::sample(Index p, const SurfacePoint& point, double spac
     Appearance result;
     FetchCache cache;
     const Vec4f factor = base_factor(m, part, point);
-    const LinearColor base = s.base.image ? fetch(s.base, p, point, spacing, cache) : LinearColor{1, 1, 1, 1};
+    LinearColor base{1, 1, 1, 1};
+    if (const TextureSlot& slot = s[CoreTexture::base_color]; slot.image)
+        base = fetch(slot, p, point, spacing, cache);
     for (std::size_t k = 0; k < 3; ++k) result.base[k] = base[k] * factor[k] * factor[3];
     result.base[3] = base[3] * factor[3];
 
-    result.metallic = m.metallic;
-    result.roughness = m.roughness;
+    Vec3f& orm = result.plain[orm_image] = {1, m.roughness, m.metallic};
     LinearColor data{};
-    if (s.metallic_roughness.image) {
-        data = fetch(s.metallic_roughness, p, point, spacing, cache);
-        result.roughness *= data[1];
-        result.metallic *= data[2];
+    if (const TextureSlot& slot = s[CoreTexture::metallic_roughness]; slot.image) {
+        data = fetch(slot, p, point, spacing, cache);
+        for (std::size_t k = 1; k < 3; ++k) orm[k] *= data[k];
     }
-    if (s.occlusion.image) {
+    if (const TextureSlot& slot = s[CoreTexture::occlusion]; slot.image) {
         // Most materials have occlusion, roughness and metalness in one image.
-        if (!s.shares_occlusion) data = fetch(s.occlusion, p, point, spacing, cache);
-        result.occlusion = 1 + m.occlusion_strength * (data[0] - 1);
+        if (!s.shares_occlusion) data = fetch(slot, p, point, spacing, cache);
+        orm[0] = 1 + m.occlusion_strength * (data[0] - 1);
     }
-    result.emissive = m.emissive;
-    if (s.emissive.image) {
-        const LinearColor c = fetch(s.emissive, p, point, spacing, cache);
-        for (std::size_t k = 0; k < 3; ++k) result.emissive[k] *= c[k];
+    Vec3f& emissive = result.plain[emissive_image] = m.emissive;
+    if (const TextureSlot& slot = s[CoreTexture::emissive]; slot.image) {
+        const LinearColor c = fetch(slot, p, point, spacing, cache);
+        for (std::size_t k = 0; k < 3; ++k) emissive[k] *= c[k];
     }
     return result;
 }
@@ -267,7 +270,7 @@ Appearance SourceSampler::sample(Index p, const SurfacePoint& point, double spac
 Vector3 SourceSampler::normal(Index p, const SurfacePoint& point, double spacing,
                               const Vector3& face_normal) const {
     const MaterialSlots& s = slots(p, point);
-    return perturbed_normal(s.normal, s.material->normal_scale, p, point, spacing, face_normal);
+    return perturbed_normal(s[CoreTexture::normal], s.material->normal_scale, p, point, spacing, face_normal);
 }
 
 Vector3 SourceSampler::perturbed_normal(const TextureSlot& slot, double scale, Index p,
@@ -315,7 +318,7 @@ double SourceSampler::texel_density(Index p, Index face) const {
         if (set < part.uvs.size())
             density = std::max(density, densities_[p].uv_per_length[set][face] * slot.texels_per_uv);
     });
-    const bool geometry = wanted_.normal && !s.normal.image;
+    const bool geometry = wanted_[CoreTexture::normal] && !s[CoreTexture::normal].image;
     return density > 0 && !geometry ? density : std::max(density, densities_[p].untextured_density);
 }
 

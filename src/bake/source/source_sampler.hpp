@@ -2,12 +2,16 @@
 /// \file
 /// Appearance of the source at a point of its surface.
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "asset/scene/material_textures.hpp"
 #include "bake/source/extension_layers.hpp"
 #include "bake/source/material_groups.hpp"
 #include "bake/source/source_normals.hpp"
@@ -18,29 +22,40 @@ namespace faqem::detail {
 
 /// Values of a material at a point, including its factors and the vertex colours.
 struct Appearance {
-    LinearColor base = {1, 1, 1, 1};  ///< premultiplied
-    float metallic = 1, roughness = 1, occlusion = 1;
-    Vec3f emissive = {0, 0, 0};
+    LinearColor base = {1, 1, 1, 1};                    ///< premultiplied
+    std::array<Vec3f, plain_images.size()> plain = {};  ///< by image of `plain_images`
 };
 
-/// Channels of a material that can be stored in images.
+/// Textures of a material that can be baked to images.
 struct Channels {
-    bool base = false, metallic_roughness = false, occlusion = false, emissive = false, normal = false;
-    bool layers = false;         ///< layers of extension textures, see ExtensionLayer
-    bool layer_normals = false;  ///< at least one of the layers is a normal map
+    constexpr Channels(std::initializer_list<CoreTexture> textures = {}) {
+        for (const CoreTexture texture : textures) (*this)[texture] = true;
+    }
 
-    bool any() const { return base || metallic_roughness || occlusion || emissive || normal || layers; }
-    bool needs_tangents() const { return normal || layer_normals; }
+    std::array<bool, core_slots.size()> core = {};  ///< by CoreTexture
+    bool layers = false;                            ///< layers of extension textures, see ExtensionLayer
+    bool layer_normals = false;                     ///< at least one of the layers is a normal map
+
+    constexpr bool& operator[](CoreTexture texture) { return core[static_cast<std::size_t>(texture)]; }
+    constexpr bool operator[](CoreTexture texture) const { return core[static_cast<std::size_t>(texture)]; }
+    bool any() const { return layers || std::find(core.begin(), core.end(), true) != core.end(); }
+    bool needs_tangents() const { return (*this)[CoreTexture::normal] || layer_normals; }
+
+    /// Whether an image of `plain_images` is needed.
+    bool has_plain(std::size_t image) const {
+        bool result = false;
+        for (std::size_t i = 0; i < core.size(); ++i)
+            result = result || (core[i] && core_slots[i].image == image);
+        return result;
+    }
 
     /// Union of the channels.
     Channels operator|(const Channels& o) const {
-        return {base || o.base,
-                metallic_roughness || o.metallic_roughness,
-                occlusion || o.occlusion,
-                emissive || o.emissive,
-                normal || o.normal,
-                layers || o.layers,
-                layer_normals || o.layer_normals};
+        Channels result = *this;
+        for (std::size_t i = 0; i < core.size(); ++i) result.core[i] = core[i] || o.core[i];
+        result.layers = layers || o.layers;
+        result.layer_normals = layer_normals || o.layer_normals;
+        return result;
     }
 };
 
@@ -103,16 +118,18 @@ private:
     };
     struct MaterialSlots {  // a material and its textures
         const Material* material = nullptr;
-        TextureSlot base, metallic_roughness, occlusion, emissive, normal;
-        bool shares_occlusion = false;        // `occlusion` and `metallic_roughness` are the same texture
+        std::array<TextureSlot, core_slots.size()> core;  // by CoreTexture
+        bool shares_occlusion = false;        // with metalness and roughness, which are the same texture
         std::vector<TextureSlot> extensions;  // by Material::extension_textures; only the first of each layer
 
         template <class Visit>
         void for_each_image(const Visit& visit) const {
-            for (const TextureSlot* slot : {&base, &metallic_roughness, &occlusion, &emissive, &normal})
-                if (slot->image) visit(*slot);
-            for (const TextureSlot& slot : extensions)
-                if (slot.image) visit(slot);
+            for (const auto& slots : {std::span<const TextureSlot>(core), std::span(extensions)})
+                for (const TextureSlot& slot : slots)
+                    if (slot.image) visit(slot);
+        }
+        const TextureSlot& operator[](CoreTexture texture) const {
+            return core[static_cast<std::size_t>(texture)];
         }
     };
     struct FetchCache {  // what most textures of a material have in common at one point and spacing

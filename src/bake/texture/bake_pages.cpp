@@ -46,15 +46,19 @@ bool has_non_white_colors(const Part& part) {
 Channels needed_channels(const Asset& asset, const MaterialGroup& group) {
     Channels result;
     const Material& first = group.material;
+    const auto add = [&](CoreTexture texture, bool is_needed) {
+        const bool is_shown = !first.unlit || texture == CoreTexture::base_color;
+        result[texture] = result[texture] || (is_needed && is_shown);
+    };
     for (Index m : group.materials) {
         const Material& material = material_or_default(asset, m);
-        result.base = result.base || material.base_color_texture || material.base_color != first.base_color;
-        if (first.unlit) continue;
-        result.metallic_roughness = result.metallic_roughness || material.metallic_roughness_texture ||
-                                    material.metallic != first.metallic ||
-                                    material.roughness != first.roughness;
-        result.occlusion = result.occlusion || material.occlusion_texture;
-        result.emissive = result.emissive || material.emissive_texture || material.emissive != first.emissive;
+        for (std::size_t i = 0; i < core_slots.size(); ++i)
+            if (core_slots[i].content != TextureContent::normal)
+                add(static_cast<CoreTexture>(i), bool(material.*core_slots[i].texture));
+        add(CoreTexture::base_color, material.base_color != first.base_color);
+        add(CoreTexture::metallic_roughness,
+            material.metallic != first.metallic || material.roughness != first.roughness);
+        add(CoreTexture::emissive, material.emissive != first.emissive);
     }
     return result;
 }
@@ -81,12 +85,13 @@ std::vector<Page> plan_pages(const BakeJob& job, const MaterialGroups& groups) {
         for (Index f = 0; f < part.faces(); ++f) {
             Page& page = pages[groups.group_of(materials[f])];
             page.mesh.faces.push_back({part.index, f});
-            page.channels.base = page.channels.base || colors;
+            page.channels[CoreTexture::base_color] = page.channels[CoreTexture::base_color] || colors;
         }
     }
     for (std::size_t g = 0; g < pages.size(); ++g) {
-        pages[g].channels.normal = wants_normal_map(job.options.normal_map, job.source, groups.groups[g],
-                                                    job.parts, pages[g].mesh.faces, job.progress.workers());
+        pages[g].channels[CoreTexture::normal] =
+            wants_normal_map(job.options.normal_map, job.source, groups.groups[g], job.parts,
+                             pages[g].mesh.faces, job.progress.workers());
     }
     return pages;
 }
@@ -114,7 +119,7 @@ bool layout_pages(const BakeJob& job, const SourceSampler& sampler, std::vector<
 void warn_of_normal_maps(const Asset& source, const MaterialGroups& groups, const std::vector<Page>& pages,
                          std::vector<std::string>& warnings) {
     for (std::size_t g = 0; g < pages.size(); ++g) {
-        if (pages[g].channels.normal) continue;
+        if (pages[g].channels[CoreTexture::normal]) continue;
         for (Index m : groups.groups[g].materials) {
             if (material_or_default(source, m).normal_texture)
                 warnings.push_back(material_title(source, m) + ": the normal map was left out");

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
 #include "bake/page/normal_map.hpp"
 #include "bake/parts/corner_transfer.hpp"
@@ -23,14 +24,9 @@ namespace {
 // Names of a material's textures for a warning: "base colour, normal".
 std::string texture_names(const Material& m, bool with_base) {
     std::string result;
-    const auto add = [&](const TextureRef& texture, const char* name) {
-        if (texture) result += (result.empty() ? "" : ", ") + std::string(name);
-    };
-    if (with_base) add(m.base_color_texture, "base colour");
-    add(m.metallic_roughness_texture, "metallic-roughness");
-    add(m.normal_texture, "normal");
-    add(m.occlusion_texture, "occlusion");
-    add(m.emissive_texture, "emissive");
+    for (const CoreSlot& slot : core_slots)
+        if (m.*slot.texture && (with_base || slot.texture != &Material::base_color_texture))
+            result += (result.empty() ? "" : ", ") + std::string(slot.title);
     return result;
 }
 
@@ -42,10 +38,7 @@ Material without_textures(const Asset& source, Index index, bool base_is_kept_el
     const std::string names = texture_names(result, !base_is_kept_elsewhere);
     if (!names.empty()) warnings.push_back(material_title(source, index) + ": textures left out: " + names);
     if (result.emissive_texture) result.emissive = {0, 0, 0};
-    result.base_color_texture = result.metallic_roughness_texture = result.normal_texture =
-        result.occlusion_texture = result.emissive_texture = {};
-    result.normal_scale = result.occlusion_strength = 1;
-    result.extension_textures.clear();  // save() warns about these
+    remove_textures(result);  // save() warns about those of extensions
     result.rebaked = true;
     return result;
 }
@@ -122,7 +115,7 @@ void bake_vertex(const BakeJob& job, UnencodedResult& out) {
     bake.kind = Bake::vertex;  // also if an atlas was requested, but has too few texels
     const std::vector<std::uint8_t> kept = kept_flags(job.parts);
     const MaterialGroups groups = group_materials(job.source, bake, kept);
-    const SourceSampler sampler(job.source, {.base = true}, job.progress.workers(), kept);
+    const SourceSampler sampler(job.source, {CoreTexture::base_color}, job.progress.workers(), kept);
     Asset& asset = out.asset.asset;
     for (const MaterialGroup& group : groups.groups) {
         for (const Index m : group.materials) {

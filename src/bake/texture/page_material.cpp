@@ -124,19 +124,19 @@ std::optional<Vec4f> constant_base_color(const PageImages& images) {
 
 // The emitted light as a factor, if it is constant.
 std::optional<Vec3f> constant_emission(const PageImages& images) {
-    const auto [r, g, b, a] = constant_channels(images.emissive, images.known);
+    const auto [r, g, b, a] = constant_channels(images.plain[emissive_image], images.known);
     if (!r || !g || !b) return std::nullopt;
     return Vec3f{linear_factor(*r), linear_factor(*g), linear_factor(*b)};
 }
 
 // Mean roughness over the texels that are shown; without a texture the factor, which a page has in common.
 double mean_roughness(const Channels& channels, const PageImages& images, const Material& material) {
-    if (!channels.metallic_roughness) return std::clamp(double{material.roughness}, 0.0, 1.0);
+    if (!channels[CoreTexture::metallic_roughness]) return std::clamp(double{material.roughness}, 0.0, 1.0);
     double sum = 0;
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < images.known.size(); ++i) {
         if (!images.known[i]) continue;
-        sum += images.occlusion_roughness_metallic.rgba[4 * i + 1];
+        sum += images.plain[orm_image].rgba[4 * i + 1];
         ++count;
     }
     return count > 0 ? sum / 255 / static_cast<double>(count) : 1;
@@ -160,16 +160,16 @@ void add_occlusion_roughness_metallic(PageImageList& list, const Channels& chann
                                       const std::shared_ptr<const std::vector<std::uint8_t>>& known,
                                       const std::vector<TextureRef>& from, Material& result) {
     const auto [occlusion, roughness, metallic, alpha] =
-        constant_channels(images.occlusion_roughness_metallic, images.known);
-    const bool has_occlusion = channels.occlusion && occlusion != 255.0f;
-    const bool is_varying = channels.metallic_roughness && !(roughness && metallic);
+        constant_channels(images.plain[orm_image], images.known);
+    const bool has_occlusion = channels[CoreTexture::occlusion] && occlusion != 255.0f;
+    const bool is_varying = channels[CoreTexture::metallic_roughness] && !(roughness && metallic);
     TextureRef texture;
     if (has_occlusion || is_varying) {
-        texture = list.add(std::move(images.occlusion_roughness_metallic), known,
-                           "_occlusionRoughnessMetallic", TextureContent::data, from);
+        texture = list.add(std::move(images.plain[orm_image]), known, "_occlusionRoughnessMetallic",
+                           TextureContent::data, from);
     }
     if (has_occlusion) result.occlusion_texture = texture;
-    if (!channels.metallic_roughness) return;
+    if (!channels[CoreTexture::metallic_roughness]) return;
     result.metallic = is_varying ? 1 : *metallic / 255;
     result.roughness = is_varying ? 1 : *roughness / 255;
     if (is_varying) result.metallic_roughness_texture = texture;
@@ -181,10 +181,7 @@ Material page_material(const Asset& source, const BakeOptions& bake, const Mater
                        const Channels& channels, std::span<const ExtensionLayer> layers, PageImages images,
                        UnencodedResult& out) {
     Material result = group.material;
-    result.normal_texture = result.base_color_texture = result.metallic_roughness_texture =
-        result.occlusion_texture = result.emissive_texture = {};
-    result.normal_scale = result.occlusion_strength = 1;
-    result.extension_textures.clear();
+    remove_textures(result);
     const auto uses = [&](std::initializer_list<TextureMember> slots) {
         return textures_of_group(source, group, slots);
     };
@@ -194,7 +191,7 @@ Material page_material(const Asset& source, const BakeOptions& bake, const Mater
         out);
     const auto known = std::make_shared<const std::vector<std::uint8_t>>(images.known);
     list.roughness = mean_roughness(channels, images, group.material);
-    if (channels.base) {
+    if (channels[CoreTexture::base_color]) {
         const std::optional<Vec4f> constant = constant_base_color(images);
         result.base_color = constant.value_or(Vec4f{1, 1, 1, 1});
         if (!constant)
@@ -202,19 +199,19 @@ Material page_material(const Asset& source, const BakeOptions& bake, const Mater
                 list.add(std::move(images.base), known, "_baseColor", TextureContent::color,
                          uses({&Material::base_color_texture}));
     }
-    if (channels.metallic_roughness || channels.occlusion) {
+    if (channels[CoreTexture::metallic_roughness] || channels[CoreTexture::occlusion]) {
         add_occlusion_roughness_metallic(
             list, channels, images, known,
             uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}), result);
     }
-    if (channels.emissive) {
+    if (channels[CoreTexture::emissive]) {
         const std::optional<Vec3f> constant = constant_emission(images);
         result.emissive = constant.value_or(Vec3f{1, 1, 1});
         if (!constant)
-            result.emissive_texture = list.add(std::move(images.emissive), known, "_emissive",
+            result.emissive_texture = list.add(std::move(images.plain[emissive_image]), known, "_emissive",
                                                TextureContent::color, uses({&Material::emissive_texture}));
     }
-    if (channels.normal && !is_flat_normal_map(images.normal, images.known)) {
+    if (channels[CoreTexture::normal] && !is_flat_normal_map(images.normal, images.known)) {
         const std::vector<TextureRef> from = uses({&Material::normal_texture});
         result.normal_texture =
             list.add(std::move(images.normal), known, "_normal", TextureContent::normal, from);

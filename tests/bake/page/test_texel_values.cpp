@@ -9,8 +9,8 @@ using faqem::engine::Vector3;
 
 namespace {
 
-constexpr Channels everything = {
-    .base = true, .metallic_roughness = true, .occlusion = true, .emissive = true, .normal = true};
+constexpr Channels everything = {CoreTexture::base_color, CoreTexture::metallic_roughness,
+                                 CoreTexture::normal, CoreTexture::occlusion, CoreTexture::emissive};
 
 // The value of a byte in linear light.
 float linear(int byte) {
@@ -22,7 +22,7 @@ float linear(int byte) {
 SampleValues grey(int base, int data) {
     SampleValues result;
     const float value = static_cast<float>(data) / 255;
-    result.appearance = {{linear(base), linear(base), linear(base), 1}, value, value, value, {0, 0, 0}};
+    result.appearance = {{linear(base), linear(base), linear(base), 1}, {{{value, value, value}, {0, 0, 0}}}};
     result.normal = Vector3(0, 0, 1);
     return result;
 }
@@ -48,19 +48,19 @@ TEST_CASE("samples differ visibly by more than one in a byte, in the dark and in
 TEST_CASE("every channel with an image can differ visibly, the others cannot") {
     const SampleValues a = grey(50, 50);
     SampleValues b = a;
-    const auto only_in = [&](bool Channels::*member) {
+    const auto only_in = [&](CoreTexture texture) {
         Channels others = everything;
-        others.*member = false;
+        others[texture] = false;
         CHECK(differ(a, b));
         CHECK_FALSE(differ(a, b, others));
         b = a;
     };
     b.appearance.base[3] = 0.9f;
-    only_in(&Channels::base);
-    b.appearance.emissive[2] = 0.1f;
-    only_in(&Channels::emissive);
+    only_in(CoreTexture::base_color);
+    b.appearance.plain[emissive_image][2] = 0.1f;
+    only_in(CoreTexture::emissive);
     b.normal = Vector3(0.1, 0, 1);
-    only_in(&Channels::normal);
+    only_in(CoreTexture::normal);
     b.normal = Vector3(0, 0, 3);  // of the same direction
     CHECK_FALSE(differ(a, b));
 }
@@ -78,7 +78,7 @@ TEST_CASE("sums over samples are those of all values, with the origin closest to
     CHECK(sum.samples == 2);
     CHECK(sum.base[0] == 1);
     CHECK(sum.base[3] == 2);
-    CHECK(sum.orm[1] == Approx(1.2));
+    CHECK(sum.plain[orm_image][1] == Approx(1.2));
     CHECK(sum.normal == Vector3(0, 0, 2));
     CHECK(sum.layer_samples == 1);
     CHECK(sum.layers[0][3] == 4);

@@ -5,6 +5,7 @@
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
+#include "asset/scene/material_textures.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -111,11 +112,6 @@ void check_texture_info(const GltfChecker& checker, const Json& info, const std:
             checker.fail(child_path(where, "texCoord"), "is larger than " + std::to_string(max_uv_set));
 }
 
-bool is_core_texture(const std::string& key) {
-    return key == "baseColorTexture" || key == "metallicRoughnessTexture" || key == "normalTexture" ||
-           key == "occlusionTexture" || key == "emissiveTexture";
-}
-
 void check_material(const GltfChecker& checker, const Json& material, const std::string& where) {
     checker.check_levels(material, where, "materials");
     const Json& pbr = checker.object(material, where, "pbrMetallicRoughness");
@@ -124,7 +120,7 @@ void check_material(const GltfChecker& checker, const Json& material, const std:
     for (const Json* holder : {&material, &pbr}) {
         const std::string at = holder == &pbr ? where + "/pbrMetallicRoughness" : where;
         for (const auto& [key, value] : holder->items())
-            if (is_core_texture(key) || is_texture_info(key, value))
+            if (find_core_slot(key) || is_texture_info(key, value))
                 check_texture_info(checker, value, child_path(at, key));
     }
     for (const auto& [name, extension] : checker.object(material, where, "extensions").items())

@@ -12,15 +12,14 @@
 namespace faqem::detail {
 namespace {
 
-double number_or(const tinygltf::Value& value, double fallback) {
-    return value.IsNumber() ? value.GetNumberAsDouble() : fallback;
+double number_or(const Json& value, double fallback) {
+    return value.is_number() ? value.get<double>() : fallback;
 }
 
-Vec2f pair_or(const tinygltf::Value& object, const char* key, Vec2f fallback) {
-    if (!object.Has(key) || object.Get(key).ArrayLen() != 2) return fallback;
-    const tinygltf::Value& pair = object.Get(key);
-    return {static_cast<float>(number_or(pair.Get(0), fallback[0])),
-            static_cast<float>(number_or(pair.Get(1), fallback[1]))};
+Vec2f pair_or(const Json& pair, Vec2f fallback) {
+    if (pair.size() != 2) return fallback;
+    return {static_cast<float>(number_or(pair[0], fallback[0])),
+            static_cast<float>(number_or(pair[1], fallback[1]))};
 }
 
 Wrap wrap_of(int mode) {
@@ -38,62 +37,42 @@ Index image_of(const SourceDocument& source, std::size_t index) {
     return image;
 }
 
-/// Converts a texture info; unset if the texture has no usable image.
-/// \tparam Info  one of the three texture info types of tinygltf
-template <class Info>
-TextureRef texture_ref(LoadedGltf& loaded, const Info& info) {
+/// Converts a texture info; unset if there is none, or if the texture has no usable image.
+TextureRef texture_ref(const LoadedGltf& loaded, const Json& info) {
     TextureRef ref;
-    if (info.index < 0) return ref;
-    const tinygltf::Texture& texture = loaded.model.textures[static_cast<std::size_t>(info.index)];
-    const Index source = image_of(*loaded.source, static_cast<std::size_t>(info.index));
+    const Index index = index_member(info, "index");
+    if (index == no_index) return ref;
+    const tinygltf::Texture& texture = loaded.model.textures[index];
+    const Index source = image_of(*loaded.source, index);
     const auto image = static_cast<std::size_t>(source);
     // A texture without an image is ignored. Missing images were reported when they were loaded.
     if (source == no_index || loaded.source->images[image].encoded.empty()) return ref;
     ref.image = static_cast<Index>(image);
-    ref.uv_set = static_cast<std::uint32_t>(info.texCoord);
+    ref.uv_set = static_cast<std::uint32_t>(unsigned_member(info, "texCoord", 0));
     if (texture.sampler >= 0) {
         const tinygltf::Sampler& sampler = loaded.model.samplers[static_cast<std::size_t>(texture.sampler)];
         ref.wrap_u = wrap_of(sampler.wrapS);
         ref.wrap_v = wrap_of(sampler.wrapT);
         if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) ref.filter = Filter::nearest;
     }
-    const auto found = info.extensions.find("KHR_texture_transform");
-    if (found == info.extensions.end()) return ref;
-    const tinygltf::Value& transform = found->second;
-    ref.offset = pair_or(transform, "offset", ref.offset);
-    ref.scale = pair_or(transform, "scale", ref.scale);
-    if (transform.Has("rotation")) ref.rotation = static_cast<float>(number_or(transform.Get("rotation"), 0));
-    if (transform.Has("texCoord"))
-        ref.uv_set = static_cast<std::uint32_t>(number_or(transform.Get("texCoord"), ref.uv_set));
+    const Json& transform = member(member(info, "extensions"), "KHR_texture_transform");
+    ref.offset = pair_or(member(transform, "offset"), ref.offset);
+    ref.scale = pair_or(member(transform, "scale"), ref.scale);
+    ref.rotation = static_cast<float>(number_or(member(transform, "rotation"), 0));
+    ref.uv_set = static_cast<std::uint32_t>(unsigned_member(transform, "texCoord", ref.uv_set));
     return ref;
-}
-
-/// Converts a JSON value to a texture info.
-/// \pre is_texture_info() holds for the value
-tinygltf::TextureInfo texture_info(const tinygltf::Value& value) {
-    tinygltf::TextureInfo info;
-    info.index = value.Get("index").GetNumberAsInt();
-    if (value.Has("texCoord")) info.texCoord = value.Get("texCoord").GetNumberAsInt();
-    if (!value.Has("extensions")) return info;
-    const tinygltf::Value& extensions = value.Get("extensions");
-    for (const std::string& name : extensions.Keys()) info.extensions[name] = extensions.Get(name);
-    return info;
 }
 
 /// The known textures of material extensions whose images can be decoded. Others are passed through
 /// unchanged, like unknown extensions.
-std::vector<ExtensionTexture> extension_textures(LoadedGltf& loaded, const tinygltf::Material& from) {
+std::vector<ExtensionTexture> extension_textures(const LoadedGltf& loaded, const Json& material) {
     std::vector<ExtensionTexture> result;
     for (const KnownTexture& known : known_textures) {
         const std::string extension(known.extension), name(known.name);
-        const auto found = from.extensions.find(extension);
-        if (found == from.extensions.end() || !found->second.Has(name)) continue;
-        const tinygltf::Value& info = found->second.Get(name);
-        if (!info.IsObject() || !info.Has("index")) continue;
-        const TextureRef texture = texture_ref(loaded, texture_info(info));
+        const Json& info = member(member(member(material, "extensions"), extension.c_str()), name.c_str());
+        const TextureRef texture = texture_ref(loaded, info);
         if (!texture || !can_decode_image(loaded.source->images[texture.image].mime_type)) continue;
-        const double scale = info.Has("scale") ? number_or(info.Get("scale"), 1) : 1;
-        result.push_back({extension, name, texture, static_cast<float>(scale)});
+        result.push_back({extension, name, texture, static_cast<float>(number_or(member(info, "scale"), 1))});
     }
     return result;
 }
@@ -103,7 +82,9 @@ void copy_factors(std::array<float, N>& to, const std::vector<double>& from) {
     for (std::size_t i = 0; i < N && i < from.size(); ++i) to[i] = static_cast<float>(from[i]);
 }
 
-Material read_material(LoadedGltf& loaded, const tinygltf::Material& from) {
+Material read_material(const LoadedGltf& loaded, std::size_t index) {
+    const tinygltf::Material& from = loaded.model.materials[index];
+    const Json& json = loaded.source->document["materials"][index];
     Material material;
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     material.name = from.name;
@@ -111,14 +92,13 @@ Material read_material(LoadedGltf& loaded, const tinygltf::Material& from) {
     copy_factors(material.emissive, from.emissiveFactor);
     material.metallic = static_cast<float>(pbr.metallicFactor);
     material.roughness = static_cast<float>(pbr.roughnessFactor);
-    material.base_color_texture = texture_ref(loaded, pbr.baseColorTexture);
-    material.metallic_roughness_texture = texture_ref(loaded, pbr.metallicRoughnessTexture);
-    material.normal_texture = texture_ref(loaded, from.normalTexture);
-    material.normal_scale = static_cast<float>(from.normalTexture.scale);
-    material.occlusion_texture = texture_ref(loaded, from.occlusionTexture);
-    material.occlusion_strength = static_cast<float>(from.occlusionTexture.strength);
-    material.emissive_texture = texture_ref(loaded, from.emissiveTexture);
-    material.extension_textures = extension_textures(loaded, from);
+    for (const CoreSlot& slot : core_slots) {
+        const Json& info = member(slot.is_in_pbr ? member(json, "pbrMetallicRoughness") : json, slot.key);
+        material.*slot.texture = texture_ref(loaded, info);
+        if (slot.factor)
+            material.*slot.factor = static_cast<float>(number_or(member(info, slot.factor_key), 1));
+    }
+    material.extension_textures = extension_textures(loaded, json);
     if (from.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
     if (from.alphaMode == "BLEND") material.alpha_mode = AlphaMode::blend;
     material.alpha_cutoff = static_cast<float>(from.alphaCutoff);
@@ -145,8 +125,8 @@ std::uint64_t reset_non_finite(Material& material) {
     for (std::size_t i = 0; i < 3; ++i) reset(material.emissive[i], defaults.emissive[i]);
     reset(material.metallic, defaults.metallic);
     reset(material.roughness, defaults.roughness);
-    reset(material.normal_scale, defaults.normal_scale);
-    reset(material.occlusion_strength, defaults.occlusion_strength);
+    for (const CoreSlot& slot : core_slots)
+        if (slot.factor) reset(material.*slot.factor, 1);
     reset(material.alpha_cutoff, defaults.alpha_cutoff);
     for (ExtensionTexture& texture : material.extension_textures) reset(texture.normal_scale, 1);
     for_each_texture(material, [&](TextureRef& ref) {
@@ -161,7 +141,7 @@ std::uint64_t reset_non_finite(Material& material) {
 std::vector<Material> read_materials(LoadedGltf& loaded) {
     std::vector<Material> materials;
     for (const tinygltf::Material& from : loaded.model.materials) {
-        Material material = read_material(loaded, from);
+        Material material = read_material(loaded, materials.size());
         material.source = static_cast<Index>(materials.size());
         if (const std::uint64_t count = reset_non_finite(material); count != 0)
             loaded.warnings.push_back(child_path("/materials", materials.size()) + ": " +

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <initializer_list>
-#include <string_view>
 #include <utility>
 
 #include "asset/gltf/write/writer.hpp"
@@ -77,8 +75,7 @@ void write_texture_factor(Json& holder, const char* key, const char* number, flo
         (*slot)[number] = shortest_decimal(current);
 }
 
-void write_metallic_roughness(GltfWriter& writer, Json& json, const Material& current,
-                              const Material& original) {
+void write_core_textures(GltfWriter& writer, Json& json, const Material& current, const Material& original) {
     Json& pbr = json["pbrMetallicRoughness"];
     if (pbr.is_null()) pbr = Json::object();
     set_if_changed(pbr, "baseColorFactor", current.base_color, original.base_color, Vec4f{1, 1, 1, 1},
@@ -87,10 +84,13 @@ void write_metallic_roughness(GltfWriter& writer, Json& json, const Material& cu
                    shortest_decimal(current.metallic));
     set_if_changed(pbr, "roughnessFactor", current.roughness, original.roughness, 1.0f,
                    shortest_decimal(current.roughness));
-    write_texture_info(writer, pbr, "baseColorTexture", current.base_color_texture,
-                       original.base_color_texture);
-    write_texture_info(writer, pbr, "metallicRoughnessTexture", current.metallic_roughness_texture,
-                       original.metallic_roughness_texture);
+    for (const CoreSlot& slot : core_slots) {
+        Json& holder = slot.is_in_pbr ? pbr : json;
+        write_texture_info(writer, holder, slot.key, current.*slot.texture, original.*slot.texture);
+        if (slot.factor)
+            write_texture_factor(holder, slot.key, slot.factor_key, current.*slot.factor,
+                                 original.*slot.factor);
+    }
     if (pbr.empty()) json.erase("pbrMetallicRoughness");
 }
 
@@ -105,15 +105,15 @@ void write_alpha(Json& json, const Material& current, const Material& original) 
                        shortest_decimal(current.alpha_cutoff));
 }
 
-/// Updates the texture infos in `holder` except the `known` ones: copies their textures, or removes them if
+/// Updates the texture infos in `holder` except those of core_slots: copies their textures, or removes them if
 /// the material has new UVs.
 /// \return the names of the removed texture infos
 std::vector<std::string> remap_or_remove_textures(GltfWriter& writer, const Material& material, Json& holder,
-                                                  std::initializer_list<std::string_view> known = {}) {
+                                                  bool is_pbr) {
     std::vector<std::string> infos;
     for (const auto& [key, value] : holder.items()) {
-        if (is_texture_info(key, value) && std::find(known.begin(), known.end(), key) == known.end())
-            infos.push_back(key);
+        const CoreSlot* slot = find_core_slot(key);
+        if (is_texture_info(key, value) && !(slot && slot->is_in_pbr == is_pbr)) infos.push_back(key);
     }
     for (const std::string& key : infos) {
         if (material.rebaked)
@@ -190,11 +190,10 @@ void write_extensions(GltfWriter& writer, const Material& current, const Materia
 
 /// Updates the textures of members that are not part of glTF.
 void write_unknown_textures(GltfWriter& writer, const Material& material, Json& json) {
-    std::vector<std::string> removed = remap_or_remove_textures(
-        writer, material, json, {"normalTexture", "occlusionTexture", "emissiveTexture"});
+    std::vector<std::string> removed = remap_or_remove_textures(writer, material, json, false);
     if (json.contains("pbrMetallicRoughness")) {
-        const std::vector<std::string> more = remap_or_remove_textures(
-            writer, material, json["pbrMetallicRoughness"], {"baseColorTexture", "metallicRoughnessTexture"});
+        const std::vector<std::string> more =
+            remap_or_remove_textures(writer, material, json["pbrMetallicRoughness"], true);
         removed.insert(removed.end(), more.begin(), more.end());
     }
     for (const std::string& name : removed) warn_about_removed(writer, material, name, "textures");
@@ -227,14 +226,7 @@ Json material_json(GltfWriter& writer, const Material& material) {
     Json json = has_source ? source_array(writer, "materials")[material.source] : Json::object();
 
     if (material.name != original.name) json["name"] = material.name;
-    write_metallic_roughness(writer, json, material, original);
-    write_texture_info(writer, json, "normalTexture", material.normal_texture, original.normal_texture);
-    write_texture_factor(json, "normalTexture", "scale", material.normal_scale, original.normal_scale);
-    write_texture_info(writer, json, "occlusionTexture", material.occlusion_texture,
-                       original.occlusion_texture);
-    write_texture_factor(json, "occlusionTexture", "strength", material.occlusion_strength,
-                         original.occlusion_strength);
-    write_texture_info(writer, json, "emissiveTexture", material.emissive_texture, original.emissive_texture);
+    write_core_textures(writer, json, material, original);
     set_if_changed(json, "emissiveFactor", material.emissive, original.emissive, Vec3f{0, 0, 0},
                    json_floats(material.emissive));
     write_alpha(json, material, original);
