@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "bake/simplify/level_coverage.hpp"
-#include "bake/simplify/parts_from_histories.hpp"
 #include "capi/c_asset.hpp"
 #include "capi/c_history.hpp"
 #include "capi/c_levels.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/save_levels.hpp"
+#include "scene/level_coverage.hpp"
+#include "scene/parts_from_histories.hpp"
 
 namespace {
 

@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "asset/scene/rounded_vertices.hpp"
-#include "bake/keep/kept_uvs.hpp"
 #include "bake/scene/unencoded_result.hpp"
-#include "bake/simplify/position_grids.hpp"
-#include "bake/simplify/simplify_parts.hpp"
-#include "bake/simplify/step_progress.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "result/budget_choices.hpp"
 #include "result/image_trials.hpp"
 #include "result/model_size.hpp"
 #include "result/search_steps.hpp"
+#include "scene/position_grids.hpp"
+#include "scene/resolved_options.hpp"
+#include "scene/simplify_parts.hpp"
+#include "scene/step_progress.hpp"
 
 namespace faqem::detail {
 

@@ -7,14 +7,14 @@
 
 #include "asset/scene/messages.hpp"
 #include "asset/scene/rounded_vertices.hpp"
-#include "bake/keep/part_reports.hpp"
 #include "bake/scene/unencoded_result.hpp"
-#include "bake/simplify/resolved_options.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
 #include "result/fit_images.hpp"
 #include "result/model_size.hpp"
 #include "result/picture_error.hpp"
+#include "scene/part_reports.hpp"
+#include "scene/resolved_options.hpp"
 
 namespace faqem::detail {
 

@@ -1,15 +1,15 @@
 #include <utility>
 
 #include "bake/scene/shared_texture.hpp"
-#include "bake/simplify/check_asset.hpp"
-#include "bake/simplify/parts_error_bound_search.hpp"
-#include "bake/simplify/resolved_options.hpp"
-#include "bake/simplify/simplify_parts.hpp"
-#include "bake/simplify/step_progress.hpp"
-#include "bake/simplify/welded_source.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
 #include "result/simplify_levels.hpp"
+#include "scene/check_asset.hpp"
+#include "scene/parts_error_bound_search.hpp"
+#include "scene/resolved_options.hpp"
+#include "scene/simplify_parts.hpp"
+#include "scene/step_progress.hpp"
+#include "scene/welded_source.hpp"
 
 namespace faqem {
 

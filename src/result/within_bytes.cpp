@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "bake/scene/unencoded_result.hpp"
-#include "bake/simplify/resolved_options.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/error.hpp"
 #include "result/best_picture.hpp"
 #include "result/fit_images.hpp"
 #include "result/model_size.hpp"
+#include "scene/resolved_options.hpp"
 
 namespace faqem::detail {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "cli/output_file.hpp"
+#include "cli/files/output_file.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::bench {

@@ -40,17 +40,18 @@ ORDER = [
     ["src/asset"],
     ["src/image_plugin"],
     ["src/render"],
+    ["src/scene"],
     ["src/bake/atlas", "src/bake/source"],
     ["src/bake/parts"],
     ["src/bake/page"],
     ["src/bake/texture"],
     ["src/bake/keep"],
-    ["src/bake/simplify"],
     ["src/bake/scene"],
     ["src/result"],
     ["src/capi"],
     ["src/python/native"],
-    ["src/cli"],
+    ["src/cli/process"],
+    ["src/cli/files"],
     ["src/cli/memory"],
     ["src/cli/shell"],
     ["src/cli/options"],
@@ -58,8 +59,6 @@ ORDER = [
     ["src/cli/report"],
     ["src/cli/commands"],
 ]
-# The program's entry: above every folder.
-ENTRIES = {"src/cli/main.cpp"}
 # Public headers that the engine may include: plain data.
 PLAIN = {"export.hpp", "mesh.hpp", "option_types.hpp", "options.hpp", "report.hpp", "history.hpp", "progress.hpp", "error.hpp"}
 LIBRARIES = re.compile(r"Eigen|OpenMesh|tiny_gltf|OpenImageIO|png\.h|jpeglib|webp/|libdeflate|nlohmann|CLI")
@@ -75,8 +74,8 @@ SMALL = {
     "include/faqem/detail/history/final_versions",
     "src/asset/image/srgb",
     "src/asset/io/little_endian",
-    "src/bake/simplify/step_progress",
-    "src/bake/source/vector_conversion",
+    "src/scene/step_progress",
+    "src/scene/vector_conversion",
     # Bodies and declarations of an interface.
     "include/faqem/detail/base/version",
     "include/faqem/detail/simplify/simplify",
@@ -145,7 +144,7 @@ def main():
                 problems.append(f"{name} includes {included}: public headers include public headers only")
             if folder.startswith("include/faqem/engine") and below == "include/faqem" and target.name not in PLAIN:
                 problems.append(f"{name} includes {included}: of the public headers the engine may include plain data only")
-            if is_body or below == folder or name in ENTRIES or folder == "include/faqem":
+            if is_body or below == folder or folder == "include/faqem":
                 continue
             if below in rank and not rank[below] < rank[folder]:
                 problems.append(f"{name} includes {included}: {below} does not come before {folder}")

@@ -12,9 +12,9 @@
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "bake/keep/uv_texels.hpp"
-#include "bake/source/material_groups.hpp"
 #include "bake/source/texture_sampling.hpp"
 #include "bake/texture/image_choice.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
-#include "bake/source/material_groups.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {

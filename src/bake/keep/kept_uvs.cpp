@@ -8,15 +8,15 @@
 #include "asset/gltf/uv_dependents.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
-#include "bake/keep/part_reports.hpp"
 #include "bake/keep/picture_loss.hpp"
 #include "bake/page/normal_map.hpp"
 #include "bake/page/page_mesh.hpp"
 #include "bake/parts/output_part.hpp"
 #include "bake/source/page_groups.hpp"
 #include "bake/source/source_sampler.hpp"
-#include "bake/source/vector_conversion.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
+#include "scene/part_reports.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -171,13 +171,6 @@ bool shows_single_texels(const Asset& asset, const PartSet& set) {
 }
 
 }  // namespace
-
-bool may_keep_uvs(const Options& options) {
-    const BakeOptions& bake = options.bake;
-    return bake.kind == Bake::automatic && bake.normal_map == NormalMap::automatic && !bake.texel_density &&
-           bake.correspondence == Recording::off && bake.normals == Normals::transfer &&
-           bake.untouched != UntouchedParts::baked && options.history == Recording::off && !options.max_error;
-}
 
 std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart> parts,
                                    const SimplifiedParts& simplified) {

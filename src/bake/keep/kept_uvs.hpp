@@ -10,13 +10,8 @@
 #include "bake/texture/image_choice.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
-
-/// Whether the options leave it to bake() to keep UVs: Bake::automatic without any option that is about a new atlas
-/// or about the collapses.
-FAQEM_EXPORT bool may_keep_uvs(const Options& options);
 
 /// Indices of parts that share images, so that either all or none of them keep their UVs.
 using PartSet = std::vector<Index>;

@@ -10,7 +10,7 @@
 #include "bake/keep/seen_points.hpp"
 #include "bake/parts/corner_normals.hpp"
 #include "bake/source/source_normals.hpp"
-#include "bake/source/vector_conversion.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include "bake/parts/corner_normals.hpp"
 #include "bake/source/source_normals.hpp"
 #include "bake/source/tangents.hpp"
-#include "bake/source/vector_conversion.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {

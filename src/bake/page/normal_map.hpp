@@ -7,8 +7,8 @@
 
 #include "bake/page/page_mesh.hpp"
 #include "bake/parts/corners.hpp"
-#include "bake/source/material_groups.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "bake/source/vector_conversion.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {

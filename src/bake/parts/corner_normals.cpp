@@ -5,8 +5,8 @@
 
 #include "bake/parts/corner_points.hpp"
 #include "bake/source/source_normals.hpp"
-#include "bake/source/vector_conversion.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "bake/source/source_normals.hpp"
-#include "bake/source/vector_conversion.hpp"
 #include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/forward_map.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <span>
 
-#include "bake/source/material_groups.hpp"
 #include "faqem/engine/mesh/vector.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "bake/parts/custom_attributes.hpp"
 #include "bake/parts/vertex_attributes.hpp"
-#include "bake/source/material_groups.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 

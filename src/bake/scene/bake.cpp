@@ -18,13 +18,13 @@
 #include "bake/parts/bake_progress.hpp"
 #include "bake/parts/map_parts.hpp"
 #include "bake/scene/unencoded_result.hpp"
-#include "bake/simplify/check_asset.hpp"
-#include "bake/simplify/position_grids.hpp"
-#include "bake/simplify/resolved_options.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
+#include "scene/check_asset.hpp"
+#include "scene/position_grids.hpp"
+#include "scene/resolved_options.hpp"
 
 namespace faqem::detail {
 

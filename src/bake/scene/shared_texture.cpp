@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "bake/scene/unencoded_result.hpp"
-#include "bake/simplify/simplify_parts.hpp"
-#include "bake/simplify/step_progress.hpp"
 #include "faqem/error.hpp"
+#include "scene/simplify_parts.hpp"
+#include "scene/step_progress.hpp"
 
 namespace faqem::detail {
 

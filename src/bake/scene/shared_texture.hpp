@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "bake/simplify/parts_error_bound_search.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
+#include "scene/parts_error_bound_search.hpp"
 
 namespace faqem::detail {
 

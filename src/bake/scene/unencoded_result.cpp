@@ -12,9 +12,9 @@
 #include "asset/image/image_size.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "bake/source/extension_layers.hpp"
-#include "bake/source/material_groups.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/base/time_limit.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {

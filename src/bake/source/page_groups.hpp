@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "bake/source/material_groups.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "bake/source/extension_layers.hpp"
-#include "bake/source/material_groups.hpp"
 #include "bake/source/tangents.hpp"
-#include "bake/source/vector_conversion.hpp"
+#include "scene/material_groups.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {

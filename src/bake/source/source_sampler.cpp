@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "asset/image/image.hpp"
-#include "bake/source/vector_conversion.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 

@@ -13,10 +13,10 @@
 
 #include "asset/scene/material_textures.hpp"
 #include "bake/source/extension_layers.hpp"
-#include "bake/source/material_groups.hpp"
 #include "bake/source/source_normals.hpp"
 #include "bake/source/texture_sampling.hpp"
 #include "faqem/surface_map.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 

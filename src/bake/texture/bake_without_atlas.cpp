@@ -12,11 +12,11 @@
 #include "bake/parts/output_part.hpp"
 #include "bake/parts/vertex_attributes.hpp"
 #include "bake/source/extension_layers.hpp"
-#include "bake/source/material_groups.hpp"
 #include "bake/source/source_sampler.hpp"
 #include "bake/source/texture_sampling.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/error.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "bake/page/page_request.hpp"
 #include "bake/source/extension_layers.hpp"
-#include "bake/source/material_groups.hpp"
 #include "bake/texture/pending_images.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "asset/model_files.hpp"
-#include "cli/file_stamp.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/json.hpp"
+#include "cli/files/file_stamp.hpp"
+#include "cli/files/output_file.hpp"
 #include "cli/memory/memory_estimate.hpp"
 #include "cli/memory/memory_limit.hpp"
-#include "cli/output_file.hpp"
-#include "cli/simplify_model.hpp"
+#include "cli/process/interrupt.hpp"
+#include "cli/process/json.hpp"
+#include "cli/process/rejection.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/error.hpp"
 #include "result/simplify_file.hpp"

@@ -8,8 +8,8 @@
 #include "cli/batch/memory_semaphore.hpp"
 #include "cli/batch/plan.hpp"
 #include "cli/batch/record.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/simplify_model.hpp"
+#include "cli/files/input_model.hpp"
+#include "cli/process/exit_code.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/options.hpp"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "cli/json.hpp"
+#include "cli/process/json.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "cli/commands/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/json.hpp"
 #include "cli/options/bound_options.hpp"
+#include "cli/process/exit_code.hpp"
+#include "cli/process/json.hpp"
 #include "cli/report/model_comparison.hpp"
 
 namespace faqem::cli {

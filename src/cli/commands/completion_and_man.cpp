@@ -4,9 +4,9 @@
 
 #include "cli/commands/command_line.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/exit_code.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/builtin_profiles.hpp"
+#include "cli/process/exit_code.hpp"
 #include "cli/shell/completion.hpp"
 #include "cli/shell/man_page.hpp"
 #include "faqem/version.hpp"

@@ -15,9 +15,9 @@
 #include "asset/scene/messages.hpp"
 #include "asset/scene/rounding_weld.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/json.hpp"
 #include "cli/options/bound_options.hpp"
+#include "cli/process/exit_code.hpp"
+#include "cli/process/json.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/json.hpp"
+#include "cli/process/json.hpp"
 #include "faqem/report.hpp"
 
 namespace faqem::cli {

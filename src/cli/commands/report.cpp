@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "cli/commands/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/interrupt.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/files/protected_files.hpp"
 #include "cli/options/bound_options.hpp"
-#include "cli/output_file.hpp"
-#include "cli/protected_files.hpp"
+#include "cli/process/exit_code.hpp"
+#include "cli/process/interrupt.hpp"
 #include "cli/report/error_surface.hpp"
 #include "cli/report/model_comparison.hpp"
 #include "cli/report/report_page.hpp"

@@ -8,18 +8,19 @@
 
 #include "asset/file_format.hpp"
 #include "asset/io/recovery.hpp"
-#include "bake/simplify/parts_from_histories.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/exit_code.hpp"
-#include "cli/interrupt.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/files/protected_files.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/simplify_options.hpp"
-#include "cli/output_file.hpp"
-#include "cli/protected_files.hpp"
+#include "cli/process/exit_code.hpp"
+#include "cli/process/interrupt.hpp"
+#include "cli/process/rejection.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
 #include "faqem/truncate.hpp"
 #include "result/simplify_file.hpp"
+#include "scene/parts_from_histories.hpp"
 
 namespace faqem::cli {
 

@@ -11,12 +11,12 @@
 #include "asset/image/image_size.hpp"
 #include "asset/model_files.hpp"
 #include "asset/scene/measured_instances.hpp"
-#include "bake/simplify/resolved_options.hpp"
 #include "bake/source/page_groups.hpp"
 #include "cli/memory/gltf_json_memory.hpp"
 #include "cli/memory/gltf_memory.hpp"
 #include "faqem/options.hpp"
 #include "result/best_picture.hpp"
+#include "scene/resolved_options.hpp"
 
 namespace faqem::cli {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "cli/exit_code.hpp"
+#include "cli/process/exit_code.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/options.hpp"
 

@@ -15,7 +15,7 @@
 #include <string_view>
 
 #include "asset/io/temporary_file.hpp"
-#include "cli/exit_code.hpp"
+#include "cli/process/exit_code.hpp"
 
 namespace faqem::cli {
 

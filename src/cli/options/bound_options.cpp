@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "cli/output_file.hpp"
+#include "cli/files/output_file.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {

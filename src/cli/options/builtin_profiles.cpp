@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "cli/json.hpp"
+#include "cli/process/json.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {

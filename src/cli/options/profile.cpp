@@ -5,9 +5,9 @@
 #include <set>
 
 #include "asset/io/file.hpp"
-#include "cli/json.hpp"
+#include "cli/files/protected_files.hpp"
 #include "cli/options/builtin_profiles.hpp"
-#include "cli/protected_files.hpp"
+#include "cli/process/json.hpp"
 #include "faqem/detail/base/closest_word.hpp"
 #include "faqem/error.hpp"
 

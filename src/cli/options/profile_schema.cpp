@@ -4,8 +4,8 @@
 #include <map>
 #include <vector>
 
-#include "cli/json.hpp"
 #include "cli/options/profile.hpp"
+#include "cli/process/json.hpp"
 
 namespace faqem::cli {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "cli/files/input_model.hpp"
 #include "cli/shell/command_tree.hpp"
-#include "cli/simplify_model.hpp"
 #include "faqem/levels.hpp"
 #include "faqem/options.hpp"
 

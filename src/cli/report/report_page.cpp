@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "cli/json.hpp"
+#include "cli/process/json.hpp"
 #include "cli/report/embedded_files.hpp"
 #include "cli/report/heat_ramp.hpp"
 #include "cli/report/html.hpp"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/exit_code.hpp"
 #include "cli/memory/gltf_json_memory.hpp"
 #include "cli/memory/memory_estimate.hpp"
+#include "cli/process/exit_code.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 

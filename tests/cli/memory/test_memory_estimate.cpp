@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/exit_code.hpp"
+#include "cli/process/exit_code.hpp"
 #include "faqem/options.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <vector>
 
-#include "cli/exit_code.hpp"
+#include "cli/process/exit_code.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 #include "support/sanitizers.hpp"

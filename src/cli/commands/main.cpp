@@ -1,0 +1,61 @@
+// The faqem command. Errors are printed to stderr, data to stdout.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/commands/command_line.hpp"
+#include "cli/options/profile.hpp"
+#include "cli/process/exit_code.hpp"
+#include "cli/shell/parser.hpp"
+#include "cli/shell/suggestion.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+int fail(const std::exception& error) {
+    std::cerr << "faqem: " << message_of(error) << "\n";
+    return exit_code_of(error);
+}
+
+int run(const Action& action) try {
+    const int code = action();
+    std::cout.flush();
+    if (!std::cout) throw WriteError("cannot write to standard output");
+    return code;
+} catch (const std::exception& error) {
+    return fail(error);
+}
+
+int parse_and_run(int argc, char** argv) {
+    CLI::App app;
+    Action action;
+    const CommandTree tree = command_tree();
+    add_to_parser(app, tree, action);
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    try {
+        std::vector<std::string> all = expand_profile(tree, words);
+        std::reverse(all.begin(), all.end());  // CLI11 expects the words in reverse order
+        app.parse(std::move(all));
+    } catch (const CLI::ParseError& error) {
+        if (app.exit(error) == 0) return exit_ok;
+        const std::string suggested = suggestion(tree, words);
+        if (!suggested.empty()) std::cerr << "Did you mean " << suggested << "?\n";
+        return exit_usage;
+    } catch (const std::exception& error) {
+        return fail(error);
+    }
+    return run(action);
+}
+
+}  // namespace
+
+}  // namespace faqem::cli
+
+int main(int argc, char** argv) { return faqem::cli::parse_and_run(argc, argv); }

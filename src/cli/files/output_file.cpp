@@ -1,0 +1,122 @@
+#include "cli/files/output_file.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+#include <span>
+#include <string>
+
+#include "asset/file_format.hpp"
+#include "asset/io/file_names.hpp"
+#include "asset/io/recovery.hpp"
+#include "asset/io/temporary_file.hpp"
+#include "cli/files/protected_files.hpp"
+#include "cli/process/interrupt.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Removes what dead processes left in a folder, once in a run: listing a folder for each of many results
+/// would take quadratic time.
+void clean_folder_once(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> cleaned;
+    std::error_code error;
+    const fs::path known = fs::canonical(folder, error);
+    const std::lock_guard guard(mutex);
+    if (!error && cleaned.insert(known).second) detail::remove_leftovers(known);
+}
+
+}  // namespace
+
+void check_output(const fs::path& file, Overwrite overwrite) {
+    std::error_code error;
+    check_unprotected(file);
+    if (const detail::FileFormat* format = detail::format_by_name(file);
+        format && format->side_file.is_always_written)
+        check_unprotected(file.parent_path() / format->side_file.name(file.stem().string()));
+    const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
+    if (!fs::is_directory(folder, error))
+        throw WriteError(file.string() + ": no such directory: " + folder.string());
+    detail::recover_folder(folder);
+    clean_folder_once(folder);
+    if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a directory");
+    if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+        throw WriteError(file.string() + ": is not a regular file");
+    if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error))) {
+        throw WriteError(file.string() + ": the file exists; use --force to overwrite it");
+    }
+    if (access(folder.c_str(), W_OK) != 0)
+        throw WriteError(file.string() + ": the directory is not writable");
+}
+
+void check_different(const fs::path& file, const fs::path& other) {
+    std::error_code error;
+    if (fs::weakly_canonical(fs::absolute(file)) == fs::weakly_canonical(fs::absolute(other)) ||
+        fs::equivalent(file, other, error))
+        throw OptionError(file.string() + ": is given for two files");
+}
+
+void check_extension(const fs::path& file, const std::vector<std::string_view>& extensions) {
+    const std::string extension = detail::lower_case_extension(file);
+    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
+    std::string known;
+    for (const std::string_view one : extensions) known += (known.empty() ? "" : ", ") + std::string(one);
+    throw OptionError(file.string() + ": the file name must end in one of " + known);
+}
+
+std::string format_names(const std::string& separator) {
+    std::string names;
+    for (const std::string_view extension : detail::format_extensions(detail::FormatUse::write))
+        names += (names.empty() ? "" : separator) + std::string(extension.substr(1));
+    return names;
+}
+
+std::string default_format() {
+    return std::string(detail::format_extensions(detail::FormatUse::write).front().substr(1));
+}
+
+std::string extension_of_format(const std::string& format) {
+    const std::vector<std::string_view> known = detail::format_extensions(detail::FormatUse::write);
+    if (std::find(known.begin(), known.end(), "." + format) != known.end()) return "." + format;
+    throw OptionError("--format: unknown value '" + format + "' (known: " + format_names() + ")");
+}
+
+ModelFormat format_of_output(const fs::path& file) {
+    const detail::FileFormat* format = detail::format_by_name(file);
+    return format ? format->format : ModelFormat::automatic;
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder, error))
+        throw WriteError(folder.string() + ": cannot create the directory");
+}
+
+void write_output(const fs::path& file, std::string_view content, Overwrite overwrite) {
+    detail::write_file(file, std::span(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()),
+                       overwrite);
+}
+
+void commit_outputs(detail::FileSet& set) {
+    const ExitOnInterrupt exit_on_interrupt;
+    set.commit(outputs_complete);
+}
+
+void write_only_output(const fs::path& file, std::string_view content, Overwrite overwrite) {
+    detail::FileSet set;
+    {
+        const detail::CollectWrites collect(set);
+        write_output(file, content, overwrite);
+    }
+    commit_outputs(set);
+}
+
+}  // namespace faqem::cli

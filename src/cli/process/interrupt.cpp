@@ -1,0 +1,64 @@
+#include "cli/process/interrupt.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+
+#include "asset/io/temporary_file.hpp"
+#include "cli/process/exit_code.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+// Atomic because a batch calls is_interrupted() on several threads.
+std::atomic<int> signal_count = 0, exit_requests = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
+
+// Whether all files of the command are written; the result of the process is decided.
+std::atomic<bool> outputs_are_complete = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "used in a signal handler");
+
+/// Ends the process, unless a thread is replacing files: then the signal is seen by is_interrupted().
+void exit_unless_replacing() {
+    if (detail::remove_temporary_files()) _exit(exit_cancelled);
+}
+
+void on_signal(int) {
+    const int before = signal_count.exchange(1);
+    if (outputs_are_complete) {
+        if (before != 0) _exit(exit_ok);  // standard output may be blocked
+        return;
+    }
+    if (exit_requests != 0 || before != 0) exit_unless_replacing();
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    // Ignored, so that a file larger than the limit of the shell (ulimit -f) is a failed write with an error
+    // message.
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &action, nullptr);
+}
+
+bool is_interrupted() { return signal_count != 0; }
+
+void outputs_complete() noexcept {
+    outputs_are_complete = true;
+    signal_count = 0;
+}
+
+ExitOnInterrupt::ExitOnInterrupt() {
+    ++exit_requests;
+    // A signal may have been received since the last call of is_interrupted().
+    if (signal_count != 0 && !outputs_are_complete) exit_unless_replacing();
+}
+ExitOnInterrupt::~ExitOnInterrupt() { --exit_requests; }
+
+}  // namespace faqem::cli

@@ -1,0 +1,38 @@
+#include "cli/process/progress_bar.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <string>
+#include <string_view>
+
+namespace faqem::cli {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> phase_names = {"load", "weld", "simplify", "map", "bake", "save"};
+constexpr int width = 40;
+
+}  // namespace
+
+ProgressBar::ProgressBar(Bar bar) : shown_(bar == Bar::shown && isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+    if (drawn_) std::cerr << "\r\x1b[K" << std::flush;
+}
+
+void ProgressBar::show(Phase phase, double fraction) {
+    if (!shown_) return;
+    const int percent = fraction > 0 ? static_cast<int>(100 * std::min(fraction, 1.0)) : 0;
+    if (phase == phase_ && percent == percent_) return;
+    phase_ = phase;
+    percent_ = percent;
+    drawn_ = true;
+    const auto full = static_cast<std::size_t>(width * percent / 100);
+    std::cerr << "\r\x1b[K" << phase_names[static_cast<std::size_t>(phase)] << " [" << std::string(full, '#')
+              << std::string(width - full, '.') << "] " << percent << "%" << std::flush;
+}
+
+}  // namespace faqem::cli

@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// Results that must not be written, and the warnings of results, as text.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/process/exit_code.hpp"
+#include "faqem/report.hpp"
+
+namespace faqem::cli {
+
+/// `2 warnings`, and a line for each, as the summaries of commands print them.
+std::string warnings_text(const std::vector<std::string>& warnings);
+
+/// Returns exit_bad_input (nothing is left), exit_target_missed or exit_error_exceeded if the result must not be
+/// written, otherwise exit_ok. An empty model is useless to the next program, and usually means that the faces of
+/// the input have no area, or that --weld is larger than the model.
+ExitCode rejection_code(const Report& report, bool strict_target);
+
+/// Returns the error message for a rejected result. \pre `rejection` is not exit_ok
+/// \param in, out  names of the input and of the file that was not written
+std::string rejection_message(ExitCode rejection, const std::filesystem::path& in,
+                              const std::filesystem::path& out, const Report& report);
+
+}  // namespace faqem::cli

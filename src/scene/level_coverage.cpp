@@ -1,0 +1,34 @@
+#include "scene/level_coverage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faqem::detail {
+
+namespace {
+
+double diagonal_of(const std::vector<Vec3>& points) {
+    double square = 0;
+    for (std::size_t i = 0; i < 3 && !points.empty(); ++i) {
+        const auto [low, high] = std::minmax_element(
+            points.begin(), points.end(), [i](const Vec3& a, const Vec3& b) { return a[i] < b[i]; });
+        square += ((*high)[i] - (*low)[i]) * ((*high)[i] - (*low)[i]);
+    }
+    return std::sqrt(square);
+}
+
+}  // namespace
+
+std::vector<double> level_coverage(const Asset& source, const SceneSize& size, double error,
+                                   double error_share) {
+    std::vector<double> result;
+    for (std::size_t p = 0; p < source.parts.size(); ++p) {
+        const double diagonal = size.scales[p].largest * diagonal_of(source.parts[p].positions);
+        result.push_back(error > 0 ? diagonal / error * error_share
+                                   : std::numeric_limits<double>::infinity());
+    }
+    return result;
+}
+
+}  // namespace faqem::detail

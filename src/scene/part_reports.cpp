@@ -1,0 +1,57 @@
+#include "scene/part_reports.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace faqem::detail {
+namespace {
+
+// Calls visit(count of the sum, count of the part) for all counts.
+template <class Visit>
+void for_each_count(Report& sum, const Report& part, const Visit& visit) {
+    for (const auto count :
+         {&Report::faces_in, &Report::faces_out, &Report::vertices_in, &Report::vertices_out,
+          &Report::collapses, &Report::faces_dropped, &Report::components_pruned, &Report::faces_pruned,
+          &Report::components_collapsed, &Report::components_deleted, &Report::vertices_fitted,
+          &Report::edges_flipped, &Report::virtual_edges})
+        visit(sum.*count, part.*count);
+    for (std::size_t i = 0; i < refusal_kinds; ++i) visit(sum.refusals[i], part.refusals[i]);
+    for (std::size_t i = 0; i < rung_kinds; ++i) visit(sum.rungs[i], part.rungs[i]);
+    // The target of a part is at least 4, even if the part has fewer faces.
+    visit(sum.target_faces, std::min(part.target_faces, part.faces_in));
+}
+
+std::string part_warning(const std::string& title, const std::string& warning) {
+    return title + ": " + warning;
+}
+
+}  // namespace
+
+void add_part_report(Report& sum, const Report& part, const std::string& title) {
+    for_each_count(sum, part, [](std::uint64_t& total, std::uint64_t own) { total += own; });
+    const bool is_stopped = sum.stop == StopReason::cancelled || sum.stop == StopReason::reached_time_limit;
+    if (part.stop != StopReason::reached_target && !is_stopped) sum.stop = part.stop;
+    for (const std::string& warning : part.warnings) sum.warnings.push_back(part_warning(title, warning));
+    sum.seconds.weld += part.seconds.weld;
+    sum.seconds.simplify += part.seconds.simplify;
+}
+
+void remove_part_report(Report& sum, const Report& part, const std::string& title) {
+    for_each_count(sum, part, [](std::uint64_t& total, std::uint64_t own) { total -= own; });
+    for (const std::string& warning : part.warnings) {
+        const auto found = std::find(sum.warnings.begin(), sum.warnings.end(), part_warning(title, warning));
+        if (found != sum.warnings.end()) sum.warnings.erase(found);
+    }
+}
+
+void replace_part_report(Report& sum, const Report& before, const Report& part, const std::string& title) {
+    const PhaseSeconds seconds = sum.seconds;
+    const std::uint64_t target = sum.target_faces;
+    remove_part_report(sum, before, title);
+    add_part_report(sum, part, title);
+    sum.seconds = seconds;
+    sum.target_faces = target;
+}
+
+}  // namespace faqem::detail

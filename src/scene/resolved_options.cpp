@@ -1,0 +1,55 @@
+#include "scene/resolved_options.hpp"
+
+#include <algorithm>
+
+#include "asset/file_format.hpp"
+#include "asset/image/image.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::detail {
+namespace {
+
+// Replaces what is automatic by what the format can hold.
+void resolve_bake(const Asset& source, const FileFormat& format, BakeOptions& bake) {
+    const auto no_part_has = [&](auto values) {
+        return std::all_of(source.parts.begin(), source.parts.end(),
+                           [&](const Part& part) { return (part.*values).empty(); });
+    };
+    const bool is_bare = source.materials.empty() && no_part_has(&Part::colors);
+    bake.kind = is_bare ? format.bare_bake : format.bake;
+    // Flat normals need no map to the original. If the source has normals, save() warns that the format cannot store
+    // them.
+    if (!format.holds_normals) bake.normals = no_part_has(&Part::normals) ? Normals::none : Normals::flat;
+    if (bake.untouched != UntouchedParts::automatic || !format.keeps_plain_parts) return;
+    if (source.materials.empty()) bake.untouched = UntouchedParts::kept;
+    if (source.source) bake.untouched = UntouchedParts::baked;
+}
+
+}  // namespace
+
+Options resolved_options(const Asset& source, Options options) {
+    const FileFormat& format = result_format(options.format, source.format);
+    options.format = format.format;
+    if (!format.is_gltf) {
+        if (options.bake.image_format == ImageFormat::webp)
+            throw OptionError("WebP images: the format of the result must be .glb or .gltf");
+        if (options.quantize.kind == Quantize::on)
+            throw OptionError("quantised vertices: the format of the result must be .glb or .gltf");
+        options.quantize.kind = Quantize::off;
+    }
+    BakeOptions& bake = options.bake;
+    if (bake.kind == Bake::automatic) resolve_bake(source, format, bake);
+    const bool needs_pixels = makes_atlas(bake.kind) || bake.kind == Bake::vertex;
+    if (needs_pixels && std::any_of(source.images.begin(), source.images.end(), is_passed_through))
+        bake.kind = Bake::keep;
+    return options;
+}
+
+bool may_keep_uvs(const Options& options) {
+    const BakeOptions& bake = options.bake;
+    return bake.kind == Bake::automatic && bake.normal_map == NormalMap::automatic && !bake.texel_density &&
+           bake.correspondence == Recording::off && bake.normals == Normals::transfer &&
+           bake.untouched != UntouchedParts::baked && options.history == Recording::off && !options.max_error;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,81 @@
+#include "scene/scene_size.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
+
+#include "asset/scene/measured_instances.hpp"
+#include "faqem/detail/geometry/surface.hpp"
+#include "faqem/options.hpp"
+
+namespace faqem::detail {
+
+namespace {
+
+// Smallest and largest singular value of the linear part: bounds of the factor by which distances change.
+PartScale scale_of(const Eigen::Matrix4d& transform) {
+    const Eigen::Vector3d values =
+        Eigen::JacobiSVD<Eigen::Matrix3d>(transform.topLeftCorner<3, 3>()).singularValues();
+    return {values[2], values[0]};
+}
+
+std::vector<Vec3> box_corners(const std::vector<Vec3>& points) {
+    std::vector<Vec3> corners;
+    if (points.empty()) return corners;
+    Vec3 low = points.front(), high = low;
+    for (const Vec3& p : points) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+    for (unsigned i = 0; i < 8; ++i)
+        corners.push_back({i & 1u ? high[0] : low[0], i & 2u ? high[1] : low[1], i & 4u ? high[2] : low[2]});
+    return corners;
+}
+
+}  // namespace
+
+SceneSize scene_size(const Asset& source) {
+    SceneSize size;
+    size.scales.resize(source.parts.size(), {0, 0});
+    std::vector<std::vector<Vec3>> positions(source.parts.size());
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        const Part& part = source.parts[p];
+        positions[p] = extract_surface({part.positions, part.triangles}).positions;
+    }
+    const std::vector<Instance> placed = instances(source);
+    // The corners of the box of a part bound the part, which is enough in a scene of very many instances.
+    if (has_excessive_instances(source, placed))
+        for (std::vector<Vec3>& of_part : positions) of_part = box_corners(of_part);
+    std::vector<bool> shown(source.parts.size(), false);
+    Eigen::AlignedBox3d box;
+    for (const Instance& instance : placed) {
+        const Eigen::Map<const Eigen::Matrix4d> transform(instance.transform.data());
+        const PartScale scale = scale_of(transform);
+        PartScale& all = size.scales[instance.part];
+        all = {std::max(all.smallest, scale.smallest), std::max(all.largest, scale.largest)};
+        shown[instance.part] = true;
+        for (const Vec3& p : positions[instance.part])
+            box.extend((transform * engine::to_eigen(p).homogeneous()).head<3>());
+    }
+    for (std::size_t p = 0; p < shown.size(); ++p) {
+        if (!shown[p]) size.scales[p] = {};
+    }
+    size.diagonal = box.isEmpty() ? 0 : box.diagonal().norm();
+    return size;
+}
+
+Options part_options(const Options& options, const SceneSize& size, const PartScale& scale) {
+    Options own = options;
+    if (!options.topology.prune) return own;
+    // If the scale is 0, the length cannot be converted.
+    own.topology.prune.reset();
+    if (!(scale.largest > 0)) return own;
+    using Limits = std::numeric_limits<double>;
+    own.topology.prune =
+        model_units(std::clamp(size(*options.topology.prune) / scale.largest, Limits::min(), Limits::max()));
+    return own;
+}
+
+}  // namespace faqem::detail

@@ -1,0 +1,371 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "asset/gltf/seen_instances.hpp"
+#include "asset/scene/messages.hpp"
+#include "faqem/bake.hpp"
+#include "faqem/detail/base/time_limit.hpp"
+#include "faqem/detail/simplify/budget_by_cost.hpp"
+#include "faqem/detail/simplify/error_bound_search.hpp"
+#include "faqem/detail/simplify/presets.hpp"
+#include "faqem/detail/simplify/run.hpp"
+#include "scene/check_asset.hpp"
+#include "scene/coincident_faces.hpp"
+#include "scene/face_budget.hpp"
+#include "scene/material_groups.hpp"
+#include "scene/morph_shape.hpp"
+#include "scene/moving_vertices.hpp"
+#include "scene/part_reports.hpp"
+#include "scene/parts_error_bound_search.hpp"
+#include "scene/removed_components.hpp"
+#include "scene/resolved_options.hpp"
+#include "scene/scene_size.hpp"
+#include "scene/simplify_parts.hpp"
+#include "scene/step_progress.hpp"
+#include "scene/visibility.hpp"
+#include "scene/welded_source.hpp"
+
+namespace faqem {
+namespace {
+
+// UVs and vertex colours of a part as corner attributes.
+CornerAttributes corner_attributes(const Part& part) {
+    CornerAttributes result;
+    result.width = static_cast<std::uint32_t>(2 * part.uvs.size() + (part.colors.empty() ? 0 : 4));
+    result.values.reserve(3 * part.triangles.size() * result.width);
+    for (const Triangle& t : part.triangles) {
+        for (Index v : t) {
+            for (const auto& uvs : part.uvs)
+                result.values.insert(result.values.end(), uvs[v].begin(), uvs[v].end());
+            if (part.colors.empty()) continue;
+            result.values.insert(result.values.end(), part.colors[v].begin(), part.colors[v].end());
+        }
+    }
+    return result;
+}
+
+// By face: the material group or, without groups, the material. Empty if all are equal.
+std::vector<Index> face_groups(const Part& part, const std::optional<detail::MaterialGroups>& groups) {
+    std::vector<Index> result;
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+        const Index material = detail::face_material(part, f);
+        result.push_back(groups ? groups->group_of(material) : material);
+    }
+    const bool one = std::all_of(result.begin(), result.end(), [&](Index g) { return g == result.front(); });
+    return one ? std::vector<Index>{} : result;
+}
+
+// A part as the input of the engine. Materials that are baked into one page form one group, so that
+// boundaries between them need no faces and samples can cross them; only coincident faces of different
+// appearance are separated. Otherwise, and if group boundaries are to be kept, the groups are the materials.
+struct PartInput {
+    std::vector<Index> groups;
+    CornerAttributes attributes;
+    std::vector<Triangle> welded;  // if vertices at one position move apart: the triangles after the weld
+    MeshView view;
+
+    // Sets the weld of the options to none if the part is welded here.
+    PartInput(const Asset& source, const Part& part,
+              const std::optional<detail::MaterialGroups>& material_groups, std::span<const float> weights,
+              Options& own)
+        : groups(face_groups(part, material_groups)) {
+        if (material_groups) groups = detail::separate_coincident_faces(part, std::move(groups));
+        if (own.bake.kind == Bake::keep) attributes = corner_attributes(part);
+        if (own.topology.weld != Weld::none)
+            welded = detail::welded_by_motion(part, detail::motion_rounding(source, part),
+                                              detail::settings(own).weld_distance);
+        if (!welded.empty()) own.topology.weld = Weld::none;
+        view = {part.positions,
+                welded.empty() ? part.triangles : welded,
+                groups,
+                attributes.width ? &attributes : nullptr,
+                {},
+                weights};
+    }
+    PartInput(const PartInput&) = delete;
+};
+
+// Simplification of all parts to all targets.
+class PartsRun {
+public:
+    PartsRun(const Asset& source, const Options& options, std::span<const detail::LevelTarget> levels = {})
+        : source_(source), options_(options), levels_(levels) {
+        const Bake kind = options.bake.kind;
+        const bool merged = kind != Bake::keep && kind != Bake::none;
+        if (merged) groups_ = detail::group_materials(source, options.bake);
+        if (options.topology.prune)
+            size_ = detail::scene_size(source);
+        else
+            size_.scales.resize(source.parts.size());
+        for (const Part& part : source.parts) faces_ += static_cast<double>(part.triangles.size());
+    }
+
+    std::vector<SimplifiedParts> operator()(std::span<const std::uint64_t> targets) {
+        results_.resize(targets.size());
+        for (SimplifiedParts& level : results_) {
+            level.parts.resize(source_.parts.size());
+            level.report.preset = options_.preset;
+        }
+        if (options_.visibility == Visibility::weighted) compute_visibility();
+        std::vector<SimplifiedParts> results = run(budgets(targets));
+        for (std::size_t i = 0; i < results.size() && i < shares_.size(); ++i) {
+            if (results[i].report.stop != StopReason::cancelled)
+                detail::warn_of_small_shares(source_, shares_[i], results[i]);
+        }
+        return results;
+    }
+
+    /// Simplifies all parts to given face counts, by part.
+    SimplifiedParts to_face_counts(std::span<const std::uint64_t> counts) {
+        results_.resize(1);
+        results_.front().parts.resize(source_.parts.size());
+        if (options_.visibility == Visibility::weighted) compute_visibility();
+        std::vector<std::vector<std::uint64_t>> share;
+        for (const std::uint64_t count : counts) share.push_back({count});
+        return std::move(run(share).front());
+    }
+
+private:
+    std::vector<SimplifiedParts> run(const std::vector<std::vector<std::uint64_t>>& share) {
+        for_each_part([&](std::size_t p, const MeshView& view, Options& own) {
+            own.history = Recording::on;
+            std::vector<SimplifyResult> results = simplify_part(source_.parts[p], view, share[p], own);
+            is_cancelled_ = results.back().report.stop == StopReason::cancelled;
+            for (std::size_t i = 0; i < results.size(); ++i) {
+                results_[i].parts[p] = std::move(results[i]);
+                if (groups_) restore_face_groups(p, results_[i].parts[p]);
+                detail::add_part_report(results_[i].report, results_[i].parts[p].report,
+                                        detail::part_title(source_, p));
+            }
+        });
+        if (is_cancelled_) {
+            results_.resize(1);
+            results_.front().report.stop = StopReason::cancelled;
+        } else {
+            for (SimplifiedParts& level : results_) {
+                detail::report_removed_components(source_, level);
+                if (level.report.stop == StopReason::reached_time_limit)
+                    level.report.warnings.push_back("max_seconds was over before the target was reached");
+            }
+        }
+        for (SimplifiedParts& level : results_) level.report.seconds.total = level.report.seconds.simplify;
+        return std::move(results_);
+    }
+
+    // run_to_targets(), with a hint of its shape for a part that is flat at rest and not in a morph target.
+    static std::vector<SimplifyResult> simplify_part(const Part& part, MeshView view,
+                                                     const std::vector<std::uint64_t>& targets,
+                                                     const Options& own) {
+        std::vector<Vec3> bent;
+        if (detail::has_displacements(part)) bent = detail::bent_positions(part, view, own, targets.front());
+        if (!bent.empty()) view.positions = bent;
+        return detail::run_to_targets(view, targets, own);
+    }
+
+    void compute_visibility() try {
+        const detail::Stopwatch watch;
+        const detail::MeasurementMonitor monitor(options_, 0, deadline_);
+        detail::VertexVisibility seen =
+            detail::vertex_visibility(source_, {options_.threads, monitor.cancellation_check()});
+        weights_ = std::move(seen.weights);
+        const std::string warning = detail::visibility_warning(source_);
+        for (SimplifiedParts& level : results_) {
+            level.report.vertices_hidden = seen.hidden_vertices;
+            if (!warning.empty()) level.report.warnings.push_back(warning);
+        }
+        results_.front().report.seconds.simplify += watch.seconds();
+    } catch (const engine::Cancelled& stopped) {
+        is_cancelled_ = stopped.reason == StopReason::cancelled;
+    }
+
+    // Face counts by part and target; in descending order for every part.
+    std::vector<std::vector<std::uint64_t>> budgets(std::span<const std::uint64_t> targets) {
+        const detail::Stopwatch watch;
+        const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
+                                          [](const Part& part) { return !part.triangles.empty(); });
+        // Without a target below the number of faces there is nothing to distribute.
+        bool by_cost =
+            options_.budget == Budget::scene && filled >= 2 && static_cast<double>(targets.back()) < faces_;
+        if (by_cost) by_cost = compute_cost_curves(targets.front());
+        std::vector<std::vector<std::uint64_t>> result(source_.parts.size());
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const std::uint64_t target_faces = std::min(targets[i], static_cast<std::uint64_t>(faces_));
+            const std::vector<std::uint64_t> share = by_cost ? budget_by_cost(target_faces, is_asked_for(i))
+                                                             : detail::budget_by_faces(source_, target_faces);
+            for (std::size_t p = 0; p < share.size(); ++p)
+                result[p].push_back(result[p].empty() ? share[p] : std::min(share[p], result[p].back()));
+        }
+        curves_.clear();
+        results_.front().report.seconds.simplify += watch.seconds();
+        return result;
+    }
+
+    bool is_asked_for(std::size_t target) const { return levels_.empty() || levels_[target].faces; }
+
+    std::vector<std::uint64_t> budget_by_cost(std::uint64_t target_faces, bool has_floors) {
+        std::vector<double> shares;
+        if (has_floors) shares = detail::proportional_shares(source_, target_faces, weights_);
+        std::vector<std::uint64_t> floors;
+        for (const double share : shares)
+            floors.push_back(static_cast<std::uint64_t>(std::ceil(detail::min_share * share)));
+        shares_.push_back(std::move(shares));
+        return detail::distribute_face_budget(curves_, cost_weights_, target_faces, floors);
+    }
+
+    // Returns false if the time is over; then there are no curves.
+    bool compute_cost_curves(std::uint64_t target) {
+        passes_ = 2;
+        curves_.resize(source_.parts.size());
+        for_each_part([&](std::size_t p, const MeshView& view, const Options& own) {
+            const Part& part = source_.parts[p];
+            curves_[p] = detail::cost_curve(view, own);
+            if (detail::has_displacements(part)) {
+                const double share =
+                    static_cast<double>(part.triangles.size()) * static_cast<double>(target) / faces_;
+                curves_[p] = detail::curve_in_motion(std::move(curves_[p]), part, view, own,
+                                                     static_cast<std::uint64_t>(share));
+            }
+            is_cancelled_ = curves_[p].stop == StopReason::cancelled;
+        });
+        cost_weights_ = detail::cost_weights(curves_.size(), detail::seen_instances(source_));
+        return !engine::is_over(deadline_);
+    }
+
+    bool keeps_groups() const { return options_.topology.group_boundaries == GroupBoundaries::kept; }
+
+    // Restores the material groups, which determine the pages. The groups for the simplification also
+    // separate coincident faces and, with kept boundaries, materials.
+    void restore_face_groups(std::size_t p, SimplifyResult& result) const {
+        result.history.face_groups = face_groups(source_.parts[p], groups_);
+        result.mesh.face_groups.clear();
+        if (result.history.face_groups.empty()) return;
+        for (const Index f : result.face_origin)
+            result.mesh.face_groups.push_back(result.history.face_groups[f]);
+    }
+
+    // Calls work(part, view, options) for every part with faces, until cancelled.
+    template <class Work>
+    void for_each_part(Work&& work) {
+        for (std::size_t p = 0; p < source_.parts.size(); ++p) {
+            const Part& part = source_.parts[p];
+            if (part.triangles.empty() || is_cancelled_) continue;
+            const double size = static_cast<double>(part.triangles.size());
+            Options own =
+                detail::with_time_left(detail::part_options(options_, size_, size_.scales[p]), deadline_);
+            if (options_.progress) {
+                own.progress = [this, size](Phase phase, double fraction) {
+                    const double of_part = phase == Phase::simplify ? fraction * size : 0;
+                    const double done = (done_ + of_part) / (passes_ * faces_);
+                    return options_.progress(Phase::simplify, std::min(1.0, done));
+                };
+            }
+            const auto& groups = keeps_groups() ? std::nullopt : groups_;
+            const std::span<const float> weights = weights_.empty() ? std::span<const float>() : weights_[p];
+            const PartInput input(source_, part, groups, weights, own);
+            work(p, input.view, own);
+            done_ += size;
+        }
+    }
+
+    const Asset& source_;
+    const Options& options_;
+    std::optional<detail::MaterialGroups> groups_;
+    std::vector<SimplifiedParts> results_;
+    std::span<const detail::LevelTarget> levels_;  // see simplify_parts_to_targets()
+    std::vector<std::vector<double>> shares_;      // by target: of proportional_shares(), or empty
+    std::vector<detail::CostCurve> curves_;
+    std::vector<double> cost_weights_;  // by part
+    detail::Deadline deadline_ = detail::deadline_of(options_);
+    bool is_cancelled_ = false;
+    detail::SceneSize size_;
+    std::vector<std::vector<float>> weights_;  // by part and vertex; empty: equal weights
+    double faces_ = 0;                         // of all parts
+    double done_ = 0;                          // faces of the parts that are finished, in all passes
+    double passes_ = 1;                        // number of passes over all parts
+};
+
+}  // namespace
+
+std::vector<SimplifiedParts> detail::simplify_parts_to_targets(const Asset& source,
+                                                               std::span<const std::uint64_t> targets,
+                                                               const Options& options,
+                                                               std::span<const LevelTarget> levels) {
+    return PartsRun(source, options, levels)(targets);
+}
+
+namespace {
+
+// Whether a new atlas could have images: for textures, vertex colours, or several materials on one page.
+bool has_appearance(const Asset& source) {
+    return !source.images.empty() || source.materials.size() > 1 ||
+           std::any_of(source.parts.begin(), source.parts.end(),
+                       [](const Part& part) { return !part.colors.empty(); });
+}
+
+// Simplifies all parts again, with UVs, to the face counts that they have.
+void add_kept_parts(const Asset& source, const Options& options, detail::Deadline deadline,
+                    SimplifiedParts& simplified) {
+    Options own = detail::step_options(options, Phase::simplify, 0.5, 1);
+    own.bake.kind = Bake::keep;
+    std::vector<std::uint64_t> counts;
+    for (const SimplifyResult& part : simplified.parts) counts.push_back(part.mesh.triangles.size());
+    own = detail::with_time_left(own, deadline);
+    SimplifiedParts kept = PartsRun(source, own).to_face_counts(counts);
+    simplified.report.seconds.simplify += kept.report.seconds.simplify;
+    simplified.report.seconds.total += kept.report.seconds.simplify;
+    if (kept.report.stop == StopReason::cancelled)
+        simplified.report.stop = kept.report.stop;
+    else
+        simplified.kept = std::move(kept.parts);
+}
+
+}  // namespace
+
+SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options& options,
+                                              std::span<const LevelTarget> levels) {
+    std::uint64_t faces = 0;
+    for (const Part& part : source.parts) faces += part.triangles.size();
+    const std::uint64_t target = detail::target_face_count(options.target, static_cast<double>(faces));
+    const detail::Deadline deadline = detail::deadline_of(options);
+    // Plain materials are kept anyway.
+    const bool tries_uvs = detail::may_keep_uvs(options) && has_appearance(source) &&
+                           !detail::has_plain_materials(source, options.bake) && target < faces;
+    const Options own = detail::step_options(options, Phase::simplify, 0, tries_uvs ? 0.5 : 1);
+    SimplifiedParts result =
+        std::move(detail::simplify_parts_to_targets(source, {&target, 1}, own, levels).front());
+    if (tries_uvs && result.report.stop != StopReason::cancelled && !engine::is_over(deadline))
+        add_kept_parts(source, options, deadline, result);
+    return result;
+}
+
+std::vector<SimplifiedParts> detail::simplify_parts_in_steps(const Asset& source,
+                                                             std::span<const std::uint64_t> targets,
+                                                             const Options& requested) {
+    validate(requested);
+    check_asset(source);
+    const Options options = resolved_options(source, requested);
+    const Deadline deadline = deadline_of(options);
+    const WeldedSource welded(source, options);
+    const Options own = with_time_left(options, deadline);
+    std::vector<SimplifiedParts> results = simplify_parts_to_targets(welded.asset(), targets, own);
+    for (SimplifiedParts& result : results) welded.add_to(result.report);
+    return results;
+}
+
+SimplifiedParts simplify_parts(const Asset& source, const Options& requested) {
+    validate(requested);
+    detail::check_asset(source);
+    const Options options = detail::resolved_options(source, requested);
+    const detail::Deadline deadline = detail::deadline_of(options);
+    const detail::WeldedSource welded(source, options);
+    const Options own = detail::with_time_left(options, deadline);
+    SimplifiedParts result = own.max_error ? detail::simplify_parts_within_error(welded.asset(), own)
+                                           : detail::simplify_welded_parts(welded.asset(), own);
+    welded.add_to(result.report);
+    return result;
+}
+
+}  // namespace faqem
