@@ -70,7 +70,7 @@ def faqem_uvs(source):
 def faqem_bake(source):
     import faqem
 
-    return lambda: faqem.bake(source.model, faces=source.target, texture_size=TEXTURE_SIZE), lambda out: out
+    return lambda: faqem.simplify(source.model, faces=source.target, texture_size=TEXTURE_SIZE), lambda out: out
 
 
 def fast_simplification(source):
@@ -192,7 +192,7 @@ PACKAGES = {
     "faqem.simplify": (faqem_arrays, "faqem", False),
     "faqem.simplify, preset fast": (lambda source: faqem_arrays(source, preset="fast"), "faqem", False),
     "faqem.simplify with uvs": (faqem_uvs, "faqem", True),
-    "faqem.bake, a new texture": (faqem_bake, "faqem", True),
+    "faqem.simplify, a new texture": (faqem_bake, "faqem", True),
     "fast_simplification": (fast_simplification, "fast-simplification", False),
     "trimesh": (trimesh, "trimesh", False),
     "pyfqmr": (pyfqmr, "pyfqmr", False),

@@ -87,7 +87,7 @@ def call_model(random_number, points, triangles, given):
     chosen = random_number.choice([{"bake": "none"}, {"bake": "vertex"}, {"texture_size": 64}, {"texture_size": 100},
                                    {"normals": "flat"}, {"samples": 9}, {"mapping": "closest"}])
     options = {name: value for name, value in given.items() if name not in ("groups", "locks", "weights", "uvs")}
-    baked = faqem.bake(model, **{**chosen, **options})
+    baked = faqem.simplify(model, **{**chosen, **options})
     for part in (*model.parts, *baked.parts):
         assert part.triangles.size == 0 or part.triangles.max() < len(part.vertices)
     assert [image.pixels().ndim for image in baked.images] == [3] * len(baked.images)
@@ -108,7 +108,7 @@ def call_file(random_number):
                 content[random_number.randrange(len(content))] = random_number.randrange(256)
             file.write_bytes(content[: random_number.choice([len(content), random_number.randrange(len(content))])])
         model = faqem.load(file)
-        faqem.bake(model, ratio=0.5, bake="none", normals="flat")
+        faqem.simplify(model, ratio=0.5, bake="none", normals="flat")
 
 
 def call_objects(random_number, points, triangles):
@@ -120,7 +120,7 @@ def call_objects(random_number, points, triangles):
     with tempfile.TemporaryDirectory() as folder:
         file = random_number.choice([pathlib.Path(folder, "a.glb"), pathlib.Path(folder, "a.ply"), a])
         random_number.choice([
-            lambda: faqem.bake(a, ratio=0.5, bake="none"), lambda: faqem.bake_levels(a, b, bake="none"),
+            lambda: faqem.simplify(a, ratio=0.5, bake="none"), lambda: faqem.simplify_levels(a, b, bake="none"),
             lambda: faqem.bake_truncated(a, b, 5, bake="none"), lambda: faqem.History.of(a), lambda: faqem.load(a),
             lambda: faqem.History.load(a), lambda: faqem.save(b, file, overwrite=c), lambda: faqem.save(b, file),
             lambda: faqem.save_levels(b, file), lambda: faqem.simplify(a, b), lambda: faqem.simplify_levels(a, b, c),

@@ -40,7 +40,7 @@ def write_models():
     first = [m * a + b + 1 for a in range(n - 1) for b in range(m - 1)]
     lines += [f"f {k} {k + m} {k + m + 1}\nf {k} {k + m + 1} {k + 1}" for k in first]
     pathlib.Path("coloured.obj").write_text("\n".join(lines) + "\n")
-    textured = faqem.bake(faqem.load("coloured.obj"), ratio=1, untouched="baked", texture_size=512)
+    textured = faqem.simplify(faqem.load("coloured.obj"), ratio=1, untouched="baked", texture_size=512)
     pathlib.Path("models").mkdir()
     for name in ("statue.glb", "generated.glb", "models/a.glb", "models/b.glb"):
         faqem.save(textured, name)

@@ -26,8 +26,7 @@ class Objects(unittest.TestCase):
         file = self.folder / "a.glb"
         for wrong in (self.out, self.history, None, "a.glb", self.mesh, 5):
             calls = {
-                "model": [lambda: faqem.bake(wrong), lambda: faqem.bake_levels(wrong, [0.5]),
-                          lambda: faqem.bake_truncated(wrong, self.history, 5)],
+                "model": [lambda: faqem.bake_truncated(wrong, self.history, 5)],
                 "levels": [lambda: faqem.save_levels([self.model, wrong], file)],
             }
             if wrong is not self.history:
@@ -47,9 +46,20 @@ class Objects(unittest.TestCase):
                 faqem.History.of(mixed)
         self.assertFalse(file.exists())
 
+    def test_what_is_no_model_needs_triangles(self):
+        for wrong in (self.out, self.history, None, "a.glb", self.mesh, 5):
+            with self.assertRaisesRegex(faqem.InputError, "^triangles: missing"):
+                faqem.simplify(wrong)
+            with self.assertRaisesRegex(TypeError, "^levels: a list is expected"):
+                faqem.simplify_levels(wrong, [0.5])
+        with self.assertRaisesRegex(TypeError, "^levels: come directly after a model"):
+            faqem.simplify_levels(self.model, [0.5], [0.2])
+        with self.assertRaisesRegex(faqem.OptionError, "ratio, faces or max_error"):
+            faqem.simplify(self.model, target_reduction=0.5)
+
     def test_levels_are_a_list_of_numbers_and_texts(self):
         for wrong in (None, 0.5, "0.5", self.out):
-            for call in (lambda: faqem.simplify_levels(*self.mesh, wrong), lambda: faqem.bake_levels(self.model, wrong),
+            for call in (lambda: faqem.simplify_levels(*self.mesh, wrong), lambda: faqem.simplify_levels(self.model, wrong),
                          lambda: faqem.History.of(wrong), lambda: faqem.save_levels(wrong, self.folder / "a.glb")):
                 with self.subTest(wrong=wrong), self.assertRaisesRegex(TypeError, "^levels: a list is expected"):
                     call()
@@ -85,11 +95,11 @@ class Objects(unittest.TestCase):
             with self.assertRaisesRegex(OSError, absent.name):
                 faqem.History.load(absent)
 
-    def test_a_model_without_triangles_cannot_be_baked(self):
+    def test_a_model_without_triangles_cannot_be_simplified(self):
         empty = self.folder / "empty.gltf"
         empty.write_text('{"asset": {"version": "2.0"}, "scenes": [{}]}')
         for model in (faqem.load(empty), faqem.Model.from_arrays([], [])):
-            for call in (lambda: faqem.bake(model), lambda: faqem.bake_levels(model, [0.5]),
+            for call in (lambda: faqem.simplify(model), lambda: faqem.simplify_levels(model, [0.5]),
                          lambda: faqem.bake_truncated(model, self.history, 5)):
                 with self.assertRaisesRegex(faqem.InputError, "^model: has no triangles"):
                     call()
@@ -121,7 +131,7 @@ class Values(unittest.TestCase):
         out = faqem.simplify(*mesh, history=True)
         for wrong in (None, ["each"], 5):
             with self.assertRaisesRegex(faqem.OptionError, "^textures: "):
-                faqem.bake_levels(model, [0.5], textures=wrong)
+                faqem.simplify_levels(model, [0.5], textures=wrong)
             with self.assertRaisesRegex(faqem.OptionError, "^mapping: "):
                 out.map([0], [[1, 0, 0]], mapping=wrong)
         for wrong in (None, "many", [1]):

@@ -60,15 +60,15 @@ class Interrupt(unittest.TestCase):
     def test_it_ends_levels_and_models_too(self):
         model = faqem.Model.from_arrays(*self.mesh)
         for run in (lambda progress: faqem.simplify_levels(*self.mesh, [0.5, 0.1], progress=progress),
-                    lambda progress: faqem.bake(model, ratio=0.1, progress=progress),
-                    lambda progress: faqem.bake_levels(model, [0.5, 0.1], progress=progress)):
+                    lambda progress: faqem.simplify(model, ratio=0.1, progress=progress),
+                    lambda progress: faqem.simplify_levels(model, [0.5, 0.1], progress=progress)):
             with self.assertRaises(KeyboardInterrupt):
                 run(self.interrupted_at(2, []))
 
     def test_nothing_is_done_for_levels_that_are_complete(self):
         model = faqem.Model.from_arrays(*self.mesh)
         for run in (lambda progress: faqem.simplify_levels(*self.mesh, [0.5, 0.1], progress=progress, threads=1),
-                    lambda progress: faqem.bake_levels(model, [0.5, 0.1], progress=progress, threads=1, bake="none")):
+                    lambda progress: faqem.simplify_levels(model, [0.5, 0.1], progress=progress, threads=1, bake="none")):
             every = []
             run(self.interrupted_at(0, every))
             for call in range(2, len(every), 1 + len(every) // 6):
@@ -101,7 +101,7 @@ class Processes(unittest.TestCase):
                 for _ in range(50):
                     faqem.save(model, f"{folder}/{number}.stl", overwrite=True)
                     texts = model.warnings
-                    faqem.bake(model, ratio=1, bake="none")
+                    faqem.simplify(model, ratio=1, bake="none")
                 return texts
 
             with concurrent.futures.ThreadPoolExecutor(4) as pool:

@@ -34,7 +34,7 @@ class Models(unittest.TestCase):
     def test_bake_simplifies_a_model(self):
         source = faqem.load(self.coloured())
         self.assertIsNone(source.report)
-        simplified = faqem.bake(source, faces=50, texture_size=64, texel_density=2, bake="per_triangle",
+        simplified = faqem.simplify(source, faces=50, texture_size=64, texel_density=2, bake="per_triangle",
                                 normals="flat", normal_map="off", visibility="weighted", image_format="png")
         self.assertEqual(len(source.parts[0].triangles), 288)
         self.assertLessEqual(len(simplified.parts[0].triangles), 50)
@@ -46,7 +46,7 @@ class Models(unittest.TestCase):
 
     def test_results_have_the_bytes_of_the_command(self):
         source = self.folder / "source.glb"
-        baked = faqem.bake(faqem.load(self.coloured()), bake="atlas", format="glb", texture_size=64, ratio=1.0)
+        baked = faqem.simplify(faqem.load(self.coloured()), bake="atlas", format="glb", texture_size=64, ratio=1.0)
         faqem.save(baked, source)
         for extension in ("glb", "gltf", "obj", "ply", "stl"):
             for limit in (None, 9000):
@@ -55,18 +55,18 @@ class Models(unittest.TestCase):
                     folder.mkdir()
                 options = [] if limit is None else ["--max-bytes", str(limit)]
                 faqem.command("simplify", source, folders[0] / f"out.{extension}", *options)
-                result = faqem.bake(faqem.load(source), format=extension, max_bytes=limit)
+                result = faqem.simplify(faqem.load(source), format=extension, max_bytes=limit)
                 faqem.save(result, folders[1] / f"out.{extension}")
                 files = [{file.name: file.read_bytes() for file in folder.iterdir()} for folder in folders]
                 self.assertEqual(files[0], files[1])
                 self.assertEqual(result.report["bytes_in"], source.stat().st_size)
         with self.assertRaisesRegex(faqem.ByteLimitError, "max_bytes allows 100"):
-            faqem.bake(faqem.load(source), max_bytes="100B")
+            faqem.simplify(faqem.load(source), max_bytes="100B")
 
     def test_results_are_made_for_the_format_of_the_source(self):
         source = faqem.load(self.coloured())
         faqem.save(source, self.folder / "source.ply")
-        result = faqem.bake(faqem.load(self.folder / "source.ply"), ratio=0.5)
+        result = faqem.simplify(faqem.load(self.folder / "source.ply"), ratio=0.5)
         self.assertEqual(result.images, [])
         faqem.save(result, self.folder / "result.obj")
         self.assertIn("was made for .ply files", result.warnings[-1])
@@ -75,7 +75,7 @@ class Models(unittest.TestCase):
         source = faqem.load(self.coloured())
         self.assertIsNone(source.error)
         for textures in ("each", "shared"):
-            levels = faqem.bake_levels(source, [0.5, 40], textures=textures, texture_size=64)
+            levels = faqem.simplify_levels(source, [0.5, 40], textures=textures, texture_size=64)
             self.assertEqual(len(levels), 2)
             for level, target in zip(levels, (144, 40)):
                 self.assertLessEqual(len(level.parts[0].triangles), target)
@@ -84,12 +84,12 @@ class Models(unittest.TestCase):
             self.assertEqual(bool(levels[1].report["pages"]), textures == "each")
         for wrong in ({"textures": "both"}, {"textures": "shared", "bake": "keep"}, {"ratio": 0.5}):
             with self.assertRaises(faqem.OptionError):
-                faqem.bake_levels(source, [0.5, 40], **wrong)
+                faqem.simplify_levels(source, [0.5, 40], **wrong)
 
     def test_levels_are_saved_in_one_file_and_histories_have_several_meshes(self):
         coloured = faqem.load(self.coloured())
         chain = self.folder / "chain.glb"
-        faqem.save_levels([coloured, *faqem.bake_levels(coloured, [0.5], texture_size=64)], chain)
+        faqem.save_levels([coloured, *faqem.simplify_levels(coloured, [0.5], texture_size=64)], chain)
         self.assertIn(b"MSFT_lod", chain.read_bytes())
         with self.assertRaises(faqem.WriteError):
             faqem.save_levels([coloured], chain)
@@ -98,7 +98,7 @@ class Models(unittest.TestCase):
                 faqem.save_levels([coloured], chain, overwrite=True, **wrong)
 
         texture = {"texture_size": 64}
-        finest = faqem.bake(faqem.load(chain), ratio=0.5, **texture)
+        finest = faqem.simplify(faqem.load(chain), ratio=0.5, **texture)
         self.assertEqual(finest.report["faces_in"], 288)
         self.assertTrue(any("1 coarser level of 1 node (MSFT_lod)" in w for w in finest.report["warnings"]))
 
@@ -106,7 +106,7 @@ class Models(unittest.TestCase):
         separate = self.folder / "separate.glb"
         separate.write_bytes(chain.read_bytes().replace(b"MSFT_lod", b"EXT_none"))
         both = faqem.load(separate)
-        levels = faqem.bake_levels(both, [200, 40], history=True, **texture)
+        levels = faqem.simplify_levels(both, [200, 40], history=True, **texture)
         file = self.folder / "both.history"
         faqem.History.of(levels).save(file)
         history = faqem.History.load(file)
@@ -124,7 +124,7 @@ class Models(unittest.TestCase):
         with self.assertRaises(faqem.InputError):
             faqem.bake_truncated(coloured, history, 100)
         with self.assertRaises(faqem.OptionError):
-            faqem.History.of(faqem.bake_levels(both, [200], **texture))
+            faqem.History.of(faqem.simplify_levels(both, [200], **texture))
 
     def test_files_are_overwritten_only_on_request(self):
         model = faqem.Model.from_arrays(*flat_grid(2))
@@ -165,7 +165,7 @@ class Models(unittest.TestCase):
         with self.assertRaises(faqem.UnsupportedError):
             faqem.save(model, self.folder / "a.off")
         with self.assertRaisesRegex(faqem.OptionError, "texture_size"):
-            faqem.bake(model, texture_size=100)
+            faqem.simplify(model, texture_size=100)
         for kind, also in ((faqem.OptionError, ValueError), (faqem.InputError, ValueError), (faqem.ReadError, OSError),
                            (faqem.UnsupportedError, ValueError), (faqem.WriteError, OSError),
                            (faqem.ByteLimitError, ValueError), (faqem.TimeLimitError, TimeoutError), (faqem.InternalError, Exception)):
@@ -178,9 +178,9 @@ class Models(unittest.TestCase):
             ("lock", "locks", lambda **keyword: faqem.simplify(*flat_grid(2), **keyword)),
             ("target_reducton", "target_reduction", lambda **keyword: faqem.simplify(*flat_grid(2), **keyword)),
             ("weight", "weights", lambda **keyword: faqem.simplify_levels(*flat_grid(2), [0.5], **keyword)),
-            ("progres", "progress", lambda **keyword: faqem.bake(model, **keyword)),
-            ("texturesize", "texture_size", lambda **keyword: faqem.bake(model, **keyword)),
-            ("texture", "textures", lambda **keyword: faqem.bake_levels(model, [0.5], **keyword)),
+            ("progres", "progress", lambda **keyword: faqem.simplify(model, **keyword)),
+            ("texturesize", "texture_size", lambda **keyword: faqem.simplify(model, **keyword)),
+            ("texture", "textures", lambda **keyword: faqem.simplify_levels(model, [0.5], **keyword)),
             ("overwrit", "overwrite", lambda **keyword: faqem.save(model, file, **keyword)),
             ("pixel_eror", "pixel_error", lambda **keyword: faqem.save_levels([model], file, **keyword)),
             ("sample", "samples", lambda **keyword: faqem.compare(model, model, **keyword)),

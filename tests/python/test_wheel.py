@@ -48,8 +48,8 @@ class Names(unittest.TestCase):
     def test_the_types_name_every_option(self):
         from faqem import _options, _types
 
-        self.assertEqual(set(_types.BakeOptions.__annotations__), {*_options.option_names(), "progress"})
-        self.assertLess(set(_types.SimplifyOptions.__annotations__), set(_types.BakeOptions.__annotations__))
+        self.assertEqual(set(_types.ModelOptions.__annotations__), {*_options.option_names(), "progress"})
+        self.assertLess(set(_types.SimplifyOptions.__annotations__), set(_types.ModelOptions.__annotations__))
 
     def test_the_import_loads_neither_numpy_nor_the_library(self):
         code = "import sys, faqem; sys.exit(bool({'numpy', 'ctypes', 'faqem._library'} & set(sys.modules)))"

@@ -27,13 +27,13 @@ small = faqem.simplify(trimesh.load_mesh("statue.glb"), faces=100, texture_size=
 print(small.metadata["faqem"], len(small.faces))
 
 model = faqem.load("statue.glb")
-baked = faqem.bake(model, faces=20_000, texture_size=2048, image_format="webp")
-faqem.save(baked, "simplified.glb", overwrite=True)
+result = faqem.simplify(model, faces=20_000, texture_size=2048, image_format="webp")
+faqem.save(result, "simplified.glb", overwrite=True)
 faqem.save((out.vertices, out.triangles), "simplified.ply")
-faqem.save_levels([model, *faqem.bake_levels(model, [0.5, 0.1], textures="shared")], "levels.glb")
-print(faqem.compare(baked, "simplified.glb", samples=1000)["colors"], faqem.command("info", "statue.glb").split())
+faqem.save_levels([model, *faqem.simplify_levels(model, [0.5, 0.1], textures="shared")], "levels.glb")
+print(faqem.compare(result, "simplified.glb", samples=1000)["colors"], faqem.command("info", "statue.glb").split())
 print(faqem.History.load("history").truncate(100).vertices.shape, faqem.__version__)
 
 faqem.simplify(vertices, triangles, rato=0.5)  # type: ignore[call-overload]
 faqem.simplify(vertices, triangles, preset="bes")  # type: ignore[call-overload]
-faqem.bake(model, texture_size="large")  # type: ignore[arg-type]
+faqem.simplify(model, texture_size="large")  # type: ignore[call-overload]

@@ -1,7 +1,7 @@
 """Mesh simplification with texture baking, for numpy arrays and textured models.
 
     out = faqem.simplify(vertices, triangles, ratio=0.1)
-    simplified = faqem.bake(faqem.load("statue.glb"), faces=20_000)
+    simplified = faqem.simplify(faqem.load("statue.glb"), faces=20_000)
     faqem.save(simplified, "simplified.glb")
 
 docs/python.md describes all options.
@@ -26,7 +26,7 @@ from .errors import (
 TYPE_CHECKING = False  # type checkers take it for true; the module typing would take a third of the import's time
 if TYPE_CHECKING:
     from ._levels import History, simplify_levels
-    from ._model import Model, Part, bake, bake_levels, bake_truncated, load, save, save_levels
+    from ._model import Model, Part, bake_truncated, load, save, save_levels
     from ._call import simplify
     from ._command import command, compare
     from ._compatible import Collapses, replay_simplification
@@ -53,9 +53,7 @@ __all__ = [
     "TimeLimitError",
     "UnsupportedError",
     "WriteError",
-    "bake",
     "bake_truncated",
-    "bake_levels",
     "command",
     "compare",
     "load",
@@ -70,7 +68,7 @@ __all__ = [
 # numpy and the library.
 _modules = {
     **dict.fromkeys(["History", "simplify_levels"], "_levels"),
-    **dict.fromkeys(["Model", "Part", "bake", "bake_levels", "bake_truncated", "load", "save", "save_levels"], "_model"),
+    **dict.fromkeys(["Model", "Part", "bake_truncated", "load", "save", "save_levels"], "_model"),
     **dict.fromkeys(["command", "compare"], "_command"),
     **dict.fromkeys(["Collapses", "replay_simplification"], "_compatible"),
     **dict.fromkeys(["Image", "Material", "Texture"], "_textures"),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar, overload
 from numpy.typing import ArrayLike
 
 from ._compatible import Collapses, Faces, Points, simplify_compatibly, triangle_rows
+from ._model import Model, simplify_model
 from ._options import option_names, unknown_keyword
 from ._simplify import Simplified, simplify_arrays, simplify_keywords
 from ._trimesh import is_trimesh, simplify_trimesh
@@ -15,7 +16,7 @@ from .errors import InputError, OptionError
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._types import BakeOptions, CompatibleOptions, SimplifyOptions
+    from ._types import CompatibleOptions, ModelOptions, SimplifyOptions
 
 
 class _Exportable(Protocol):
@@ -30,7 +31,11 @@ Exportable = TypeVar("Exportable", bound=_Exportable)
 
 
 @overload
-def simplify(points: Exportable, **options: Unpack[BakeOptions]) -> Exportable: ...
+def simplify(points: Model, **options: Unpack[ModelOptions]) -> Model: ...
+
+
+@overload
+def simplify(points: Exportable, **options: Unpack[ModelOptions]) -> Exportable: ...
 
 
 @overload
@@ -124,7 +129,7 @@ def simplify(
     preserve_border: bool = False,
     **options: Any,
 ) -> Any:
-    """Simplifies a triangle soup, or a mesh or scene of trimesh.
+    """Simplifies a triangle soup, a model, or a mesh or scene of trimesh.
 
     points     (v, 3) positions; float32 and float64 are used without a copy
     triangles  (f, 3) vertex indices; uint32 and uint16 are used without a copy. Or the array `faces` of pyvista
@@ -148,18 +153,19 @@ def simplify(
     return_collapses  True: the collapses (n, 2) int32 are the third result, for replay_simplification() of either module
     preserve_border   True: boundary="locked"
 
-    A Trimesh or Scene of trimesh alone gives another one, with new textures; `metadata["faqem"]` is the report. The
-    options are those of bake().
+    A Model alone gives another Model, with new textures. Its options are in docs/python.md, too. It is made for the format
+    of the loaded file: `format` names another one, in which it will be saved. Raises also UnsupportedError,
+    TimeLimitError and ByteLimitError. A Trimesh or Scene of trimesh gives another one; `metadata["faqem"]` is the report.
     """
     if triangles is None:
-        if not is_trimesh(points):
+        if not isinstance(points, Model) and not is_trimesh(points):
             for keyword in options.keys() - {*option_names(), *simplify_keywords, "progress"}:
                 raise unknown_keyword(keyword, [*option_names(), *simplify_keywords, "progress"])
-            raise InputError("triangles: missing; only a Trimesh or a Scene of trimesh can be simplified alone")
+            raise InputError("triangles: missing; only a Model, or a Trimesh or Scene of trimesh, can be simplified alone")
         positional = (target_reduction, target_count, agg, verbose, return_collapses, lossless, preserve_border)
         if positional != (None, None, None, False, False, False, False):
-            raise OptionError("a Trimesh or Scene is simplified with ratio, faces or max_error")
-        return simplify_trimesh(points, **options)
+            raise OptionError("a Model, Trimesh or Scene is simplified with ratio, faces or max_error")
+        return (simplify_model if isinstance(points, Model) else simplify_trimesh)(points, **options)
     if target_reduction is None and target_count is None and not lossless:
         given = {"agg": agg is not None, "verbose": verbose, "return_collapses": return_collapses,
                  "preserve_border": preserve_border}

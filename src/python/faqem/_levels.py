@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Union, overload
 
 import numpy
 from numpy.typing import ArrayLike, DTypeLike
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._model import Model
-    from ._types import CommonOptions
+    from ._types import CommonModelOptions, CommonOptions
 
 Target = Union[float, str]  # of a level
 Path = Union[str, "os.PathLike[str]"]
@@ -64,29 +64,61 @@ def as_list(levels: Any) -> list[Any]:
     return list(levels)
 
 
+@overload
 def simplify_levels(
-    vertices: ArrayLike,
+    points: Model, levels: Sequence[Target], /, *, textures: str = ..., **options: Unpack[CommonModelOptions]
+) -> list[Model]: ...
+
+
+@overload
+def simplify_levels(
+    points: ArrayLike,
     triangles: ArrayLike,
     levels: Sequence[Target],
     /,
     *,
+    groups: ArrayLike | None = ...,
+    locks: ArrayLike | None = ...,
+    weights: ArrayLike | None = ...,
+    uvs: ArrayLike | None = ...,
+    **options: Unpack[CommonOptions],
+) -> list[Simplified]: ...
+
+
+def simplify_levels(points: Any, triangles: Any, levels: Any = None, /, **options: Any) -> Any:
+    """Simplifies a triangle soup or a model to several levels of detail, and measures each against the original.
+
+    points, triangles, groups, locks, weights, uvs
+              as for simplify(); or a Model instead of the first two
+    levels    from fine to coarse: 0.5 (share of the triangles), 5000 (number of triangles), "error:0.01" (distance in
+              model units, for a Model in scene units) or "error:0.1%" (distance as a share of the diagonal)
+    textures  of a Model: "each": every level has its own textures; "shared": all levels have those of the finest one
+    options   those of simplify(), except ratio, faces and max_error
+
+    Returns a list of Simplified or Model, whose `error` never decreases. Raises the exceptions of simplify().
+    """
+    from ._model import Model, simplify_model_levels
+
+    if isinstance(points, Model):
+        if levels is not None:
+            raise TypeError("levels: come directly after a model")
+        return simplify_model_levels(points, triangles, **options)
+    if levels is None:
+        raise TypeError("levels: a list is expected after the triangles, or after a Model")
+    return _simplify_array_levels(points, triangles, levels, **options)
+
+
+def _simplify_array_levels(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    levels: Sequence[Target],
     groups: ArrayLike | None = None,
     locks: ArrayLike | None = None,
     weights: ArrayLike | None = None,
     uvs: ArrayLike | None = None,
-    **options: Unpack[CommonOptions],
+    **options: Any,
 ) -> list[Simplified]:
-    """Simplifies a triangle soup to several levels of detail, and measures each against the original.
-
-    vertices, triangles, groups, locks, weights, uvs
-             as for simplify()
-    levels   from fine to coarse: 0.5 (share of the triangles), 5000 (number of triangles), "error:0.01"
-             (distance in model units) or "error:0.1%" (distance as a share of the diagonal)
-    options  those of simplify(), except ratio, faces and max_error
-
-    Returns a list of Simplified, whose `error` never decreases. Raises the exceptions of simplify().
-    """
-    arrays = MeshArrays(vertices, triangles, groups, locks, weights, uvs)
+    arrays = MeshArrays(points, triangles, groups, locks, weights, uvs)
     chosen = Options(array_keywords, **options)
     wanted = level_array(levels)
     made = (ctypes.c_void_p * len(wanted))()
@@ -121,8 +153,7 @@ class History:
     def of(cls, levels: Sequence[Simplified] | Sequence[Model]) -> History:
         """Creates the history of a run with history=True.
 
-        levels  the result of simplify_levels() or bake_levels(), or a list with one result of simplify() or
-                bake()
+        levels  the result of simplify_levels(), or a list with one result of simplify()
 
         Raises OptionError if a level has no history, and InputError if the levels are not of one run.
         """

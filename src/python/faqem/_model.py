@@ -23,7 +23,7 @@ from .errors import InputError, OptionError, ReadError, UnsupportedError
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._types import BakeOptions, CommonBakeOptions
+    from ._types import CommonModelOptions, ModelOptions
 
 _level_textures = ["each", "shared"]  # faqem_level_textures
 
@@ -41,7 +41,7 @@ class Part:
 
 
 class Model:
-    """A scene of parts, materials and images. Created by load(), bake() or Model.from_arrays()."""
+    """A scene of parts, materials and images. Created by load(), simplify() or Model.from_arrays()."""
 
     def __init__(self, handle: ctypes.c_void_p) -> None:
         self._handle = handle
@@ -85,7 +85,7 @@ class Model:
 
     @property
     def report(self) -> dict[str, Any] | None:
-        """Report of bake(), with the keys documented in docs/cli.md; None for other models."""
+        """Report of simplify(), with the keys documented in docs/cli.md; None for other models."""
         text = library.faqem_asset_report_json(self._handle)
         return None if text is None else json.loads(text)
 
@@ -152,30 +152,16 @@ def load(path: Path) -> Model:
         raise ReadError(str(error)) from None
 
 
-def bake(model: Model, /, **options: Unpack[BakeOptions]) -> Model:
-    """Simplifies a model and bakes its appearance into new textures; the given model is unchanged.
-
-    options  those of simplify(), and those for models; see docs/python.md. The result is made for the format of the loaded
-             file: `format` names another one, in which it will be saved
-
-    Returns a Model. Raises OptionError, InputError, UnsupportedError, MemoryError, and the exceptions of
-    `progress`.
-    """
+def simplify_model(model: Model, **options: Unpack[ModelOptions]) -> Model:
+    """simplify() of a model."""
     source, chosen = _source(model), Options(**options)
     return chosen.run(lambda: Model(create(library.faqem_asset_simplify, source, chosen.object)))
 
 
-def bake_levels(
-    model: Model, levels: Sequence[Target], /, *, textures: str = "each", **options: Unpack[CommonBakeOptions]
+def simplify_model_levels(
+    model: Model, levels: Sequence[Target], textures: str = "each", **options: Unpack[CommonModelOptions]
 ) -> list[Model]:
-    """Simplifies a model to several levels of detail and bakes each; the given model is unchanged.
-
-    levels    as for simplify_levels(); distances are in scene units
-    textures  "each": every level has its own textures; "shared": all levels have those of the finest one
-    options   those of bake(), except ratio, faces and max_error
-
-    Returns a list of Model, whose `error` never decreases. Raises the exceptions of bake().
-    """
+    """simplify_levels() of a model."""
     source, chosen = _source(model), Options(["textures"], **options)
     shared = enum_value(_level_textures, textures, "textures")
     wanted = level_array(levels)
@@ -188,7 +174,7 @@ def bake_levels(
     return chosen.run(run)
 
 
-def bake_truncated(model: Model, history: History, faces: int, /, **options: Unpack[CommonBakeOptions]) -> Model:
+def bake_truncated(model: Model, history: History, faces: int, /, **options: Unpack[CommonModelOptions]) -> Model:
     """Restores a model from a history at a number of triangles and bakes its appearance, without another run.
 
     model    the model that was simplified
@@ -196,7 +182,7 @@ def bake_truncated(model: Model, history: History, faces: int, /, **options: Unp
     faces    maximum number of triangles over all meshes; the number of a level gives that level
     options  baking options of the run; see docs/python.md
 
-    Returns a Model. Raises the exceptions of bake(), and InputError if the history is of another model.
+    Returns a Model. Raises the exceptions of simplify(), and InputError if the history is of another model.
     """
     source, chosen = _source(model), Options(**options)
     count = checked_integer(faces, "faces", 53)

@@ -7,7 +7,7 @@ import sys
 import tempfile
 from typing import Any
 
-from ._model import bake, load, save
+from ._model import load, save, simplify_model
 from .errors import InputError
 
 
@@ -26,7 +26,7 @@ def simplify_trimesh(mesh: Any, **options: Any) -> Any:
     with tempfile.TemporaryDirectory() as folder:
         source, result = os.path.join(folder, "source.glb"), os.path.join(folder, "result.glb")
         mesh.export(source)
-        model = bake(load(source), **options)
+        model = simplify_model(load(source), **options)
         save(model, result)
         with open(result, "rb") as file:
             loaded = package.load(file, file_type="glb", process=False, **({} if is_scene else {"force": "mesh"}))

@@ -38,8 +38,8 @@ class _Target(TypedDict, total=False):
     max_seconds: float | None
 
 
-class CommonBakeOptions(CommonOptions, total=False):
-    """Options of all calls that bake."""
+class CommonModelOptions(CommonOptions, total=False):
+    """Options of all calls that make models."""
 
     budget: Literal["scene", "mesh"] | None
     visibility: Literal["ignored", "weighted"] | None
@@ -81,5 +81,5 @@ class SimplifyOptions(CommonOptions, _Target, total=False):
     """Options of simplify()."""
 
 
-class BakeOptions(CommonBakeOptions, _Target, total=False):
-    """Options of bake()."""
+class ModelOptions(CommonModelOptions, _Target, total=False):
+    """Options of simplify() of a model."""
