@@ -94,8 +94,9 @@ enum class Boundary { free, locked };
 
 /// How boundaries between faces of different groups (for an asset: materials) are treated.
 enum class GroupBoundaries {
-    free,
-    kept,  ///< preserved as surface boundaries are, never torn or merged, even if the target is missed
+    free,       ///< without effect; for an asset, as `preferred`
+    preferred,  ///< preserved as by `kept` while the target can be reached, and then only part of the costs
+    kept,       ///< preserved as surface boundaries are, never torn or merged, even if the target is missed
 };
 
 /// Whether nearby boundary vertices of different components may be collapsed (FA-QEM, supplementary

@@ -46,14 +46,15 @@ enum class Rung {
     reseed,           ///< all pairs are re-evaluated
     duplicate_faces,  ///< faces with the corners and winding of another face are deleted
     tiny_components,  ///< connected components below 2% of the diagonal and of the area are deleted, smallest first
-    without_link,   ///< the link condition is lifted
-    fold,           ///< folds are allowed
-    flip_zero,      ///< the cosine between old and new face normal may be as low as 0
-    flip_half,      ///< the cosine between old and new face normal may be as low as -0.5
-    flip_any,       ///< faces may flip
-    any_component,  ///< connected components are deleted, smallest first, never the largest
+    group_boundaries,  ///< GroupBoundaries::preferred only adds to the costs
+    without_link,      ///< the link condition is lifted
+    fold,              ///< folds are allowed
+    flip_zero,         ///< the cosine between old and new face normal may be as low as 0
+    flip_half,         ///< the cosine between old and new face normal may be as low as -0.5
+    flip_any,          ///< faces may flip
+    any_component,     ///< connected components are deleted, smallest first, never the largest
 };
-inline constexpr std::size_t rung_kinds = 9;
+inline constexpr std::size_t rung_kinds = 10;
 
 /// Wall-clock seconds of the phases. `simplify` is the whole run from input to output arrays, including
 /// `weld`.

@@ -255,6 +255,9 @@ private:
             const double size = static_cast<double>(part.triangles.size());
             Options own =
                 detail::with_time_left(detail::part_options(options_, size_, size_.scales[p]), deadline_);
+            // Materials that stay apart are not mixed on flat surfaces.
+            GroupBoundaries& boundaries = own.topology.group_boundaries;
+            if (boundaries == GroupBoundaries::free) boundaries = GroupBoundaries::preferred;
             if (options_.progress) {
                 own.progress = [this, size](Phase phase, double fraction) {
                     const double of_part = phase == Phase::simplify ? fraction * size : 0;

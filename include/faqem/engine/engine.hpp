@@ -79,6 +79,7 @@ public:
     /// O(n log n) in the number of pairs, for bounded valence and HeapQueue.
     LoopResult run(const LoopOptions& options) {
         rules_ = options.rules;
+        if (!curves_ || curves_->empty()) rules_.groups = GroupBoundaries::free;  // there is nothing to keep
         distance_weight_ = options.distance_weight;
         set_progress(options);
         monitor_.set_deadline(options.deadline);
@@ -199,7 +200,7 @@ private:
                                                : AllowedPosition::anywhere;
         const AllowedPosition seam = intersection(lock, wedges_.allowed_position(mesh_, u, v));
         if (seam == AllowedPosition::nowhere) return count_refusal(Refusal::seam), seam;
-        if (!curves_) return seam;
+        if (!curves_ || rules_.groups == GroupBoundaries::free) return seam;
         const AllowedPosition group = intersection(seam, curves_->allowed_position(mesh_, pairs_, u, v));
         if (group == AllowedPosition::nowhere) count_refusal(Refusal::group);
         return group;
@@ -371,7 +372,7 @@ private:
                 // target from being reached, only tiny components are deleted to compensate.
                 return wedges_.empty() && !keeps_groups() && delete_components(options, {});
             default:
-                return relax_rule(rules_, rung, keeps_groups() ? CurvePolicy::kept : CurvePolicy::free);
+                return relax_rule(rules_, rung);
         }
     }
 
@@ -392,7 +393,7 @@ private:
         return any;
     }
 
-    bool keeps_groups() const { return curves_ && !curves_->empty(); }
+    bool keeps_groups() const { return curves_ && rules_.groups == GroupBoundaries::kept; }
 
     // Deletes removable components, smallest first, until the target is reached. The largest component is
     // never deleted.

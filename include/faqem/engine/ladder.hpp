@@ -11,21 +11,21 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Whether the boundaries between face groups are preserved.
-enum class CurvePolicy { free, kept };
-
 /// Relaxes the rule that belongs to a rung of the ladder. O(1)
 /// \param rules   modified
 /// \param rung    any rung
-/// \param groups  if `kept`, normal deviations above 90 degrees stay forbidden
 /// \return false if the rules do not change: they are already relaxed this far, or the rung has no rule
-inline bool relax_rule(Rules& rules, Rung rung, CurvePolicy groups) {
+inline bool relax_rule(Rules& rules, Rung rung) {
     const auto lower_min_normal_cosine = [&](double limit) {
         if (!(rules.min_normal_cosine > limit)) return false;
         rules.min_normal_cosine = limit;
         return true;
     };
     switch (rung) {
+        case Rung::group_boundaries:
+            if (rules.groups != GroupBoundaries::preferred) return false;
+            rules.groups = GroupBoundaries::free;
+            return true;
         case Rung::without_link:
             if (rules.link != LinkCondition::on && rules.link != LinkCondition::by_size) return false;
             rules.link = LinkCondition::off;
@@ -35,10 +35,10 @@ inline bool relax_rule(Rules& rules, Rung rung, CurvePolicy groups) {
         case Rung::flip_zero:
             return lower_min_normal_cosine(0);
         case Rung::flip_half:
-            return groups == CurvePolicy::free && lower_min_normal_cosine(-0.5);
-        case Rung::flip_any:
             // Flipped faces could overlap faces of another group.
-            if (groups == CurvePolicy::kept) return false;
+            return rules.groups != GroupBoundaries::kept && lower_min_normal_cosine(-0.5);
+        case Rung::flip_any:
+            if (rules.groups == GroupBoundaries::kept) return false;
             rules.min_pair_length = 0;
             return lower_min_normal_cosine(-1);
         case Rung::reseed:

@@ -114,6 +114,23 @@ TriangleMesh octants(int level) {
 
 }  // namespace
 
+TEST_CASE("feature curves: preferred ones are kept while the target can be reached, and given up for it") {
+    const TriangleMesh mesh = octants(4);
+    Options options = keeping(0.1);
+    const SimplifyResult kept = simplify({mesh.positions, mesh.triangles, mesh.face_groups}, options);
+    options.topology.group_boundaries = GroupBoundaries::preferred;
+    const SimplifyResult preferred = simplify({mesh.positions, mesh.triangles, mesh.face_groups}, options);
+    CHECK(preferred.mesh.positions == kept.mesh.positions);
+    CHECK(preferred.report.rungs[static_cast<std::size_t>(Rung::group_boundaries)] == 0);
+    // A triangle for each octant is the least that keeps them; without curves four faces are possible.
+    options.target = faces(4);
+    const SimplifyResult few = simplify({mesh.positions, mesh.triangles, mesh.face_groups}, options);
+    CHECK(few.mesh.triangles.size() == 4);
+    CHECK(few.report.rungs[static_cast<std::size_t>(Rung::group_boundaries)] == 1);
+    options.topology.group_boundaries = GroupBoundaries::kept;
+    CHECK(simplify({mesh.positions, mesh.triangles, mesh.face_groups}, options).mesh.triangles.size() == 8);
+}
+
 TEST_CASE("feature curves: without adjacent faces of different groups there are no curves") {
     FeatureCurves none;
     CHECK(none.empty());

@@ -105,7 +105,7 @@ inline constexpr OptionRow geometry_rows[] = {
     option_row<&Options::topology, &Topology::group_boundaries>(
         {.name = "group-boundaries",
          .command_name = "keep-groups",
-         .choices = "free|kept",
+         .choices = "free|preferred|kept",
          .flag_value = "kept",
          .help = "Preserve boundaries between materials, even if the target is missed",
          .entry_points = in_all_but_truncate}),

@@ -21,8 +21,8 @@ inline constexpr std::array<std::string_view, 5> stop_names = {
 inline constexpr std::array<std::string_view, refusal_kinds> refusal_names = {
     "flip", "degenerate", "link", "fold", "locked", "seam", "group", "zero_length", "last_faces"};
 inline constexpr std::array<std::string_view, rung_kinds> rung_names = {
-    "reseed",    "duplicate_faces", "tiny_components", "without_link", "fold",
-    "flip_zero", "flip_half",       "flip_any",        "any_component"};
+    "reseed", "duplicate_faces", "tiny_components", "group_boundaries", "without_link",
+    "fold",   "flip_zero",       "flip_half",       "flip_any",         "any_component"};
 
 }  // namespace detail
 

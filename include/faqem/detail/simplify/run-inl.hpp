@@ -91,6 +91,7 @@ private:
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length(),
                        settings_.min_fold_cosine};
+        loop_.rules.groups = options_.topology.group_boundaries;
         loop_.tiny_component_diagonal = 0.02 * settings_.diagonal;
         if (options_.progress) {
             loop_.progress = [this](double done) {
@@ -126,10 +127,15 @@ private:
 
     double min_pair_length() const { return 1e-8 * settings_.diagonal; }
 
+    // Whether boundaries between groups are more than free.
+    bool has_curves() const {
+        return options_.topology.group_boundaries != GroupBoundaries::free && !mesh_.face_groups.empty();
+    }
+
     // Meshes with attributes, kept groups, weights or virtual edges are not split into blocks.
     bool supports_blocks() const {
         return settings_.quadric_policy != Settings::QuadricPolicy::memory && !mesh_.attributes &&
-               mesh_.vertex_weights.empty() && options_.topology.group_boundaries != GroupBoundaries::kept &&
+               mesh_.vertex_weights.empty() && !has_curves() &&
                options_.topology.virtual_edges != VirtualEdges::on;
     }
 
@@ -212,7 +218,7 @@ private:
                 collapse_mesh, {state_.mesh().per_face<float>(values, std::size_t{3} * width), width});
         }
         work.locked = state_.locked();
-        if (options_.topology.group_boundaries == GroupBoundaries::kept) {
+        if (has_curves()) {
             work.groups = state_.mesh().per_face(mesh_.face_groups);
             work.curves = engine::FeatureCurves(collapse_mesh, work.groups);
         }

@@ -29,6 +29,8 @@ struct Rules {
     /// An edge is a fold if the cosine between the normals of its two faces is below this. A collapse must
     /// not increase the number of folds. -1: not tested.
     double min_fold_cosine = -1;
+    /// How curves between groups (FeatureCurves) are treated; `free`: they only have a price. Tested by the engine.
+    GroupBoundaries groups = GroupBoundaries::kept;
 };
 
 /// Tests whether a collapse is legal. Belongs to one mesh; 8 bytes per vertex slot. Not thread-safe.
