@@ -318,8 +318,7 @@ double SourceSampler::texel_density(Index p, Index face) const {
         if (set < part.uvs.size())
             density = std::max(density, densities_[p].uv_per_length[set][face] * slot.texels_per_uv);
     });
-    const bool geometry = wanted_[CoreTexture::normal] && !s[CoreTexture::normal].image;
-    return density > 0 && !geometry ? density : std::max(density, densities_[p].untextured_density);
+    return std::max(density, densities_[p].untextured_density);
 }
 
 }  // namespace faqem::detail

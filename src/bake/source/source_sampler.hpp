@@ -104,9 +104,9 @@ public:
     engine::Vector3 layer_normal(Index part, const SurfacePoint& point, double spacing,
                                  const engine::Vector3& face_normal, const ExtensionLayer& layer) const;
 
-    /// Texels per unit of length at a face, for the finest texture of its material. For faces without texture
-    /// this is the density with a mean of two texels per face of the part. Faces that will get a normal map
-    /// but have none in the source get at least this density.
+    /// Texels per unit of length at a face, for the finest texture of its material, but not less than with a mean of two
+    /// texels per face of the part. Faces without a texture have this density, and those whose UVs cover hardly any
+    /// texels: a page needs texels to show where their colours end.
     double texel_density(Index part, Index face) const;
 
 private:

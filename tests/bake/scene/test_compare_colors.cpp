@@ -1,5 +1,8 @@
 #include "faqem/compare_colors.hpp"
 
+#include <cmath>
+
+#include "faqem/bake.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
@@ -151,4 +154,35 @@ TEST_CASE("models without colours are detected and models without area or with d
     Asset broken = test::textured_square(test::ramp(8));
     broken.images[0].encoded.resize(40);
     CHECK_THROWS_AS(compare_colors(broken, painted(red), few), InputError);
+}
+
+TEST_CASE("a new page shows where colours end, also if UVs are points of a palette") {
+    // Stripes in two colours. All corners of a face are at the middle of one of two texels.
+    Asset asset;
+    asset.parts = {test::sheet(24, [](double x, double y) { return Vec3{x, y, 0.1 * std::sin(x / 4)}; })};
+    Part& part = asset.parts[0];
+    asset.materials.resize(1);
+    asset.images.push_back(encode_png({2, 1, {255, 0, 0, 255, 0, 0, 255, 255}, false}, "palette"));
+    asset.materials[0].base_color_texture.image = 0;
+    const Part grid = part;
+    part.positions.clear();
+    part.triangles.clear();
+    part.normals.clear();
+    part.uvs.assign(1, {});
+    for (Index f = 0; f < grid.triangles.size(); ++f) {
+        const float u = f / 2 % 24 / 6 % 2 == 0 ? 0.25f : 0.75f;
+        for (const Index v : grid.triangles[f]) {
+            part.positions.push_back(grid.positions[v]);
+            part.uvs[0].push_back({u, 0.5f});
+        }
+        part.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+    }
+    part.face_material.assign(part.triangles.size(), 0);
+    Options options;
+    options.target = ratio(0.1);
+    options.bake.kind = Bake::atlas;
+    const SimplifiedAsset result = simplify(asset, options);
+    REQUIRE(result.report.pages.size() == 1);
+    // A texel on each side of a boundary may be a mixture.
+    CHECK(compare_colors(asset, result.asset, few).a_to_b.rmse < 0.25);
 }
