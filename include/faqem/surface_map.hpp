@@ -13,14 +13,17 @@ FAQEM_NAMESPACE_BEGIN
 
 class SurfaceMap;
 
+namespace engine {
+class RunContext;
+}
 namespace detail {
-struct Workers;
 class LocalMap;
 
 /// Constructs a SurfaceMap on several threads; the calling thread checks for cancellation.
-/// \throws whatever the cancellation check of `workers` throws
+/// \throws whatever `context` throws
 FAQEM_EXPORT SurfaceMap make_surface_map(const CollapseHistory& history, Mapping mapping,
-                                         std::span<const Triangle> unwelded, const Workers& workers);
+                                         std::span<const Triangle> unwelded,
+                                         const engine::RunContext& context);
 }  // namespace detail
 
 /// How a point was mapped; see docs/baking.md for the tests.
@@ -75,7 +78,7 @@ private:
     explicit SurfaceMap(std::unique_ptr<const Impl> impl);
     friend SurfaceMap detail::make_surface_map(const CollapseHistory& history, Mapping mapping,
                                                std::span<const Triangle> unwelded,
-                                               const detail::Workers& workers);
+                                               const engine::RunContext& context);
     friend class detail::LocalMap;
 
     std::unique_ptr<const Impl> impl_;

@@ -15,11 +15,9 @@
 #include "result/budget_choices.hpp"
 #include "result/image_trials.hpp"
 #include "result/model_size.hpp"
-#include "result/search_steps.hpp"
 #include "scene/position_grids.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/simplify_parts.hpp"
-#include "scene/step_progress.hpp"
 
 namespace faqem::detail {
 
@@ -64,8 +62,12 @@ bool is_shown_flat(const Asset& asset) {
 /// One search, see best_picture_within_bytes().
 class BestPictureSearch {
 public:
-    BestPictureSearch(const Asset& source, const Options& options)
-        : source_(source), steps_(options), limit_(*options.max_bytes), faces_(total_faces(source)) {
+    BestPictureSearch(const Asset& source, const Options& options, const RunContext& context)
+        : source_(source),
+          options_(options),
+          context_(context),
+          limit_(*options.max_bytes),
+          faces_(total_faces(source)) {
         keeps_images_ = options.bake.kind != Bake::automatic;
         if (options.bake.kind == Bake::automatic) {
             options_.bake.kind = Bake::keep;
@@ -83,9 +85,9 @@ public:
             if (targets.empty() || target < targets.back())
                 targets.push_back(std::max(target, min_target_faces));
         }
-        std::vector<SimplifiedParts> levels = simplified(targets, Phase::simplify, 0, 1);
-        if (steps_.is_late()) return std::nullopt;
-        meter_.emplace(source_, Workers{options_.threads});
+        std::vector<SimplifiedParts> levels = simplified(targets, context_);
+        if (context_.is_late()) return std::nullopt;
+        meter_.emplace(source_, context_);
         try_faces(std::move(levels));
         if (tried_faces_.back().bytes >= limit_) return std::nullopt;
         images_->try_all(tried_faces_, tried_roundings_, bytes_to_share(), begin_of_images, begin_of_choices);
@@ -99,13 +101,10 @@ public:
     }
 
 private:
-    std::vector<SimplifiedParts> simplified(std::span<const std::uint64_t> targets, Phase phase, double from,
-                                            double to) {
+    std::vector<SimplifiedParts> simplified(std::span<const std::uint64_t> targets,
+                                            const RunContext& of_step) {
         const Stopwatch watch;
-        const Options own =
-            phase == Phase::simplify ? step_options(options_, phase, from, to) : steps_.step();
-        std::vector<SimplifiedParts> result =
-            simplify_parts_in_steps(source_, targets, with_time_left(own, steps_.deadline()));
+        std::vector<SimplifiedParts> result = simplify_parts_in_steps(source_, targets, options_, of_step);
         seconds_of_simplify_ += watch.seconds();
         if (result.back().report.stop == StopReason::cancelled) throw engine::Cancelled{};
         return result;
@@ -113,7 +112,7 @@ private:
 
     // The result with the images of the source or, if `pending`, with images that are encoded later.
     UnencodedResult made(const SimplifiedParts& parts, bool pending) {
-        Options own = steps_.step();
+        Options own = options_;
         if (!pending) own.bake.image_format = ImageFormat::source;
         if (parts.report.faces_out >= least_flat_faces_) own.bake.normals = Normals::none;
         return baked(parts, own);
@@ -135,8 +134,9 @@ private:
     }
 
     UnencodedResult baked(const SimplifiedParts& parts, const Options& own) {
-        UnencodedResult result = own.bake.kind == Bake::keep ? bake_with_uvs(source_, parts, own)
-                                                             : bake_unencoded(source_, parts, own);
+        UnencodedResult result = own.bake.kind == Bake::keep
+                                     ? bake_with_uvs(source_, parts, own, context_.quiet())
+                                     : bake_unencoded(source_, parts, own, context_.quiet());
         if (result.asset.report.stop == StopReason::cancelled) throw engine::Cancelled{};
         return result;
     }
@@ -145,9 +145,10 @@ private:
     void try_faces(std::vector<SimplifiedParts> levels) {
         const Image placeholder = encode_png({1, 1, {0, 0, 0, 255}, false}, "");
         for (std::size_t i = 0; i < levels.size(); ++i) {
-            steps_.report(begin_of_images * static_cast<double>(i) / static_cast<double>(levels.size()));
+            context_.report(Phase::bake,
+                            begin_of_images * static_cast<double>(i) / static_cast<double>(levels.size()));
             UnencodedResult result = made_level(levels[i], i == 0 && !keeps_images_);
-            if (i == 0) images_.emplace(result, steps_);
+            if (i == 0) images_.emplace(result, options_.bake, context_);
             Asset& asset = result.asset.asset;
             const PictureError error = meter_->with_source_images(asset);
             for (Image& image : asset.images) image.encoded = placeholder.encoded;
@@ -212,8 +213,8 @@ private:
         double done = 0;
         const std::vector<BudgetChoice> all = different_choices();
         for (const BudgetChoice& choice : all) {
-            steps_.report(begin_of_choices +
-                          (1 - begin_of_choices) * done++ / static_cast<double>(all.size()));
+            context_.report(Phase::bake, begin_of_choices + (1 - begin_of_choices) * done++ /
+                                                                static_cast<double>(all.size()));
             try_choice(choice);
         }
     }
@@ -255,11 +256,11 @@ private:
                            : std::nullopt;
         bool has_result = false;
         for (int attempt = 0; faces && attempt < most_attempts; ++attempt) {
-            steps_.check();
+            context_.check_now();
             std::uint64_t target = *faces;
             const double margin = attempt == 0 ? face_margin : near_face_margin;
             if (target < faces_) target = static_cast<std::uint64_t>(margin * static_cast<double>(target));
-            const SimplifiedParts parts = std::move(simplified({&target, 1}, Phase::bake, 0, 1).front());
+            const SimplifiedParts parts = std::move(simplified({&target, 1}, context_.quiet()).front());
             UnencodedResult result = made(parts, false);
             if (images_->are_encoded()) result.asset.asset.images = images;
             remove_unused_materials(result);
@@ -287,7 +288,7 @@ private:
 
     void finish(UnencodedResult result, const SimplifiedParts& parts, std::uint32_t image_side,
                 const ModelSize& size) {
-        encode_images(result, steps_.step());  // none is pending, but all are reported
+        encode_images(result, options_, context_.quiet());  // none is pending, but all are reported
         if (result.asset.report.stop == StopReason::cancelled) throw engine::Cancelled{};
         Asset shown = result.asset.asset;
         round_vertices(shown);
@@ -301,8 +302,8 @@ private:
     }
 
     const Asset& source_;
-    SearchSteps steps_;
-    Options& options_ = steps_.options();
+    Options options_;
+    const RunContext& context_;
     const std::uint64_t limit_;  // bytes
     const std::uint64_t faces_;
     bool keeps_images_ = false;
@@ -331,8 +332,9 @@ bool searches_best_picture(const Options& options) {
     return may_keep_uvs(own);
 }
 
-std::optional<SimplifiedAsset> best_picture_within_bytes(const Asset& source, const Options& options) {
-    return BestPictureSearch(source, options)();
+std::optional<SimplifiedAsset> best_picture_within_bytes(const Asset& source, const Options& options,
+                                                         const RunContext& context) {
+    return BestPictureSearch(source, options, context)();
 }
 
 }  // namespace faqem::detail

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "faqem/bake.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
@@ -31,6 +32,7 @@ FAQEM_EXPORT bool searches_best_picture(const Options& options);
 /// \throws whatever simplify() and save() throw
 /// Complexity: two to six simplifications, about 20 encodings of each image with fewer texels than it has, and 40
 /// renderings from six sides.
-std::optional<SimplifiedAsset> best_picture_within_bytes(const Asset& source, const Options& options);
+std::optional<SimplifiedAsset> best_picture_within_bytes(const Asset& source, const Options& options,
+                                                         const engine::RunContext& context);
 
 }  // namespace faqem::detail

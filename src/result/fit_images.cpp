@@ -43,12 +43,12 @@ std::vector<std::size_t> smallest_images(const TriedImages& tried) {
 
 }  // namespace
 
-ModelSize fit_images(UnencodedResult& result, const Options& options, std::uint64_t bytes) try {
+ModelSize fit_images(UnencodedResult& result, const Options& options, const RunContext& context,
+                     std::uint64_t bytes) try {
     const std::array<TriedFaces, 1> faces = {
         {{result.asset.report.faces_out, fixed_bytes(result, options.format), {}}}};
     const std::array<TriedRounding, 1> exact = {{{{}, std::max<std::uint64_t>(faces[0].bytes, 1), {}}}};
-    SearchSteps steps(options);
-    ImageTrials trials(result, steps);
+    ImageTrials trials(result, options.bake, context);
     trials.try_all(faces, exact, bytes, begin_of_trials, end_of_trials);
     result.pending.clear();
     std::uint64_t wanted = bytes;
@@ -66,7 +66,7 @@ ModelSize fit_images(UnencodedResult& result, const Options& options, std::uint6
         if (!is_found) wanted -= std::min(wanted, size.total() - bytes);
     }
     if (!is_found) fits(smallest_images(trials.tried()));
-    encode_images(result, steps.step());  // none is pending, but all are reported
+    encode_images(result, options, context.quiet());  // none is pending, but all are reported
     return size;
 } catch (const engine::Cancelled& stopped) {
     if (stopped.reason != StopReason::cancelled)

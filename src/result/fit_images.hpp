@@ -19,6 +19,7 @@ namespace faqem::detail {
 /// \return the size of the result. It is above `bytes` if even the smallest images do not fit; the result has these
 /// \throws TimeLimitError  Options::max_seconds was over before images were chosen
 /// Complexity: about ten encodings of each image, and renderings of six views.
-ModelSize fit_images(UnencodedResult& result, const Options& options, std::uint64_t bytes);
+ModelSize fit_images(UnencodedResult& result, const Options& options, const RunContext& context,
+                     std::uint64_t bytes);
 
 }  // namespace faqem::detail

@@ -54,8 +54,8 @@ bool has_any(const std::vector<Texture>& all) {
 }  // namespace
 
 ImageErrorMeter::ImageErrorMeter(const Asset& model, std::span<const PendingImage> pending,
-                                 const Workers& workers)
-    : threads_(workers.threads) {
+                                 const RunContext& context)
+    : threads_(context.threads) {
     std::vector<Texture> colors = textures(model, pending, &Material::base_color_texture, ColorSpace::srgb);
     std::vector<Texture> normals = textures(model, pending, &Material::normal_texture, ColorSpace::linear);
     Asset shown = model;

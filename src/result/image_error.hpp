@@ -20,9 +20,9 @@ public:
     /// Renders the model with perfect images.
     /// \param model    at least one face; its images are decoded unless they are pending
     /// \param pending  images of the model
-    /// \param workers  threads; the cancellation check is not used
+    /// \param context  only its threads are used
     /// Complexity: O(faces + texels).
-    ImageErrorMeter(const Asset& model, std::span<const PendingImage> pending, const Workers& workers);
+    ImageErrorMeter(const Asset& model, std::span<const PendingImage> pending, const RunContext& context);
 
     /// The errors that images add which replace the pending ones.
     /// \param shown  by pending image: its replacement; empty: the perfect one stays

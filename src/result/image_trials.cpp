@@ -56,10 +56,11 @@ std::uint64_t encoded_bytes(const std::vector<Image>& images) {
     return result;
 }
 
-ImageTrials::ImageTrials(UnencodedResult full, SearchSteps& steps) : full_(std::move(full)), steps_(steps) {
+ImageTrials::ImageTrials(UnencodedResult full, const BakeOptions& bake, const RunContext& context)
+    : full_(std::move(full)), bake_(bake), context_(context) {
     if (full_.pending.empty()) return;
     for (const PendingImage& pending : full_.pending) full_.asset.asset.images[pending.image].encoded.clear();
-    meter_.emplace(full_.asset.asset, full_.pending, steps_.workers());
+    meter_.emplace(full_.asset.asset, full_.pending, context_);
     full_.asset.asset.parts.clear();
     make_sizes();
     trials_.resize(sizes_.size());
@@ -79,7 +80,7 @@ void ImageTrials::make_sizes() {
             const bool is_new = sizes_[i].empty() ||
                                 longer_side(sizes_[i].back().pending.pixels) > longer_side(pending.pixels);
             if (!is_new) continue;
-            std::vector<ImageEncoding> encodings = image_encodings(pending, steps_.options().bake);
+            std::vector<ImageEncoding> encodings = image_encodings(pending, bake_);
             std::vector<std::uint8_t> is_tried(encodings.size(), 0);
             sizes_[i].push_back({pending, std::move(encodings), std::move(is_tried)});
         }
@@ -109,11 +110,11 @@ void ImageTrials::try_all(std::span<const TriedFaces> faces, std::span<const Tri
     };
     const auto try_requests = [&] {
         encode(requests);
-        steps_.check();
+        context_.check_now();
         measure_sizes(requests);
     };
     for (int round = 0; round < most_rounds && !requests.empty(); ++round) {
-        steps_.report(begin + (end - begin) * round / most_rounds);
+        context_.report(Phase::bake, begin + (end - begin) * round / most_rounds);
         try_requests();
         const std::optional<BudgetChoice> best = best_choice();
         requests = best ? next_requests(*best) : smaller_requests();
@@ -186,12 +187,12 @@ void ImageTrials::encode(std::span<const Request> requests) {
         }
     }
     std::vector<Trial> made(tasks.size());
-    parallel_blocks(tasks.size(), 1, steps_.workers(),
-                    [&](std::size_t k, std::size_t, CancellationCheck check_cancelled) {
-                        check_cancelled.now();
+    parallel_blocks(tasks.size(), 1, context_,
+                    [&](std::size_t k, std::size_t, const RunContext& block_context) {
+                        block_context.check_now();
                         const Size& size = sizes_[tasks[k].image][tasks[k].size];
                         const ImageEncoding& encoding = size.encodings[tasks[k].encoding];
-                        Image image = encode_as(size.pending, steps_.options().bake, encoding);
+                        Image image = encode_as(size.pending, bake_, encoding);
                         const double difference = mean_square_error(size.pending, image);
                         made[k] = {tasks[k].size, encoding.fineness, difference, std::move(image)};
                     });

@@ -12,7 +12,6 @@
 #include "bake/texture/image_encodings.hpp"
 #include "result/budget_choices.hpp"
 #include "result/image_error.hpp"
-#include "result/search_steps.hpp"
 
 namespace faqem::detail {
 
@@ -23,8 +22,8 @@ std::uint64_t encoded_bytes(const std::vector<Image>& images);
 class ImageTrials {
 public:
     /// \param full   all faces, with pending images unless those of the source are kept
-    /// \param steps  outlives this
-    ImageTrials(UnencodedResult full, SearchSteps& steps);
+    /// \param bake, context  outlive this
+    ImageTrials(UnencodedResult full, const BakeOptions& bake, const RunContext& context);
 
     /// Tries each image in a small size with every fineness. Then it tries what is next to the choices that are
     /// best for the budget: larger images, and finer encodings.
@@ -96,7 +95,8 @@ private:
     PictureError unseen_error(double error) const;
 
     UnencodedResult full_;
-    SearchSteps& steps_;
+    const BakeOptions& bake_;
+    const RunContext& context_;
     std::optional<ImageErrorMeter> meter_;
     std::vector<std::vector<Size>> sizes_;  // by pending image, from small to large
     std::vector<std::vector<Trial>> trials_;

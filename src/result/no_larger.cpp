@@ -8,7 +8,6 @@
 #include "asset/scene/messages.hpp"
 #include "asset/scene/rounded_vertices.hpp"
 #include "bake/scene/unencoded_result.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
 #include "result/fit_images.hpp"
 #include "result/model_size.hpp"
@@ -31,14 +30,16 @@ struct SizedResult {
 
 class SmallerResultSearch {
 public:
-    SmallerResultSearch(const Asset& source, const SimplifiedParts& simplified, const Options& options)
+    SmallerResultSearch(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                        const RunContext& context)
         : source_(source),
           simplified_(simplified),
           requested_(options),
+          context_(context),
           options_(resolved_options(source, options)) {}
 
     SimplifiedAsset operator()() {
-        SizedResult best{bake_unencoded(source_, simplified_, requested_), {}, {}};
+        SizedResult best{bake_unencoded(source_, simplified_, requested_, context_), {}, {}};
         encode(best);
         if (has_rule() && !best.is_cancelled() && best.result.asset.report.faces_out > 0) {
             measure(best);
@@ -58,13 +59,10 @@ private:
     bool fits(const SizedResult& one) const { return one.size.total() <= source_.file_bytes; }
 
     bool may_give_up(const SizedResult& one) const {
-        return !fits(one) && !one.is_cancelled() && !one.result.pending.empty() &&
-               !engine::is_over(deadline_);
+        return !fits(one) && !one.is_cancelled() && !one.result.pending.empty() && !context_.is_late();
     }
 
-    Options with_time() const { return with_time_left(options_, deadline_); }
-
-    void encode(SizedResult& one) const { encode_images(one.result, with_time()); }
+    void encode(SizedResult& one) const { encode_images(one.result, options_, context_); }
 
     void measure(SizedResult& one) const { one.size = model_size(one.result.asset.asset, options_.format); }
 
@@ -93,7 +91,7 @@ private:
     std::optional<SizedResult> with_fitted_images(const SizedResult& from) const try {
         if (options_.bake.image_quality || from.size.geometry >= source_.file_bytes) return std::nullopt;
         SizedResult one = from;
-        one.size = fit_images(one.result, with_time(), source_.file_bytes);
+        one.size = fit_images(one.result, options_, context_, source_.file_bytes);
         if (!one.is_cancelled() && !fits(one)) return std::nullopt;
         one.given_up.emplace_back("size and quality of the images");
         return one;
@@ -109,7 +107,7 @@ private:
             const std::string title = part_title(source_, p);
             replace_part_report(parts.report, simplified_.parts[p].report, parts.parts[p].report, title);
         }
-        SizedResult one{bake_with_uvs(source_, parts, with_time()), {}, {}};
+        SizedResult one{bake_with_uvs(source_, parts, options_, context_), {}, {}};
         encode(one);
         if (one.is_cancelled()) return one;
         remove_unused_materials(one.result);
@@ -121,7 +119,7 @@ private:
     // Whether a result fits and looks better than another one, which fits.
     bool is_better(const SizedResult& one, const SizedResult& other) const {
         if (!fits(one)) return false;
-        const PictureMeter meter(source_, {options_.threads});
+        const PictureMeter meter(source_, context_);
         const auto psnr = [&](Asset asset) {
             round_vertices(asset);
             return picture_psnr(meter(std::move(asset)));
@@ -146,15 +144,15 @@ private:
     const Asset& source_;
     const SimplifiedParts& simplified_;
     const Options& requested_;
+    const RunContext& context_;
     const Options options_;
-    const Deadline deadline_ = deadline_of(options_);
 };
 
 }  // namespace
 
-SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simplified,
-                               const Options& options) {
-    return SmallerResultSearch(source, simplified, options)();
+SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                               const RunContext& context) {
+    return SmallerResultSearch(source, simplified, options, context)();
 }
 
 }  // namespace faqem::detail

@@ -3,6 +3,7 @@
 /// The rule that a textured result has no more bytes than the files of its source.
 
 #include "faqem/bake.hpp"
+#include "faqem/engine/util/run_context.hpp"
 
 namespace faqem::detail {
 
@@ -16,7 +17,7 @@ namespace faqem::detail {
 /// Report::given_up say what was given up, and another warning if the result is larger nevertheless.
 /// \throws whatever bake() throws
 /// Complexity: that of bake() and, if the result is larger, of encoding its images about ten times.
-SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simplified,
-                               const Options& options);
+SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                               const engine::RunContext& context);
 
 }  // namespace faqem::detail

@@ -71,8 +71,8 @@ double picture_psnr(const PictureError& error) {
     return (psnr(error.unlit) + psnr(error.lit)) / 2;
 }
 
-PictureMeter::PictureMeter(Asset source, const Workers& workers)
-    : threads_(workers.threads), has_normal_map_(has_normal_map(source)) {
+PictureMeter::PictureMeter(Asset source, const RunContext& context)
+    : threads_(context.threads), has_normal_map_(has_normal_map(source)) {
     source_ = render::make_scene(std::move(source));
     cameras_ = render::cameras_around(source_, "", picture_views);
     unlit_ = pictures(source_, cameras_, render::Shading::unlit, threads_);

@@ -40,9 +40,9 @@ class PictureMeter {
 public:
     /// Renders the source: six views around it of 256 x 256 pixels, unlit and, if a material has a normal map, lit.
     /// \param source   at least one face; its images are decoded and kept
-    /// \param workers  threads; the cancellation check is not used
+    /// \param context  only its threads are used
     /// Complexity: O(faces + texels of the source).
-    PictureMeter(Asset source, const Workers& workers);
+    PictureMeter(Asset source, const RunContext& context);
 
     /// Compares a model with the source. An image that cannot be decoded is drawn white in both.
     PictureError operator()(Asset model) const;

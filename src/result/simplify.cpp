@@ -1,13 +1,14 @@
 // What users call: simplify() and bake(), with the rules about the size of results.
 
+#include "result/simplify.hpp"
+
 #include <iterator>
 #include <utility>
 
 #include "bake/scene/unencoded_result.hpp"
-#include "faqem/bake.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "result/no_larger.hpp"
 #include "result/within_bytes.hpp"
+#include "scene/simplify_parts.hpp"
 
 namespace faqem {
 
@@ -23,23 +24,30 @@ SimplifiedAsset with_source_report(const Asset& source, SimplifiedAsset result) 
 
 }  // namespace
 
-SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
-    SimplifiedAsset result = options.max_bytes ? detail::bake_within_bytes(source, simplified, options)
-                                               : detail::bake_no_larger(source, simplified, options);
-    detail::add_histories(simplified, options, result);
+SimplifiedAsset detail::bake(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                             const RunContext& context) {
+    SimplifiedAsset result = options.max_bytes ? bake_within_bytes(source, simplified, options, context)
+                                               : bake_no_larger(source, simplified, options, context);
+    add_histories(simplified, options, result);
     return with_source_report(source, std::move(result));
 }
 
-SimplifiedAsset simplify(const Asset& source, const Options& options) {
-    if (options.max_bytes) return with_source_report(source, detail::simplify_within_bytes(source, options));
-    const detail::Deadline deadline = detail::deadline_of(options);
-    SimplifiedParts simplified = simplify_parts(source, options);
-    SimplifiedAsset result =
-        detail::bake_no_larger(source, simplified, detail::with_time_left(options, deadline));
+SimplifiedAsset detail::simplify(const Asset& source, const Options& options, const RunContext& context) {
+    if (options.max_bytes) return with_source_report(source, simplify_within_bytes(source, options, context));
+    SimplifiedParts simplified = simplify_parts(source, options, context);
+    SimplifiedAsset result = bake_no_larger(source, simplified, options, context);
     if (options.history == Recording::on) {
         for (SimplifyResult& part : simplified.parts) result.histories.push_back(std::move(part.history));
     }
     return with_source_report(source, std::move(result));
+}
+
+SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
+    return detail::bake(source, simplified, options, engine::RunContext(options));
+}
+
+SimplifiedAsset simplify(const Asset& source, const Options& options) {
+    return detail::simplify(source, options, engine::RunContext(options));
 }
 
 }  // namespace faqem

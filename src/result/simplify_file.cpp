@@ -6,7 +6,7 @@
 #include "asset/file_format.hpp"
 #include "asset/finest_level.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
-#include "faqem/detail/base/time_limit.hpp"
+#include "result/simplify.hpp"
 
 namespace faqem {
 
@@ -24,13 +24,12 @@ Asset detail::load_triangles(const fs::path& file) {
 
 SimplifiedAsset detail::simplify_file(const fs::path& file, const Options& options,
                                       const std::function<void(const Asset&)>& loaded) {
-    const Deadline deadline = deadline_of(options);
+    const engine::RunContext context(options);
     const Stopwatch watch;
     const Asset source = load_triangles(file);
     const double seconds = watch.seconds();
     loaded(source);
-    SimplifiedAsset result =
-        with_file_in_errors(file, [&] { return simplify(source, with_time_left(options, deadline)); });
+    SimplifiedAsset result = with_file_in_errors(file, [&] { return simplify(source, options, context); });
     result.report.seconds.load = seconds;
     result.report.seconds.total += seconds;
     return result;

@@ -3,12 +3,12 @@
 #include "bake/scene/shared_texture.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
+#include "result/simplify.hpp"
 #include "result/simplify_levels.hpp"
 #include "scene/check_asset.hpp"
 #include "scene/parts_error_bound_search.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/simplify_parts.hpp"
-#include "scene/step_progress.hpp"
 #include "scene/welded_source.hpp"
 
 namespace faqem {
@@ -17,18 +17,18 @@ std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, con
                                                         const Options& requested) try {
     validate(requested);
     const Options options = detail::resolved_options(source, requested);
-    const Options own = detail::step_options(options, Phase::simplify, 0, 1);
     detail::check_asset(source);
-    const detail::MeasurementMonitor monitor(own, 0);
+    const engine::RunContext context(options);
+    context.show(Phase::simplify, 0);
     const detail::WeldedSource welded(source, options);
-    const detail::ReferenceParts measured(welded.asset(), own, monitor.cancellation_check());
+    const detail::ReferenceParts measured(welded.asset(), options, context);
     const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
         levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
     if (level_targets.empty()) return {};
     std::vector<SimplifiedPartsLevel> made = detail::run_lod_chain<SimplifiedPartsLevel>(
-        level_targets, own, measured.faces(),
-        [&](const std::vector<std::uint64_t>& targets, const Options& tried) {
-            return detail::simplify_parts_to_targets(welded.asset(), targets, tried, level_targets);
+        level_targets, options, context, measured.faces(),
+        [&](const std::vector<std::uint64_t>& targets, const Options& own, const engine::RunContext& of_run) {
+            return detail::simplify_parts_to_targets(welded.asset(), targets, own, of_run, level_targets);
         },
         measured);
     for (SimplifiedPartsLevel& level : made) welded.add_to(level.result.report);
@@ -48,14 +48,15 @@ std::vector<SimplifiedAssetLevel> with_shared_texture(const Asset& source, const
     const Options options = detail::resolved_options(source, requested);
     detail::check_shared_texture(options);
     detail::check_asset(source);
-    const detail::MeasurementMonitor monitor(options, 0);
+    const engine::RunContext context(options);
+    context.show(Phase::simplify, 0);
     const detail::WeldedSource welded(source, options);
-    const detail::ReferenceParts measured(welded.asset(), options, monitor.cancellation_check());
+    const detail::ReferenceParts measured(welded.asset(), options, context);
     const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
         levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
     if (level_targets.empty()) return {};
     std::vector<SimplifiedAssetLevel> made =
-        detail::levels_with_shared_texture(welded.asset(), measured, level_targets, options);
+        detail::levels_with_shared_texture(welded.asset(), measured, level_targets, options, context);
     for (SimplifiedAssetLevel& level : made) welded.add_to(level.result.report);
     return made;
 } catch (const engine::Cancelled&) {
@@ -68,13 +69,15 @@ std::vector<SimplifiedAssetLevel> with_shared_texture(const Asset& source, const
 
 void detail::bake_levels(const Asset& source, std::vector<SimplifiedPartsLevel> levels,
                          const Options& options, const std::function<Continue(SimplifiedAssetLevel)>& use) {
+    const RunContext context(options);
     const auto count = static_cast<double>(levels.size());
     double before = 0;
     for (SimplifiedPartsLevel& level : levels) {
         const SimplifiedParts simplified = std::move(level.result);
-        const Options step = step_options(options, Phase::bake, before / count, (before + 1) / count);
+        const RunContext step = context.step(Phase::bake, before / count, (before + 1) / count);
         ++before;
-        if (use({bake(source, simplified, step), level.distance, level.error}) == Continue::cancel) return;
+        if (use({bake(source, simplified, options, step), level.distance, level.error}) == Continue::cancel)
+            return;
     }
 }
 

@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "bake/scene/unencoded_result.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/error.hpp"
 #include "result/best_picture.hpp"
 #include "result/fit_images.hpp"
 #include "result/model_size.hpp"
 #include "scene/resolved_options.hpp"
+#include "scene/simplify_parts.hpp"
 
 namespace faqem::detail {
 
@@ -33,8 +33,8 @@ std::string size_text(const Report& report, const ModelSize& size) {
 /// Fewer and fewer faces until a result fits, see simplify_within_bytes().
 class FaceReduction {
 public:
-    FaceReduction(const Asset& source, const Options& options)
-        : source_(source), options_(options), limit_(*options.max_bytes) {}
+    FaceReduction(const Asset& source, const Options& options, const RunContext& context)
+        : source_(source), options_(options), context_(context), limit_(*options.max_bytes) {}
 
     SimplifiedAsset operator()() {
         std::uint64_t last_faces = 0;
@@ -47,19 +47,19 @@ public:
             last_faces = faces;
             if (!geometry_limit_) geometry_limit_ = first_geometry_limit();
             if (!result_.pending.empty() && (size_.geometry <= *geometry_limit_ || is_smallest)) {
-                size_ = fit_images(result_, resolved_options(source_, with_time()), limit_);
+                size_ = fit_images(result_, resolved_options(source_, options_), context_, limit_);
                 if (is_cancelled()) return std::move(result_.asset);
                 if (fits()) return finish(true);
                 geometry_limit_ = left_by(size_.images);
             }
-            if (is_smallest || engine::is_over(deadline_)) break;
+            if (is_smallest || context_.is_late()) break;
             const double share = safety_factor * static_cast<double>(*geometry_limit_) /
                                  static_cast<double>(std::max<std::uint64_t>(size_.geometry, 1));
             const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(faces));
             options_.target = faqem::faces(std::max<std::uint64_t>(wanted, min_target_faces));
         }
         const std::string text = size_text(result_.asset.report, size_);
-        if (engine::is_over(deadline_))
+        if (context_.is_late())
             throw TimeLimitError(
                 "max_seconds was over before a result within max_bytes was found; the last one has " +
                 std::to_string(size_.total()) + " bytes: " + text);
@@ -69,7 +69,6 @@ public:
 
 private:
     bool is_cancelled() const { return result_.asset.report.stop == StopReason::cancelled; }
-    Options with_time() const { return with_time_left(options_, deadline_); }
     bool fits() const { return size_.total() <= limit_; }
     std::uint64_t left_by(std::uint64_t images) const { return limit_ - std::min(limit_, images); }
 
@@ -79,9 +78,9 @@ private:
     }
 
     void simplify_again() {
-        parts_ = simplify_parts(source_, with_time());
-        result_ = bake_unencoded(source_, parts_, with_time());
-        encode_images(result_, with_time());
+        parts_ = simplify_parts(source_, options_, context_);
+        result_ = bake_unencoded(source_, parts_, options_, context_);
+        encode_images(result_, options_, context_);
         if (!is_cancelled()) size_ = model_size(result_.asset.asset, result_.asset.asset.format);
     }
 
@@ -94,8 +93,8 @@ private:
 
     const Asset& source_;
     Options options_;  // of the current run
+    const RunContext& context_;
     const std::uint64_t limit_;
-    const Deadline deadline_ = deadline_of(options_);
     SimplifiedParts parts_;
     UnencodedResult result_;
     ModelSize size_;
@@ -105,18 +104,16 @@ private:
 }  // namespace
 
 SimplifiedAsset bake_within_bytes(const Asset& source, const SimplifiedParts& simplified,
-                                  const Options& requested) {
-    const Deadline deadline = deadline_of(requested);
+                                  const Options& requested, const RunContext& context) {
     const Options options = resolved_options(source, requested);
-    UnencodedResult result = bake_unencoded(source, simplified, requested);
-    encode_images(result, with_time_left(options, deadline));
+    UnencodedResult result = bake_unencoded(source, simplified, requested, context);
+    encode_images(result, options, context);
     const auto is_cancelled = [&] { return result.asset.report.stop == StopReason::cancelled; };
     if (is_cancelled()) return std::move(result.asset);
     ModelSize size = model_size(result.asset.asset, options.format);
     const std::uint64_t before = size.total();
     if (before <= *options.max_bytes) return std::move(result.asset);
-    if (!result.pending.empty())
-        size = fit_images(result, with_time_left(options, deadline), *options.max_bytes);
+    if (!result.pending.empty()) size = fit_images(result, options, context, *options.max_bytes);
     if (is_cancelled()) return std::move(result.asset);
     if (size.total() > *options.max_bytes)
         throw ByteLimitError("the smallest result with " + std::to_string(result.asset.report.faces_out) +
@@ -127,12 +124,12 @@ SimplifiedAsset bake_within_bytes(const Asset& source, const SimplifiedParts& si
     return std::move(result.asset);
 }
 
-SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& requested) {
-    const Deadline deadline = deadline_of(requested);
+SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& requested,
+                                      const RunContext& context) {
     const Options options = resolved_options(source, requested);
     if (searches_best_picture(options))
-        if (auto best = best_picture_within_bytes(source, options)) return *std::move(best);
-    return FaceReduction(source, with_time_left(requested, deadline))();
+        if (auto best = best_picture_within_bytes(source, options, context)) return *std::move(best);
+    return FaceReduction(source, requested, context)();
 }
 
 }  // namespace faqem::detail

@@ -3,6 +3,7 @@
 /// Options::max_bytes: results whose files have at most a number of bytes.
 
 #include "faqem/bake.hpp"
+#include "faqem/engine/util/run_context.hpp"
 
 namespace faqem::detail {
 
@@ -14,7 +15,7 @@ namespace faqem::detail {
 /// \throws whatever bake() throws
 /// Complexity: that of bake() and fit_images().
 SimplifiedAsset bake_within_bytes(const Asset& source, const SimplifiedParts& simplified,
-                                  const Options& options);
+                                  const Options& options, const engine::RunContext& context);
 
 /// Simplifies and bakes within Options::max_bytes: best_picture_within_bytes() where the options leave the face count
 /// open. Otherwise a result that fits is not changed, and one that does not gets
@@ -28,6 +29,7 @@ SimplifiedAsset bake_within_bytes(const Asset& source, const SimplifiedParts& si
 /// \throws TimeLimitError  Options::max_seconds was over before a result fitted
 /// \throws whatever simplify() throws
 /// Complexity: at most 12 calls of simplify(), those of the searches aside.
-SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& options);
+SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& options,
+                                      const engine::RunContext& context);
 
 }  // namespace faqem::detail

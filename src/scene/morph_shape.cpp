@@ -13,13 +13,9 @@ bool is_complete(const CostCurve& curve) {
     return curve.stop != StopReason::cancelled && curve.stop != StopReason::reached_time_limit;
 }
 
-// Options without history whose progress callback does not get the progress.
-Options quiet(const Options& options) {
-    Options own = options;
-    own.history = Recording::off;
-    if (options.progress)
-        own.progress = [&options](Phase, double) { return options.progress(Phase::weld, 0); };
-    return own;
+Options without_history(Options options) {
+    options.history = Recording::off;
+    return options;
 }
 
 // A part in the pose of a morph target with weight 1.
@@ -38,11 +34,13 @@ struct Pose {
 
 // The targets in which a part is not flat down to `faces` faces, with their curves.
 std::vector<std::pair<std::size_t, CostCurve>> shaping_targets(const Part& part, const MeshView& mesh,
-                                                               const Options& options, std::uint64_t faces) {
+                                                               const Options& options,
+                                                               const engine::RunContext& context,
+                                                               std::uint64_t faces) {
     std::vector<std::pair<std::size_t, CostCurve>> found;
     for (std::size_t t = 0; t < part.morph_targets.size(); ++t) {
         if (part.morph_targets[t].positions.empty()) continue;
-        CostCurve curve = cost_curve(Pose(part, mesh, part.morph_targets[t]).mesh, options);
+        CostCurve curve = cost_curve(Pose(part, mesh, part.morph_targets[t]).mesh, options, context);
         if (!is_complete(curve)) return {};
         if (!is_flat_down_to(curve, faces)) found.emplace_back(t, std::move(curve));
     }
@@ -60,19 +58,20 @@ bool has_displacements(const Part& part) {
 }
 
 CostCurve curve_in_motion(CostCurve rest, const Part& part, const MeshView& mesh, const Options& options,
-                          std::uint64_t faces) {
+                          const engine::RunContext& context, std::uint64_t faces) {
     if (!is_complete(rest) || !is_flat_down_to(rest, faces)) return rest;
-    auto shaping = shaping_targets(part, mesh, quiet(options), faces);
+    auto shaping = shaping_targets(part, mesh, without_history(options), context.quiet(), faces);
     return shaping.empty() ? std::move(rest) : std::move(shaping.front().second);
 }
 
 std::vector<Vec3> bent_positions(const Part& part, const MeshView& mesh, const Options& options,
-                                 std::uint64_t faces) {
+                                 const engine::RunContext& context, std::uint64_t faces) {
     if (faces >= part.triangles.size()) return {};
-    const Options own = quiet(options);
-    const CostCurve rest = cost_curve(mesh, own);
+    const Options own = without_history(options);
+    const engine::RunContext quiet = context.quiet();
+    const CostCurve rest = cost_curve(mesh, own, quiet);
     if (!is_complete(rest) || !is_flat_down_to(rest, faces)) return {};
-    const auto shaping = shaping_targets(part, mesh, own, faces);
+    const auto shaping = shaping_targets(part, mesh, own, quiet, faces);
     if (shaping.empty()) return {};
     std::vector<Vec3> shifts(part.positions.size(), Vec3{0, 0, 0});
     double largest = 0, weight = 1;

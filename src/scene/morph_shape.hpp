@@ -19,11 +19,12 @@ bool has_displacements(const Part& part);
 /// \param rest     of cost_curve() for `mesh`
 /// \param part     has_displacements()
 /// \param mesh     the part as the input of the engine
-/// \param options  of the run; the progress callback is only asked for cancellation
+/// \param options  of the run
+/// \param context  progress is not reported
 /// \throws as cost_curve()
 /// Complexity: O(n log n) for each target, if the part is flat at rest
 CostCurve curve_in_motion(CostCurve rest, const Part& part, const MeshView& mesh, const Options& options,
-                          std::uint64_t faces);
+                          const engine::RunContext& context, std::uint64_t faces);
 
 /// Bends a part that is flat at rest a little into the shape that it has in morph targets. All collapses of a flat mesh
 /// cost nothing; this decides about their order, and leaves more faces where the displacements are curved.
@@ -31,7 +32,7 @@ CostCurve curve_in_motion(CostCurve rest, const Part& part, const MeshView& mesh
 ///         down to `faces` faces, or is flat in all targets
 /// Parameters, exceptions and complexity as curve_in_motion().
 std::vector<Vec3> bent_positions(const Part& part, const MeshView& mesh, const Options& options,
-                                 std::uint64_t faces);
+                                 const engine::RunContext& context, std::uint64_t faces);
 
 /// Largest displacement of bent_positions(), as a share of the diagonal: about the rounding of floats. In the engine,
 /// which computes with doubles relative to the vertices of a pair, costs that are its fourth power are exact.

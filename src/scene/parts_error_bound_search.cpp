@@ -8,20 +8,20 @@
 
 namespace faqem::detail {
 
-ReferenceParts::ReferenceParts(const Asset& source, const Options& options, CancellationCheck check_cancelled)
+ReferenceParts::ReferenceParts(const Asset& source, const Options& options, const RunContext& context)
     : options_(options),
       size_(scene_size(source)),
       rounding_(position_grids(source, options).max_distance()) {
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
         const Part& part = source.parts[p];
         originals_.emplace_back(MeshView{part.positions, part.triangles},
-                                part_options(options, size_, size_.scales[p]), check_cancelled);
+                                part_options(options, size_, size_.scales[p]), context);
         faces_ += part.triangles.size();
     }
 }
 
 MeasuredDistance ReferenceParts::operator()(const SimplifiedParts& simplified, double allowed,
-                                            MeasureMode mode, CancellationCheck check_cancelled) const {
+                                            MeasureMode mode, const RunContext& context) const {
     if (!(rounding_ < allowed))
         throw OptionError("max_error: rounding of positions alone may move them by " +
                           std::to_string(rounding_) + ", " + std::to_string(allowed) +
@@ -30,9 +30,8 @@ MeasuredDistance ReferenceParts::operator()(const SimplifiedParts& simplified, d
     for (std::size_t p = 0; p < originals_.size(); ++p) {
         const PartScale& scale = size_.scales[p];
         if (originals_[p].surface().triangles.empty() || !(scale.largest > 0)) continue;
-        const MeasuredDistance own =
-            distance(originals_[p], simplified.parts[p], (allowed - rounding_) / scale.largest, mode,
-                     options_, check_cancelled);
+        const MeasuredDistance own = distance(originals_[p], simplified.parts[p],
+                                              (allowed - rounding_) / scale.largest, mode, options_, context);
         most.value = std::max(most.value, own.value > 0 ? own.value * scale.smallest : 0);
         most.bound = std::max(most.bound, own.bound > 0 ? own.bound * scale.largest : 0);
         most.undecided_count += own.undecided_count;
@@ -42,17 +41,20 @@ MeasuredDistance ReferenceParts::operator()(const SimplifiedParts& simplified, d
     return most;
 }
 
-SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options) try {
-    const MeasurementMonitor monitor(options, 0);
-    const ReferenceParts measured(source, options, monitor.cancellation_check());
+SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options,
+                                            const RunContext& context) try {
+    context.show(Phase::simplify, 0);
+    const ReferenceParts measured(source, options, context.untimed());
     const double allowed = measured.size()(*options.max_error);
     std::vector<LevelTarget> found;
     if (options.target.kind == Target::Kind::unset) found.resize(1);
     return search_within_error<SimplifiedParts>(
-        options, measured.faces(), allowed,
-        [&](const Options& own) { return simplify_welded_parts(source, own, found); },
-        [&](const SimplifiedParts& simplified, MeasureMode mode, CancellationCheck check_cancelled) {
-            return measured(simplified, allowed, mode, check_cancelled);
+        options, context, measured.faces(), allowed,
+        [&](const Options& own, const RunContext& of_run) {
+            return simplify_welded_parts(source, own, of_run, found);
+        },
+        [&](const SimplifiedParts& simplified, MeasureMode mode, const RunContext& of_measurement) {
+            return measured(simplified, allowed, mode, of_measurement);
         });
 } catch (const engine::Cancelled&) {
     SimplifiedParts nothing = cancelled_result<SimplifiedParts>();

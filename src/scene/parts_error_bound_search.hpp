@@ -16,8 +16,8 @@ class ReferenceParts {
 public:
     /// \param source   the asset; not needed after construction
     /// \param options  options of the runs; must outlive this
-    /// \throws InputError if an index is out of range, and whatever `check_cancelled` throws
-    ReferenceParts(const Asset& source, const Options& options, CancellationCheck check_cancelled = {});
+    /// \throws InputError if an index is out of range, and whatever `context` throws
+    ReferenceParts(const Asset& source, const Options& options, const RunContext& context = {});
 
     const SceneSize& size() const { return size_; }
     /// Number of faces of all parts.
@@ -28,9 +28,9 @@ public:
     /// \param allowed     allowed distance, in units of the scene
     /// \param mode        as distance()
     /// \throws OptionError  the rounding alone may be as large as the allowed distance
-    /// \throws whatever `check_cancelled` throws
+    /// \throws whatever `context` throws
     MeasuredDistance operator()(const SimplifiedParts& simplified, double allowed, MeasureMode mode,
-                                CancellationCheck check_cancelled) const;
+                                const RunContext& context) const;
 
 private:
     const Options& options_;
@@ -44,6 +44,7 @@ private:
 /// of simplify_welded_parts() per attempt.
 /// \param source   must have passed check_asset()
 /// \param options  must be valid, with max_error set
-SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options);
+SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options,
+                                            const RunContext& context);
 
 }  // namespace faqem::detail

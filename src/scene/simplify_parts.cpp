@@ -7,7 +7,6 @@
 #include "asset/gltf/seen_instances.hpp"
 #include "asset/scene/messages.hpp"
 #include "faqem/bake.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
 #include "faqem/detail/simplify/presets.hpp"
@@ -24,12 +23,13 @@
 #include "scene/resolved_options.hpp"
 #include "scene/scene_size.hpp"
 #include "scene/simplify_parts.hpp"
-#include "scene/step_progress.hpp"
 #include "scene/visibility.hpp"
 #include "scene/welded_source.hpp"
 
 namespace faqem {
 namespace {
+
+using detail::RunContext;
 
 // UVs and vertex colours of a part as corner attributes.
 CornerAttributes corner_attributes(const Part& part) {
@@ -91,8 +91,9 @@ struct PartInput {
 // Simplification of all parts to all targets.
 class PartsRun {
 public:
-    PartsRun(const Asset& source, const Options& options, std::span<const detail::LevelTarget> levels = {})
-        : source_(source), options_(options), levels_(levels) {
+    PartsRun(const Asset& source, const Options& options, const RunContext& context,
+             std::span<const detail::LevelTarget> levels = {})
+        : source_(source), options_(options), context_(context), levels_(levels) {
         const Bake kind = options.bake.kind;
         const bool merged = kind != Bake::keep && kind != Bake::none;
         if (merged) groups_ = detail::group_materials(source, options.bake);
@@ -130,9 +131,10 @@ public:
 
 private:
     std::vector<SimplifiedParts> run(const std::vector<std::vector<std::uint64_t>>& share) {
-        for_each_part([&](std::size_t p, const MeshView& view, Options& own) {
+        for_each_part([&](std::size_t p, const MeshView& view, Options& own, const RunContext& of_part) {
             own.history = Recording::on;
-            std::vector<SimplifyResult> results = simplify_part(source_.parts[p], view, share[p], own);
+            std::vector<SimplifyResult> results =
+                simplify_part(source_.parts[p], view, share[p], own, of_part);
             is_cancelled_ = results.back().report.stop == StopReason::cancelled;
             for (std::size_t i = 0; i < results.size(); ++i) {
                 results_[i].parts[p] = std::move(results[i]);
@@ -158,18 +160,18 @@ private:
     // run_to_targets(), with a hint of its shape for a part that is flat at rest and not in a morph target.
     static std::vector<SimplifyResult> simplify_part(const Part& part, MeshView view,
                                                      const std::vector<std::uint64_t>& targets,
-                                                     const Options& own) {
+                                                     const Options& own, const RunContext& context) {
         std::vector<Vec3> bent;
-        if (detail::has_displacements(part)) bent = detail::bent_positions(part, view, own, targets.front());
+        if (detail::has_displacements(part))
+            bent = detail::bent_positions(part, view, own, context, targets.front());
         if (!bent.empty()) view.positions = bent;
-        return detail::run_to_targets(view, targets, own);
+        return detail::run_to_targets(view, targets, own, context);
     }
 
     void compute_visibility() try {
         const detail::Stopwatch watch;
-        const detail::MeasurementMonitor monitor(options_, 0, deadline_);
-        detail::VertexVisibility seen =
-            detail::vertex_visibility(source_, {options_.threads, monitor.cancellation_check()});
+        context_.show(Phase::simplify, 0);
+        detail::VertexVisibility seen = detail::vertex_visibility(source_, context_);
         weights_ = std::move(seen.weights);
         const std::string warning = detail::visibility_warning(source_);
         for (SimplifiedParts& level : results_) {
@@ -219,19 +221,20 @@ private:
     bool compute_cost_curves(std::uint64_t target) {
         passes_ = 2;
         curves_.resize(source_.parts.size());
-        for_each_part([&](std::size_t p, const MeshView& view, const Options& own) {
-            const Part& part = source_.parts[p];
-            curves_[p] = detail::cost_curve(view, own);
-            if (detail::has_displacements(part)) {
-                const double share =
-                    static_cast<double>(part.triangles.size()) * static_cast<double>(target) / faces_;
-                curves_[p] = detail::curve_in_motion(std::move(curves_[p]), part, view, own,
-                                                     static_cast<std::uint64_t>(share));
-            }
-            is_cancelled_ = curves_[p].stop == StopReason::cancelled;
-        });
+        for_each_part(
+            [&](std::size_t p, const MeshView& view, const Options& own, const RunContext& of_part) {
+                const Part& part = source_.parts[p];
+                curves_[p] = detail::cost_curve(view, own, of_part);
+                if (detail::has_displacements(part)) {
+                    const double share =
+                        static_cast<double>(part.triangles.size()) * static_cast<double>(target) / faces_;
+                    curves_[p] = detail::curve_in_motion(std::move(curves_[p]), part, view, own, of_part,
+                                                         static_cast<std::uint64_t>(share));
+                }
+                is_cancelled_ = curves_[p].stop == StopReason::cancelled;
+            });
         cost_weights_ = detail::cost_weights(curves_.size(), detail::seen_instances(source_));
-        return !engine::is_over(deadline_);
+        return !context_.is_late();
     }
 
     bool keeps_groups() const { return options_.topology.group_boundaries == GroupBoundaries::kept; }
@@ -246,42 +249,36 @@ private:
             result.mesh.face_groups.push_back(result.history.face_groups[f]);
     }
 
-    // Calls work(part, view, options) for every part with faces, until cancelled.
+    // Calls work(part, view, options, context) for every part with faces, until cancelled.
     template <class Work>
     void for_each_part(Work&& work) {
         for (std::size_t p = 0; p < source_.parts.size(); ++p) {
             const Part& part = source_.parts[p];
             if (part.triangles.empty() || is_cancelled_) continue;
             const double size = static_cast<double>(part.triangles.size());
-            Options own =
-                detail::with_time_left(detail::part_options(options_, size_, size_.scales[p]), deadline_);
+            Options own = detail::part_options(options_, size_, size_.scales[p]);
             // Materials that stay apart are not mixed on flat surfaces.
             GroupBoundaries& boundaries = own.topology.group_boundaries;
             if (boundaries == GroupBoundaries::free) boundaries = GroupBoundaries::preferred;
-            if (options_.progress) {
-                own.progress = [this, size](Phase phase, double fraction) {
-                    const double of_part = phase == Phase::simplify ? fraction * size : 0;
-                    const double done = (done_ + of_part) / (passes_ * faces_);
-                    return options_.progress(Phase::simplify, std::min(1.0, done));
-                };
-            }
+            const RunContext of_part = context_.step(Phase::simplify, done_ / (passes_ * faces_),
+                                                     (done_ + size) / (passes_ * faces_));
             const auto& groups = keeps_groups() ? std::nullopt : groups_;
             const std::span<const float> weights = weights_.empty() ? std::span<const float>() : weights_[p];
             const PartInput input(source_, part, groups, weights, own);
-            work(p, input.view, own);
+            work(p, input.view, own, of_part);
             done_ += size;
         }
     }
 
     const Asset& source_;
     const Options& options_;
+    const RunContext& context_;
     std::optional<detail::MaterialGroups> groups_;
     std::vector<SimplifiedParts> results_;
     std::span<const detail::LevelTarget> levels_;  // see simplify_parts_to_targets()
     std::vector<std::vector<double>> shares_;      // by target: of proportional_shares(), or empty
     std::vector<detail::CostCurve> curves_;
     std::vector<double> cost_weights_;  // by part
-    detail::Deadline deadline_ = detail::deadline_of(options_);
     bool is_cancelled_ = false;
     detail::SceneSize size_;
     std::vector<std::vector<float>> weights_;  // by part and vertex; empty: equal weights
@@ -295,8 +292,9 @@ private:
 std::vector<SimplifiedParts> detail::simplify_parts_to_targets(const Asset& source,
                                                                std::span<const std::uint64_t> targets,
                                                                const Options& options,
+                                                               const RunContext& context,
                                                                std::span<const LevelTarget> levels) {
-    return PartsRun(source, options, levels)(targets);
+    return PartsRun(source, options, context, levels)(targets);
 }
 
 namespace {
@@ -309,14 +307,12 @@ bool has_appearance(const Asset& source) {
 }
 
 // Simplifies all parts again, with UVs, to the face counts that they have.
-void add_kept_parts(const Asset& source, const Options& options, detail::Deadline deadline,
+void add_kept_parts(const Asset& source, Options own, const RunContext& context,
                     SimplifiedParts& simplified) {
-    Options own = detail::step_options(options, Phase::simplify, 0.5, 1);
     own.bake.kind = Bake::keep;
     std::vector<std::uint64_t> counts;
     for (const SimplifyResult& part : simplified.parts) counts.push_back(part.mesh.triangles.size());
-    own = detail::with_time_left(own, deadline);
-    SimplifiedParts kept = PartsRun(source, own).to_face_counts(counts);
+    SimplifiedParts kept = PartsRun(source, own, context).to_face_counts(counts);
     simplified.report.seconds.simplify += kept.report.seconds.simplify;
     simplified.report.seconds.total += kept.report.seconds.simplify;
     if (kept.report.stop == StopReason::cancelled)
@@ -328,47 +324,50 @@ void add_kept_parts(const Asset& source, const Options& options, detail::Deadlin
 }  // namespace
 
 SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options& options,
+                                              const RunContext& context,
                                               std::span<const LevelTarget> levels) {
     std::uint64_t faces = 0;
     for (const Part& part : source.parts) faces += part.triangles.size();
     const std::uint64_t target = detail::target_face_count(options.target, static_cast<double>(faces));
-    const detail::Deadline deadline = detail::deadline_of(options);
     // Plain materials are kept anyway.
     const bool tries_uvs = detail::may_keep_uvs(options) && has_appearance(source) &&
                            !detail::has_plain_materials(source, options.bake) && target < faces;
-    const Options own = detail::step_options(options, Phase::simplify, 0, tries_uvs ? 0.5 : 1);
+    const RunContext step = context.step(Phase::simplify, 0, tries_uvs ? 0.5 : 1);
     SimplifiedParts result =
-        std::move(detail::simplify_parts_to_targets(source, {&target, 1}, own, levels).front());
-    if (tries_uvs && result.report.stop != StopReason::cancelled && !engine::is_over(deadline))
-        add_kept_parts(source, options, deadline, result);
+        std::move(detail::simplify_parts_to_targets(source, {&target, 1}, options, step, levels).front());
+    if (tries_uvs && result.report.stop != StopReason::cancelled && !context.is_late())
+        add_kept_parts(source, options, context.step(Phase::simplify, 0.5, 1), result);
     return result;
 }
 
 std::vector<SimplifiedParts> detail::simplify_parts_in_steps(const Asset& source,
                                                              std::span<const std::uint64_t> targets,
-                                                             const Options& requested) {
+                                                             const Options& requested,
+                                                             const RunContext& context) {
     validate(requested);
     check_asset(source);
     const Options options = resolved_options(source, requested);
-    const Deadline deadline = deadline_of(options);
     const WeldedSource welded(source, options);
-    const Options own = with_time_left(options, deadline);
-    std::vector<SimplifiedParts> results = simplify_parts_to_targets(welded.asset(), targets, own);
+    std::vector<SimplifiedParts> results =
+        simplify_parts_to_targets(welded.asset(), targets, options, context);
     for (SimplifiedParts& result : results) welded.add_to(result.report);
     return results;
 }
 
-SimplifiedParts simplify_parts(const Asset& source, const Options& requested) {
+SimplifiedParts detail::simplify_parts(const Asset& source, const Options& requested,
+                                       const RunContext& context) {
     validate(requested);
-    detail::check_asset(source);
-    const Options options = detail::resolved_options(source, requested);
-    const detail::Deadline deadline = detail::deadline_of(options);
-    const detail::WeldedSource welded(source, options);
-    const Options own = detail::with_time_left(options, deadline);
-    SimplifiedParts result = own.max_error ? detail::simplify_parts_within_error(welded.asset(), own)
-                                           : detail::simplify_welded_parts(welded.asset(), own);
+    check_asset(source);
+    const Options options = resolved_options(source, requested);
+    const WeldedSource welded(source, options);
+    SimplifiedParts result = options.max_error ? simplify_parts_within_error(welded.asset(), options, context)
+                                               : simplify_welded_parts(welded.asset(), options, context);
     welded.add_to(result.report);
     return result;
+}
+
+SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
+    return detail::simplify_parts(source, options, RunContext(options));
 }
 
 }  // namespace faqem

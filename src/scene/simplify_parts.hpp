@@ -21,14 +21,14 @@ namespace faqem::detail {
 /// \return one result per target; a single one with StopReason::cancelled if the progress callback cancels
 std::vector<SimplifiedParts> simplify_parts_to_targets(const Asset& source,
                                                        std::span<const std::uint64_t> targets,
-                                                       const Options& options,
+                                                       const Options& options, const RunContext& context,
                                                        std::span<const LevelTarget> levels = {});
 
 /// As simplify_parts() without Options::max_error, for a source that is welded (WeldedSource).
 /// \param source   must have passed check_asset()
 /// \param options  must be valid, without max_error
 /// \param levels   as for simplify_parts_to_targets()
-SimplifiedParts simplify_welded_parts(const Asset& source, const Options& options,
+SimplifiedParts simplify_welded_parts(const Asset& source, const Options& options, const RunContext& context,
                                       std::span<const LevelTarget> levels = {});
 
 /// simplify_parts() to several targets in one run, with the kind of baking that the options say: Bake::automatic makes no
@@ -40,6 +40,9 @@ SimplifiedParts simplify_welded_parts(const Asset& source, const Options& option
 /// Complexity: that of one call of simplify_parts(), and O(faces) for each target.
 std::vector<SimplifiedParts> simplify_parts_in_steps(const Asset& source,
                                                      std::span<const std::uint64_t> targets,
-                                                     const Options& requested);
+                                                     const Options& requested, const RunContext& context);
+
+/// simplify_parts() as a part of the call that has the context.
+SimplifiedParts simplify_parts(const Asset& source, const Options& requested, const RunContext& context);
 
 }  // namespace faqem::detail

@@ -70,7 +70,7 @@ OccludingSides occluding_sides(const Asset& scene, Index material) {
 // The occluding faces of all instances.
 class Occluders {
 public:
-    Occluders(const Asset& scene, const std::vector<Instance>& all, CancellationCheck check_cancelled) {
+    Occluders(const Asset& scene, const std::vector<Instance>& all, const RunContext& context) {
         std::vector<Vec3> positions;
         std::vector<Triangle> triangles;
         check_size(scene, all);
@@ -88,7 +88,7 @@ public:
                 is_double_sided_.push_back(kind == OccludingSides::both);
             }
         }
-        tree_ = Bvh(positions, triangles, check_cancelled);
+        tree_ = Bvh(positions, triangles, context);
     }
 
     // Whether the point is hidden from a distant viewer in the given direction.
@@ -131,18 +131,18 @@ std::vector<Vector3> directions() {
 // Samples the visibility of the surface of one instance.
 class VisibilitySampler {
 public:
-    VisibilitySampler(const Surface& surface, const Occluders& occluders, const Workers& workers)
+    VisibilitySampler(const Surface& surface, const Occluders& occluders, const RunContext& context)
         : surface_(surface),
           occluders_(occluders),
           around_(make_vertex_faces(surface.positions.size(), surface.triangles)),
           diagonal_(surface.diagonal()) {
-        sample_patches(workers);
+        sample_patches(context);
     }
 
     // Visibility by position of the surface: the maximum over the faces around it.
-    std::vector<float> by_position(const Workers& workers) const {
+    std::vector<float> by_position(const RunContext& context) const {
         std::vector<float> result(surface_.positions.size());
-        parallel_blocks(result.size(), 64, workers, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(result.size(), 64, context, [&](std::size_t begin, std::size_t end) {
             for (std::size_t v = begin; v < end; ++v)
                 result[v] = static_cast<float>(visibility_at_position(static_cast<Index>(v)));
         });
@@ -164,7 +164,7 @@ private:
 
     // Combines small neighbouring faces with similar normals into patches, which have the visibility of their
     // first face.
-    void sample_patches(const Workers& workers) {
+    void sample_patches(const RunContext& context) {
         patch_.assign(surface_.triangles.size(), no_index);
         std::vector<Index> first, todo;
         for (Index f = 0; f < patch_.size(); ++f) {
@@ -179,7 +179,7 @@ private:
             }
         }
         patch_visibility_.resize(first.size());
-        parallel_blocks(first.size(), 64, workers, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(first.size(), 64, context, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 patch_visibility_[i] = visibility_from(first[i], centroid(first[i]));
             }
@@ -236,16 +236,16 @@ private:
 
 }  // namespace
 
-VertexVisibility vertex_visibility(const Asset& scene, const Workers& workers) {
+VertexVisibility vertex_visibility(const Asset& scene, const RunContext& context) {
     const std::vector<Instance> all = measured_instances(scene);
-    const Occluders occluders(scene, all, workers.check_cancelled);
+    const Occluders occluders(scene, all, context);
     std::vector<std::vector<std::optional<float>>> seen(scene.parts.size());
     for (std::size_t p = 0; p < seen.size(); ++p) seen[p].resize(scene.parts[p].positions.size());
     for (const Instance& instance : all) {
-        workers.check_cancelled.now();
+        context.check_now();
         const InstanceMesh own = instance_mesh(scene, instance);
         const Surface surface = extract_surface({own.positions, own.triangles});
-        const std::vector<float> at = VisibilitySampler(surface, occluders, workers).by_position(workers);
+        const std::vector<float> at = VisibilitySampler(surface, occluders, context).by_position(context);
         for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
             for (std::size_t k = 0; k < 3; ++k) {
                 std::optional<float>& most = seen[instance.part][own.triangles[surface.faces[t]][k]];

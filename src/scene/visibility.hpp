@@ -33,9 +33,9 @@ struct VertexVisibility {
 /// weighting; their visibility is determined from outside, by rendering.
 /// \param scene  must have passed check_asset()
 /// \throws InputError if all instances together have 2^31 faces or more, or 2^32 - 1 vertices or more
-/// \throws whatever `workers.check_cancelled` throws
+/// \throws whatever `context` throws
 /// Complexity: O(n log n) time and about 250 n bytes for n faces of all instances together.
-FAQEM_EXPORT VertexVisibility vertex_visibility(const Asset& scene, const Workers& workers = {});
+FAQEM_EXPORT VertexVisibility vertex_visibility(const Asset& scene, const RunContext& context = {});
 
 /// Warning that the visibility was computed in the default pose; empty if the scene is static.
 std::string visibility_warning(const Asset& scene);

@@ -1,10 +1,9 @@
 #include <chrono>
-#include <optional>
 
 #include "faqem/engine/custom_metric.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/engine/simplify_with.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
@@ -14,35 +13,14 @@ using namespace faqem::test;
 
 namespace {
 
-const Deadline past = std::chrono::steady_clock::now();
-const Deadline far_future = past + std::chrono::hours(10'000);
-
-// Why a monitor stops.
-std::optional<StopReason> stop_reason(Continue answer, Deadline deadline) {
-    ProgressMonitor monitor([&] { return answer; });
-    monitor.set_deadline(deadline);
-    try {
-        monitor.check_now();
-    } catch (const Cancelled& stopped) {
-        return stopped.reason;
-    }
-    return {};
-}
+const RunContext::Deadline past = std::chrono::steady_clock::now();
+const RunContext::Deadline far_future = past + std::chrono::hours(10'000);
 
 }  // namespace
 
-TEST_CASE("a monitor stops at its deadline, and a callback that cancels comes first") {
-    CHECK(stop_reason(Continue::yes, past) == StopReason::reached_time_limit);
-    CHECK(stop_reason(Continue::cancel, past) == StopReason::cancelled);
-    CHECK(stop_reason(Continue::yes, far_future) == std::nullopt);
-    CHECK(stop_reason(Continue::yes, no_deadline) == std::nullopt);
-    ProgressMonitor without_callback(nullptr);
-    without_callback.check_now();
-}
-
 TEST_CASE("the collapse loop stops at its deadline, unless the target is reached") {
     const TriangleMesh mesh = icosphere(3);
-    const auto simplified = [&](std::size_t faces, Deadline deadline) {
+    const auto simplified = [&](std::size_t faces, RunContext::Deadline deadline) {
         return simplify_with(mesh.view(), AccumulatedMetric({}),
                              {.target_faces = faces, .deadline = deadline});
     };
@@ -50,7 +28,8 @@ TEST_CASE("the collapse loop stops at its deadline, unless the target is reached
     CHECK(stopped.loop.stop == StopReason::reached_time_limit);
     CHECK(stopped.mesh.triangles == mesh.triangles);
     CHECK(simplified(mesh.triangles.size(), past).loop.stop == StopReason::reached_target);
-    const CustomResult in_time = simplified(100, far_future), without = simplified(100, no_deadline);
+    const CustomResult in_time = simplified(100, far_future),
+                       without = simplified(100, RunContext::no_deadline);
     CHECK(in_time.loop.stop == StopReason::reached_target);
     CHECK(in_time.mesh.positions == without.mesh.positions);
     CHECK(in_time.mesh.triangles == without.mesh.triangles);

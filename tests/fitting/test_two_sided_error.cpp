@@ -15,6 +15,8 @@ using test::quad_positions;
 
 namespace {
 
+const engine::RunContext one_thread(1), three_threads(3);
+
 FaceDeviation sum(const std::vector<FaceDeviation>& deviations) {
     FaceDeviation all;
     for (const FaceDeviation& deviation : deviations) all.add(deviation);
@@ -27,7 +29,7 @@ TEST_CASE("two-sided error: a square moved along its normal has that distance in
     const ReferenceSurface original({quad_positions, quad_faces});
     std::vector<Vector3> lifted = quad_positions;
     for (Vector3& p : lifted) p.z() = 0.25;
-    TwoSidedError error(original, quad_faces, lifted, 1);
+    TwoSidedError error(original, quad_faces, lifted, one_thread);
     REQUIRE_FALSE(error.empty());
     const std::vector<FaceDeviation> deviations = error.measure(lifted);
     REQUIRE(deviations.size() == 2);
@@ -50,8 +52,8 @@ TEST_CASE("two-sided error: the maximum distance is exact after any motion of th
     const std::vector<Vector3> fine = test::vectors(sphere);
     const ReferenceSurface original({fine, sphere.triangles});
     std::vector<Vector3> positions = test::vectors(simplified);
-    TwoSidedError one(original, simplified.triangles, positions, 1),
-        three(original, simplified.triangles, positions, 3);
+    TwoSidedError one(original, simplified.triangles, positions, one_thread),
+        three(original, simplified.triangles, positions, three_threads);
     one.measure(positions), three.measure(positions);
     test::Random random(3);
     for (int round = 0; round < 6; ++round) {
@@ -62,7 +64,7 @@ TEST_CASE("two-sided error: the maximum distance is exact after any motion of th
         CHECK(again.max_squared_distance == threaded.max_squared_distance);
         CHECK(again.squared_distance_sum == threaded.squared_distance_sum);
         CHECK(again.normal_deviation == threaded.normal_deviation);
-        TwoSidedError exact(original, simplified.triangles, positions, 1);
+        TwoSidedError exact(original, simplified.triangles, positions, one_thread);
         // The samples of the mesh differ slightly, those of the original are the same.
         double farthest = 0, farthest_exact = 0;
         exact.measure(positions);
@@ -81,7 +83,7 @@ TEST_CASE("two-sided error: all residuals are exact for a mesh much coarser than
     const std::vector<Vector3> fine = test::vectors(sphere);
     const ReferenceSurface original({fine, sphere.triangles});
     std::vector<Vector3> positions = test::vectors(simplified);
-    TwoSidedError error(original, simplified.triangles, positions, 1);
+    TwoSidedError error(original, simplified.triangles, positions, one_thread);
     error.measure(positions);
     test::Random random(3);
     for (Vector3& p : positions) {
@@ -103,7 +105,7 @@ TEST_CASE("two-sided error: flipped triangles get samples according to their new
     std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}};
     const std::vector<Triangle> whole = {{0, 1, 3}};
     const ReferenceSurface original({at, whole});
-    TwoSidedError error(original, faces, at, 1);
+    TwoSidedError error(original, faces, at, one_thread);
     error.measure(at);
     const auto points_on = [&](Index face) {
         const auto correspondences = error.correspondences();

@@ -74,7 +74,6 @@ SMALL = {
     "include/faqem/detail/history/final_versions",
     "src/asset/image/srgb",
     "src/asset/io/little_endian",
-    "src/scene/step_progress",
     "src/scene/vector_conversion",
     # Bodies and declarations of an interface.
     "include/faqem/detail/base/version",

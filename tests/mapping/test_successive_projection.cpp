@@ -248,8 +248,7 @@ TEST_CASE("successive projection: the map does not depend on the number of threa
 TEST_CASE("successive projection: making the map can be cancelled with any number of threads") {
     const CollapseHistory history = collapsed_grid(12);
     for (const std::uint32_t threads : {1u, 3u}) {
-        engine::ProgressMonitor monitor([] { return Continue::cancel; });
-        const detail::Workers workers{threads, engine::CancellationCheck(monitor)};
-        CHECK_THROWS_AS(detail::SuccessiveProjection(history, {}, workers), engine::Cancelled);
+        const engine::RunContext context(threads, [](Phase, double) { return Continue::cancel; });
+        CHECK_THROWS_AS(detail::SuccessiveProjection(history, {}, context), engine::Cancelled);
     }
 }

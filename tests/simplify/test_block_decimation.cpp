@@ -27,8 +27,8 @@ struct Fixture {
         loop.distance_weight = 1e-4;
     }
     BlockInput input() const { return {reordered.positions, reordered.triangles, locked, 500}; }
-    BlockSteps steps(std::size_t least, std::uint32_t threads = 2) const {
-        return simplify_in_blocks(input(), loop, least, nullptr, Recording::on, threads);
+    BlockSteps steps(std::size_t least, const RunContext& context = 2) const {
+        return simplify_in_blocks(input(), loop, least, nullptr, Recording::on, context);
     }
     std::size_t faces() const { return reordered.triangles.size(); }
 
@@ -211,17 +211,17 @@ TEST_CASE("blocks: the progress callback runs on the calling thread and can canc
     const std::thread::id here = std::this_thread::get_id();
     int calls = 0;
     double last = 0;
-    fixture.loop.progress = [&](double done) {
+    const auto ask = [&](Phase, double done) {
         CHECK(std::this_thread::get_id() == here);
         CHECK(done >= last);
         CHECK(done <= 1);
         last = done;
         return ++calls == 2 ? Continue::cancel : Continue::yes;
     };
-    CHECK(fixture.steps(2000, 3).is_cancelled);
+    CHECK(fixture.steps(2000, {3, ask}).is_cancelled);
     CHECK(calls == 2);
-    fixture.loop.progress = [&](double) -> Continue { throw std::runtime_error("enough"); };
-    CHECK_THROWS_WITH(fixture.steps(2000, 3), "enough");
+    const auto fail = [](Phase, double) -> Continue { throw std::runtime_error("enough"); };
+    CHECK_THROWS_WITH(fixture.steps(2000, {3, fail}), "enough");
 }
 
 TEST_CASE("blocks: with distance tracking each block gets the same collapses as from a single engine") {

@@ -16,7 +16,7 @@ namespace {
 using Shares = std::vector<std::uint64_t>;
 
 CostCurve curve_of(const TriangleMesh& mesh, const Options& options = {}) {
-    return detail::cost_curve(mesh.view(), options);
+    return detail::cost_curve(mesh.view(), options, engine::RunContext(options));
 }
 
 // A curve from 12 faces to 4 in steps of two with the given costs.

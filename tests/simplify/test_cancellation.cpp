@@ -14,19 +14,16 @@
 #include "support/meshes.hpp"
 
 using namespace faqem;
-using detail::CancellationCheck;
-using detail::Workers;
 using engine::Cancelled;
-using engine::ProgressMonitor;
+using engine::RunContext;
 
 namespace {
 
 // Number of calls of the callback during `work`.
 template <class Work>
-std::size_t callback_calls(Work&& work) {
+std::size_t callback_calls(Work&& work, std::uint32_t threads = 1) {
     std::size_t count = 0;
-    ProgressMonitor monitor([&] { return ++count, Continue::yes; });
-    work(CancellationCheck(monitor));
+    work(RunContext(threads, [&](Phase, double) { return ++count, Continue::yes; }));
     return count;
 }
 
@@ -68,36 +65,37 @@ void stop_anywhere(Options options, std::size_t times, const EntryPoint& entry_p
 
 TEST_CASE("steps that may take long check for cancellation several times") {
     const TriangleMesh mesh = test::icosphere(6), coarse = test::icosphere(3);
-    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
-              detail::preprocess(mesh.view(), detail::settings({}), check_cancelled);
+    CHECK(callback_calls([&](const RunContext& context) {
+              detail::preprocess(mesh.view(), detail::settings({}), context);
           }) >= 3);
-    CHECK(callback_calls([&](CancellationCheck check_cancelled) {
-              detail::Bvh(mesh.positions, mesh.triangles, check_cancelled);
-          }) >= mesh.triangles.size() / ProgressMonitor::interval);
+    CHECK(callback_calls([&](const RunContext& context) {
+              detail::Bvh(mesh.positions, mesh.triangles, context);
+          }) >= mesh.triangles.size() / RunContext::interval);
     const detail::Surface from = detail::extract_surface(mesh.view()),
                           to = detail::extract_surface(coarse.view());
     const detail::Bvh tree_from(from.positions, from.triangles), tree_to(to.positions, to.triangles);
     for (const std::uint32_t threads : {1u, 3u}) {
-        CHECK(callback_calls([&](CancellationCheck check_cancelled) {
-                  detail::two_sided_hausdorff(from, tree_from, to, tree_to,
-                                              {.workers = {threads, check_cancelled}});
-              }) >= (threads == 1 ? 10 : 1));
+        CHECK(callback_calls(
+                  [&](const RunContext& context) {
+                      detail::two_sided_hausdorff(from, tree_from, to, tree_to, {}, context);
+                  },
+                  threads) >= (threads == 1 ? 10 : 1));
         const std::vector<engine::Vector3> original = test::vectors(mesh), positions = test::vectors(coarse);
         const std::vector<std::uint8_t> fixed(positions.size(), 0);
-        CHECK(callback_calls([&](CancellationCheck check_cancelled) {
-                  detail::fit_vertices_and_flip_edges({original, mesh.triangles},
-                                                      {positions, coarse.triangles}, fixed, {}, 0.3,
-                                                      {threads, check_cancelled});
-              }) >= 100);
+        CHECK(callback_calls(
+                  [&](const RunContext& context) {
+                      detail::fit_vertices_and_flip_edges(
+                          {original, mesh.triangles}, {positions, coarse.triangles}, fixed, {}, 0.3, context);
+                  },
+                  threads) >= 100);
     }
 }
 
 TEST_CASE("cancellation is checked after each block of a parallel loop") {
     int blocks = 0;
-    CHECK(
-        callback_calls([&](CancellationCheck check_cancelled) {
-            detail::parallel_blocks(10, 3, {1, check_cancelled}, [&](std::size_t, std::size_t) { ++blocks; });
-        }) == 4);
+    CHECK(callback_calls([&](const RunContext& context) {
+              detail::parallel_blocks(10, 3, context, [&](std::size_t, std::size_t) { ++blocks; });
+          }) == 4);
     CHECK(blocks == 4);
 }
 
@@ -137,17 +135,17 @@ TEST_CASE("cancelling before the first collapse gives an empty mesh with stop re
 TEST_CASE("helper threads stop if the calling thread is cancelled") {
     std::atomic<int> stopped{0};
     int calls = 0;
-    ProgressMonitor monitor([&] { return ++calls == 3 ? Continue::cancel : Continue::yes; });
+    const RunContext context(3,
+                             [&](Phase, double) { return ++calls == 3 ? Continue::cancel : Continue::yes; });
     // Blocks that end only by cancellation.
-    const auto forever = [&](std::size_t, std::size_t, CancellationCheck check_cancelled) {
+    const auto forever = [&](std::size_t, std::size_t, const RunContext& block_context) {
         struct Leaving {
             std::atomic<int>& count;
             ~Leaving() { ++count; }
         } leaving{stopped};
-        while (true) check_cancelled();
+        while (true) block_context.count();
     };
-    CHECK_THROWS_AS(detail::parallel_blocks(3, 1, Workers(3, CancellationCheck(monitor)), forever),
-                    Cancelled);
+    CHECK_THROWS_AS(detail::parallel_blocks(3, 1, context, forever), Cancelled);
     CHECK(stopped >= 1);
     CHECK(stopped <= 3);
     CHECK(calls == 3);
@@ -155,16 +153,16 @@ TEST_CASE("helper threads stop if the calling thread is cancelled") {
 
 TEST_CASE("the calling thread checks for cancellation while it waits for helper threads") {
     const std::thread::id here = std::this_thread::get_id();
-    ProgressMonitor monitor([&] {
+    const RunContext context(2, [&](Phase, double) {
         CHECK(std::this_thread::get_id() == here);
         return Continue::cancel;
     });
     std::atomic<bool> is_helped{false};
-    CHECK_THROWS_AS(detail::parallel_blocks(2, 1, Workers(2, CancellationCheck(monitor)),
-                                            [&](std::size_t, std::size_t, CancellationCheck check_cancelled) {
+    CHECK_THROWS_AS(detail::parallel_blocks(2, 1, context,
+                                            [&](std::size_t, std::size_t, const RunContext& block_context) {
                                                 if (std::this_thread::get_id() != here) {
                                                     is_helped = true;
-                                                    while (true) check_cancelled();
+                                                    while (true) block_context.count();
                                                 }
                                                 while (!is_helped) std::this_thread::yield();
                                             }),

@@ -2,7 +2,6 @@
 #include <limits>
 #include <vector>
 
-#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/error.hpp"
 #include "faqem/levels.hpp"
@@ -47,8 +46,9 @@ TEST_CASE("targets that follow one without time give the input as well") {
     const std::vector<std::uint64_t> targets = {faces_in, faces_in / 2, faces_in / 4};
     for (const Preset preset : all_presets) {
         CAPTURE(name(preset));
+        const Options options{.max_seconds = no_time, .preset = preset};
         const std::vector<SimplifyResult> results =
-            detail::run_to_targets(mesh.view(), targets, {.max_seconds = no_time, .preset = preset});
+            detail::run_to_targets(mesh.view(), targets, options, engine::RunContext(options));
         REQUIRE(results.size() == 3);
         CHECK(results[0].report.stop == StopReason::reached_target);
         for (std::size_t i = 0; i < results.size(); ++i) {
@@ -103,17 +103,6 @@ TEST_CASE("a large mesh is not split into blocks after the time limit") {
     CHECK(result.report.stop == StopReason::reached_time_limit);
     CHECK(result.mesh.triangles.size() == mesh.triangles.size());
     CHECK(result.history.collapses.empty());
-}
-
-TEST_CASE("a step has the time until the deadline of the whole, and at least a nanosecond") {
-    CHECK(detail::deadline_of({}) == detail::no_deadline);
-    CHECK(detail::deadline_of({.max_seconds = 1e300}) == detail::no_deadline);
-    const detail::Deadline past = detail::deadline_of({.max_seconds = no_time});
-    CHECK(engine::is_over(past));
-    CHECK(*detail::with_time_left({.max_seconds = 7}, past).max_seconds == no_time);
-    const detail::Deadline far = detail::deadline_of({.max_seconds = 1e8});
-    CHECK(!engine::is_over(far));
-    CHECK(!detail::with_time_left({}, detail::no_deadline).max_seconds);
 }
 
 TEST_CASE("max_seconds must be finite and positive, and unset for levels") {

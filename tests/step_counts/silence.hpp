@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "step_counts/steps.hpp"
 #include "support/catch.hpp"
 
@@ -24,7 +24,7 @@ inline std::uint64_t for_a_million_faces(std::uint64_t steps, std::size_t faces)
 /// Measures the largest number of basic blocks between two cancellation checks.
 class Watch {
 public:
-    engine::CancellationCheck check_cancelled() { return engine::CancellationCheck(monitor_); }
+    const engine::RunContext& context() const { return context_; }
     std::function<Continue(double)> progress() {
         return [this](double) { return note(), Continue::yes; };
     }
@@ -46,14 +46,14 @@ public:
 private:
     std::uint64_t last_ = test::steps(), longest_ = 0;
     int calls_ = 0;
-    engine::ProgressMonitor monitor_{[this] { return note(), Continue::yes; }};
+    engine::RunContext context_{1, [this](Phase, double) { return note(), Continue::yes; }};
 };
 
-/// The largest number of basic blocks between two checks in work(check_cancelled).
+/// The largest number of basic blocks between two checks in work(context).
 template <class Work>
 std::uint64_t longest_silence(Work&& work) {
     Watch watch;
-    work(watch.check_cancelled());
+    work(watch.context());
     return watch.longest();
 }
 

@@ -19,15 +19,14 @@ using test::most_steps;
 
 TEST_CASE("cancellation is checked often during the creation of charts") {
     const std::vector<PageTriangle> faces = test::chart_faces(test::shaken(test::icosphere(5), 0.01, 1), 200);
-    const std::uint64_t clustering = longest_silence(
-        [&](engine::CancellationCheck check_cancelled) { cluster_faces(faces, check_cancelled); });
+    const std::uint64_t clustering =
+        longest_silence([&](const engine::RunContext& context) { cluster_faces(faces, context); });
     CHECK(for_a_million_faces(clustering, faces.size()) < most_steps);
     Charts charts;
-    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
-              charts = make_charts(faces, {1, check_cancelled});
-          }) < most_steps);
-    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
-              pack_charts(charts.charts, faces.size(), 2048, {1, check_cancelled});
+    CHECK(longest_silence([&](const engine::RunContext& context) { charts = make_charts(faces, context); }) <
+          most_steps);
+    CHECK(longest_silence([&](const engine::RunContext& context) {
+              pack_charts(charts.charts, faces.size(), 2048, context);
           }) < most_steps);
 }
 
@@ -38,16 +37,16 @@ TEST_CASE("cancellation is checked often during the layout of single triangles")
         const double leg = 2 + static_cast<double>(f % 17);
         cells[f] = {0, {leg, leg}, f, no_index};
     }
-    const std::uint64_t packing = longest_silence(
-        [&](engine::CancellationCheck check_cancelled) { pack_triangles(cells, 4096, check_cancelled); });
+    const std::uint64_t packing =
+        longest_silence([&](const engine::RunContext& context) { pack_triangles(cells, 4096, context); });
     CHECK(for_a_million_faces(packing, cells.size()) < most_steps);
 }
 
 TEST_CASE("cancellation is checked often during image processing") {
     constexpr std::uint32_t side = 1024;
     const Pixels pixels{side, side, std::vector<std::uint8_t>(std::size_t{4} * side * side, 99), false};
-    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
-              MipImage(pixels, TexelEncoding::color, Workers(1, check_cancelled));
+    CHECK(longest_silence([&](const engine::RunContext& context) {
+              MipImage(pixels, TexelEncoding::color, context);
           }) < most_steps);
 }
 
@@ -58,7 +57,6 @@ TEST_CASE("cancellation is checked often during the computation of visibility") 
         part.positions = mesh.positions;
         part.triangles = mesh.triangles;
     }
-    CHECK(longest_silence([&](engine::CancellationCheck check_cancelled) {
-              vertex_visibility(asset, Workers(1, check_cancelled));
-          }) < most_steps);
+    CHECK(longest_silence([&](const engine::RunContext& context) { vertex_visibility(asset, context); }) <
+          most_steps);
 }

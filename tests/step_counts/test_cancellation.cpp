@@ -47,10 +47,9 @@ TEST_CASE("cancellation is checked often while an engine runs") {
     const test::OriginalOf original(mesh);
     for (const std::size_t target : {std::size_t{2000}, std::size_t{40}}) {
         Watch watch;
-        const std::uint64_t tracked =
-            silence_of_engine<SweepQueue>(mesh, target, watch,
-                                          TrackedMetric({}, original.surface, original.tracked, target, 0.1,
-                                                        nullptr, watch.check_cancelled()));
+        const std::uint64_t tracked = silence_of_engine<SweepQueue>(
+            mesh, target, watch,
+            TrackedMetric({}, original.surface, original.tracked, target, 0.1, nullptr, watch.context()));
         CHECK(for_a_million_faces(tracked, faces) < most_steps);
     }
 }

@@ -17,9 +17,8 @@ using test::most_steps;
 namespace {
 
 std::uint64_t silence_of_preprocessing(const TriangleMesh& mesh, const Settings& settings) {
-    const std::uint64_t steps = longest_silence([&](engine::CancellationCheck check_cancelled) {
-        preprocess(mesh.view(), settings, check_cancelled);
-    });
+    const std::uint64_t steps = longest_silence(
+        [&](const engine::RunContext& context) { preprocess(mesh.view(), settings, context); });
     return for_a_million_faces(steps, mesh.triangles.size());
 }
 
@@ -44,8 +43,7 @@ TEST_CASE("cancellation is checked often with thousands of duplicate faces and a
 
 TEST_CASE("cancellation is checked often while a search tree is built") {
     const TriangleMesh mesh = test::icosphere(6);
-    const std::uint64_t steps = longest_silence([&](engine::CancellationCheck check_cancelled) {
-        Bvh(mesh.positions, mesh.triangles, check_cancelled);
-    });
+    const std::uint64_t steps = longest_silence(
+        [&](const engine::RunContext& context) { Bvh(mesh.positions, mesh.triangles, context); });
     CHECK(for_a_million_faces(steps, mesh.triangles.size()) < most_steps);
 }

@@ -34,7 +34,7 @@
 #include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/engine/queue/heap_queue.hpp"
 #include "faqem/engine/recorder.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
@@ -82,11 +82,12 @@ public:
         if (!curves_ || curves_->empty()) rules_.groups = GroupBoundaries::free;  // there is nothing to keep
         distance_weight_ = options.distance_weight;
         set_progress(options);
-        monitor_.set_deadline(options.deadline);
+        const auto ask = [this](Phase, double) { return progress_ ? report_progress() : Continue::yes; };
+        context_.emplace(1, ask, options.deadline);
         return run_cancellable([&] {
             degenerate_ = DegenerateFaces(mesh_);
             if (distance_weight_ > 0) boundary_loops_.emplace(mesh_, pairs_, options.first_context_vertex);
-            check_cancelled_.now();
+            context_->check_now();
             queue_.reserve(pairs_.size());
             queue_.set_target(expected_pair_count(options.target_faces));
             metric_.initialise(mesh_, pairs_);
@@ -108,7 +109,7 @@ public:
         set_progress(options);
         result_.stop = StopReason::reached_target;
         return run_cancellable([&] {
-            check_cancelled_.now();  // costs are incomplete if the time was over before
+            context_->check_now();  // costs are incomplete if the time was over before
             collapse_to_target(options);
         });
     }
@@ -165,7 +166,7 @@ private:
         std::fill(has_rejected_.begin(), has_rejected_.end(), std::uint8_t{0});
         for (Index pair = 0; pair < pairs_.size(); ++pair) {
             if (!pairs_.is_alive(pair)) continue;
-            check_cancelled_(operations(pair));
+            context_->count(operations(pair));
             evaluate(pair);
         }
     }
@@ -176,7 +177,7 @@ private:
         while (mesh_.face_count() > options.target_faces) {
             if (queue_.empty()) return false;
             const Index pair = queue_.pop();
-            check_cancelled_(8 * operations(pair));  // with its tests, and evaluations around it
+            context_->count(8 * operations(pair));  // with its tests, and evaluations around it
             if (!try_collapse(pair)) mark_rejected(pair);
         }
         return true;
@@ -441,8 +442,7 @@ private:
     std::size_t face_count_at_last_pass_ = 0;  // when all pairs were last evaluated
     std::size_t target_face_count_ = 0;
     std::function<Continue(double)> progress_;
-    ProgressMonitor monitor_{[this] { return progress_ ? report_progress() : Continue::yes; }};
-    CancellationCheck check_cancelled_{monitor_};
+    std::optional<RunContext> context_;  // since run()
     std::vector<Index> killed_;
     std::vector<PairTable::Change> changes_;
 };

@@ -9,7 +9,7 @@
 
 #include "faqem/engine/constraints/legality.hpp"
 #include "faqem/engine/mesh/vector.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 #include "faqem/progress.hpp"
 #include "faqem/report.hpp"
@@ -43,7 +43,7 @@ struct LoopOptions {
     /// in [0, 1]; may be empty. If it cancels or throws, the mesh stays consistent.
     std::function<Continue(double)> progress = {};
     /// The loop stops at this time. It is checked with `progress`, and the mesh stays consistent.
-    Deadline deadline = no_deadline;
+    RunContext::Deadline deadline = RunContext::no_deadline;
 };
 
 /// Result of the collapse loop; totals over all calls of one engine.

@@ -35,14 +35,14 @@ bool is_acceptable(const Parametrization& parametrization, double max_diagonal) 
 
 // Divides one region into charts.
 Charts parametrize_region(std::span<const PageTriangle> all, const std::vector<Index>& region,
-                          double max_diagonal, CancellationCheck check_cancelled) {
+                          double max_diagonal, const RunContext& context) {
     Charts result;
     std::uint64_t work = work_per_region * parametrization_work_per_face * region.size();
     std::vector<std::vector<Index>> waiting = {region};
     while (!waiting.empty()) {
         std::vector<Index> faces = std::move(waiting.back());
         waiting.pop_back();
-        check_cancelled(faces.size());
+        context.count(faces.size());
         if (faces.size() > 1 && work == 0) {
             result.faces_over_work_limit += faces.size();
             for (Index f : faces) waiting.push_back({f});
@@ -74,12 +74,12 @@ Charts parametrize_region(std::span<const PageTriangle> all, const std::vector<I
 class ChartMerging {
 public:
     ChartMerging(std::span<const PageTriangle> all, std::vector<Chart> charts, double max_diagonal,
-                 Workers workers)
+                 const RunContext& context)
         : all_(all),
           charts_(std::move(charts)),
           chart_of_face_(all.size()),
           max_diagonal_(max_diagonal),
-          workers_(workers) {
+          context_(context) {
         for (std::size_t i = 0; i < charts_.size(); ++i) assign_faces(static_cast<Index>(i));
         for (std::size_t i = 0; i < charts_.size(); ++i)
             enqueue_candidates(static_cast<Index>(i), Neighbours::later);
@@ -148,7 +148,7 @@ private:
 
     void speculate(const MergeCandidate& first, std::uint64_t work) {
         std::erase_if(speculative_merges_, [&](const SpeculativeMerge& t) { return !is_valid(t.merge); });
-        const std::size_t known = speculative_merges_.size(), most = known + thread_count(workers_.threads);
+        const std::size_t known = speculative_merges_.size(), most = known + thread_count(context_.threads);
         speculative_merges_.push_back({first, work, work, {}});
         std::vector<MergeCandidate> later;
         while (speculative_merges_.size() < most && !queue_.empty()) {
@@ -161,7 +161,7 @@ private:
         }
         for (const MergeCandidate& merge : later) queue_.push(merge);
         parallel_blocks(
-            speculative_merges_.size() - known, 1, workers_, [&](std::size_t begin, std::size_t end) {
+            speculative_merges_.size() - known, 1, context_, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = known + begin; i < known + end; ++i)
                     speculative_merges_[i].parametrization =
                         parametrize_merge(speculative_merges_[i].merge, speculative_merges_[i].left);
@@ -219,29 +219,28 @@ private:
     std::priority_queue<MergeCandidate> queue_;
     std::vector<SpeculativeMerge> speculative_merges_;  // attempts made ahead of time
     double max_diagonal_;
-    Workers workers_;
+    const engine::RunContext& context_;
 };
 
 }  // namespace
 
-Charts make_charts(std::span<const PageTriangle> faces, Workers workers) {
-    const std::vector<std::vector<Index>> regions = cluster_faces(faces, workers.check_cancelled);
+Charts make_charts(std::span<const PageTriangle> faces, const RunContext& context) {
+    const std::vector<std::vector<Index>> regions = cluster_faces(faces, context);
     double texels = 0;
     for (const PageTriangle& face : faces) texels += wanted_texels(face);
     const double max_diagonal = 0.9 * std::sqrt(texels);
     std::vector<Charts> by_region(regions.size());
-    parallel_blocks(regions.size(), 1, workers,
-                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+    parallel_blocks(regions.size(), 1, context,
+                    [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
                         for (std::size_t i = begin; i < end; ++i)
-                            by_region[i] =
-                                parametrize_region(faces, regions[i], max_diagonal, check_cancelled);
+                            by_region[i] = parametrize_region(faces, regions[i], max_diagonal, block_context);
                     });
     Charts result;
     for (Charts& region : by_region) {
         std::move(region.charts.begin(), region.charts.end(), std::back_inserter(result.charts));
         result.faces_over_work_limit += region.faces_over_work_limit;
     }
-    result.charts = ChartMerging(faces, std::move(result.charts), max_diagonal, workers).run();
+    result.charts = ChartMerging(faces, std::move(result.charts), max_diagonal, context).run();
     std::sort(result.charts.begin(), result.charts.end(),
               [](const Chart& a, const Chart& b) { return a.faces.front() < b.faces.front(); });
     return result;

@@ -28,6 +28,6 @@ struct Charts {
 /// become charts of their own, and the remaining charts are not merged.
 /// The result does not depend on the number of threads.
 /// Complexity: O(n log n) expected, plus O(n) flattenings of a face.
-Charts make_charts(std::span<const PageTriangle> faces, Workers workers);
+Charts make_charts(std::span<const PageTriangle> faces, const RunContext& context);
 
 }  // namespace faqem::detail

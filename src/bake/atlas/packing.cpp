@@ -189,8 +189,8 @@ public:
     }
 
     // Returns whether all charts fit.
-    bool run(engine::CancellationCheck check_cancelled) {
-        check_cancelled.now();
+    bool run(const engine::RunContext& context) {
+        context.check_now();
         std::uint64_t texels = 0;
         for (const ChartRaster& raster : rasters_) {
             const auto blocks = std::count_if(raster.mask.blocks.begin(), raster.mask.blocks.end(),
@@ -216,7 +216,7 @@ public:
         std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> first_row;
         for (std::size_t number = 0; number < order.size(); ++number) {
             const std::size_t i = order[number];
-            check_cancelled(1 + height_ / block_size / 32);  // up to that many rows are tested
+            context.count(1 + height_ / block_size / 32);  // up to that many rows are tested
             for (; block_size > rasters_[i].block_size; block_size /= 2) grid.refine();
             std::optional<ChartPlacement> best;
             std::uint32_t best_end = height_ / block_size + 1;
@@ -339,13 +339,13 @@ private:
 std::map<double, std::optional<ChartPacking>> attempt_all(const std::vector<double>& scales,
                                                           std::span<const OrientedChart> shapes,
                                                           std::uint32_t width, std::uint32_t height,
-                                                          const Workers& workers) {
+                                                          const RunContext& context) {
     std::map<double, std::optional<ChartPacking>> result;
     for (const double scale : scales) result[scale];
-    parallel_blocks(scales.size(), 1, workers,
-                    [&](std::size_t i, std::size_t, engine::CancellationCheck check_cancelled) {
+    parallel_blocks(scales.size(), 1, context,
+                    [&](std::size_t i, std::size_t, const engine::RunContext& block_context) {
                         ChartPacking packing(shapes, scales[i], width, height);
-                        if (packing.run(check_cancelled)) result.at(scales[i]) = std::move(packing);
+                        if (packing.run(block_context)) result.at(scales[i]) = std::move(packing);
                     });
     return result;
 }
@@ -353,7 +353,7 @@ std::map<double, std::optional<ChartPacking>> attempt_all(const std::vector<doub
 }  // namespace
 
 std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t max_size,
-                                     const Workers& workers) {
+                                     const RunContext& context) {
     std::vector<OrientedChart> shapes;
     double area = 0;
     for (const Chart& chart : charts) {
@@ -364,7 +364,7 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     std::optional<ChartPacking> best;
     const auto fits = [&](double scale) {
         ChartPacking packing(shapes, scale, width, height);
-        if (!packing.run(workers.check_cancelled)) return false;
+        if (!packing.run(context)) return false;
         best = std::move(packing);
         return true;
     };
@@ -382,8 +382,8 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     std::map<double, std::optional<ChartPacking>> attempts;  // nothing: the charts do not fit
     for (bool last = true; !search.is_done();) {
         if (!attempts.contains(search.next)) {
-            attempts = attempt_all(search.likely_scales(last, thread_count(workers.threads)), shapes, width,
-                                   height, workers);
+            attempts = attempt_all(search.likely_scales(last, thread_count(context.threads)), shapes, width,
+                                   height, context);
         }
         std::optional<ChartPacking>& attempt = attempts[search.next];
         last = attempt.has_value();

@@ -46,11 +46,11 @@ struct ChartPage {
 /// \param charts    all charts of the page
 /// \param faces     number of faces of all charts together
 /// \param max_size  largest width and height in texels, a power of two
-/// \param workers   number of threads, with more than one of which attempts are made ahead of time, and a cancellation
-///                  check that is called for each chart in each attempt. The result does not depend on the number.
+/// \param context   checked for each chart in each attempt. With several threads attempts are made ahead of time; the
+///                  result does not depend on their number.
 /// \return nothing if there are more charts than texels
-/// \throws whatever the cancellation check throws
+/// \throws whatever `context` throws
 std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t max_size,
-                                     const Workers& workers = {});
+                                     const RunContext& context = {});
 
 }  // namespace faqem::detail

@@ -122,8 +122,7 @@ std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
 // The cells of all triangles at one scale, packed on shelves.
 class ShelfPacking {
 public:
-    ShelfPacking(std::span<const AtlasTriangle> triangles, double scale,
-                 engine::CancellationCheck check_cancelled)
+    ShelfPacking(std::span<const AtlasTriangle> triangles, double scale, const engine::RunContext& context)
         : triangles_(triangles), scale_(scale) {
         std::vector<Unit> unpaired;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -143,7 +142,7 @@ public:
             }
             unpaired.push_back({cell_shape(a.legs, scale, false), t, no_index, a.order, false});
         }
-        check_cancelled.now();
+        context.check_now();
         std::sort(unpaired.begin(), unpaired.end(), [](const Unit& a, const Unit& b) {
             return std::tuple(a.shape.key(), a.order, a.first) < std::tuple(b.shape.key(), b.order, b.first);
         });
@@ -154,7 +153,7 @@ public:
             if (two) unit.second = unpaired[++i].first;
             units_.push_back(unit);
         }
-        check_cancelled.now();
+        context.check_now();
         std::sort(units_.begin(), units_.end(), [](const Unit& a, const Unit& b) {
             if (a.shape.size() != b.shape.size()) return a.shape.size() > b.shape.size();
             return std::tuple(a.order, a.first) < std::tuple(b.order, b.first);
@@ -241,8 +240,8 @@ double largest_scale(const Pack& pack, std::uint32_t width, std::uint32_t height
 }  // namespace
 
 std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t max_size,
-                                    engine::CancellationCheck check_cancelled) {
-    const auto pack = [&](double scale) { return ShelfPacking(triangles, scale, check_cancelled); };
+                                    const engine::RunContext& context) {
+    const auto pack = [&](double scale) { return ShelfPacking(triangles, scale, context); };
     const ShelfPacking wanted = pack(1);
     for (std::uint32_t width = 4; width <= max_size; width *= 2) {
         for (std::uint32_t height : {width / 2, width}) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bake/atlas/point2.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -69,9 +69,9 @@ struct Atlas {
 /// \param max_size   largest width and height in texels, a power of two
 /// \return nothing if there are more triangles than texels
 /// Complexity: O(n log n).
-/// \param check_cancelled  called for each attempt; exceptions pass through
+/// \param context    checked for each attempt; exceptions pass through
 std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, std::uint32_t max_size,
-                                    engine::CancellationCheck check_cancelled = {});
+                                    const engine::RunContext& context = {});
 
 /// Barycentric coordinates of a placed triangle as a function of texel coordinates.
 class BarycentricFrame {

@@ -59,13 +59,13 @@ public:
         }
     }
 
-    void run(engine::CancellationCheck check_cancelled) {
+    void run(const engine::RunContext& context) {
         while (!queue_.empty()) {
             const Merge m = queue_.top();
             queue_.pop();
             const FaceRegion &a = regions_[m.a], &b = regions_[m.b];
             if (a.is_merged || b.is_merged || a.version != m.version_a || b.version != m.version_b) continue;
-            check_cancelled(merge(m.a, m.b));
+            context.count(merge(m.a, m.b));
         }
     }
 
@@ -212,9 +212,9 @@ std::vector<std::size_t> breadth_first(std::span<const PageTriangle> all, std::s
 }  // namespace
 
 std::vector<std::vector<Index>> cluster_faces(std::span<const PageTriangle> faces,
-                                              engine::CancellationCheck check_cancelled) {
+                                              const engine::RunContext& context) {
     RegionClustering clustering(faces);
-    clustering.run(check_cancelled);
+    clustering.run(context);
     return clustering.regions();
 }
 

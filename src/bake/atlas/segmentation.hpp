@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bake/atlas/chart.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 
 namespace faqem::detail {
 
@@ -18,9 +18,9 @@ namespace faqem::detail {
 /// of 2.
 /// \return the faces of every region, ascending; regions sorted by smallest face
 /// Complexity: O(n log n) expected.
-/// \param check_cancelled  called for each merge of two regions; exceptions pass through
+/// \param context  checked for each merge of two regions; exceptions pass through
 std::vector<std::vector<Index>> cluster_faces(std::span<const PageTriangle> faces,
-                                              engine::CancellationCheck check_cancelled = {});
+                                              const engine::RunContext& context = {});
 
 /// Connected components of `faces`.
 /// \param all    all faces of the page

@@ -190,7 +190,7 @@ PendingImage kept_image(const Asset& source, const Asset& result, std::span<cons
 }  // namespace
 
 void add_kept_images(const Asset& source, const BakeOptions& bake, std::span<const KeptPart> parts,
-                     const Workers& workers, UnencodedResult& out) {
+                     const RunContext& context, UnencodedResult& out) {
     if (bake.image_format == ImageFormat::source) return;
     const Asset& result = out.asset.asset;
     const std::vector<ImageUse> uses = image_uses(result, parts);
@@ -200,8 +200,8 @@ void add_kept_images(const Asset& source, const BakeOptions& bake, std::span<con
     const std::size_t first = out.pending.size();
     out.pending.resize(first + changing.size());
     parallel_blocks(
-        changing.size(), 1, workers, [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
-            check_cancelled.now();
+        changing.size(), 1, context, [&](std::size_t i, std::size_t, const RunContext& block_context) {
+            block_context.check_now();
             out.pending[first + i] =
                 kept_image(source, result, parts, changing[i], uses[changing[i]], bake.texture_size);
         });

@@ -24,6 +24,6 @@ struct KeptPart {
 /// \throws InputError if an image is damaged, engine::Cancelled
 /// Complexity: that of decoding each image, and O(faces).
 void add_kept_images(const Asset& source, const BakeOptions& bake, std::span<const KeptPart> parts,
-                     const Workers& workers, UnencodedResult& out);
+                     const RunContext& context, UnencodedResult& out);
 
 }  // namespace faqem::detail

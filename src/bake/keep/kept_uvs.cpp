@@ -80,7 +80,7 @@ struct ExpectedPages {
 };
 
 ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
-                             const SourceSampler& sampler, const Workers& workers) {
+                             const SourceSampler& sampler, const RunContext& context) {
     const MaterialGroups groups = page_groups(source, bake, kept_flags(parts));
     std::vector<std::vector<PageFace>> faces(groups.groups.size());
     std::vector<double> needed(groups.groups.size(), 0);  // texels
@@ -108,7 +108,7 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
     const double side = bake.texture_size;
     for (std::size_t g = 0; g < faces.size(); ++g) {
         const bool normal_map =
-            wants_normal_map(bake.normal_map, source, groups.groups[g], parts, faces[g], workers);
+            wants_normal_map(bake.normal_map, source, groups.groups[g], parts, faces[g], context);
         const double share = std::min(1.0, usual_fill * side * side / needed[g]);
         for (const PageFace& face : faces[g]) {
             if (normal_map) result.has_normal_map[face.part] = 1;
@@ -191,12 +191,12 @@ std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart
 }
 
 ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
-                        const PartsWithUvs& candidates, DecodedImages& decoded, const Workers& workers) {
+                        const PartsWithUvs& candidates, DecodedImages& decoded, const RunContext& context) {
     const std::vector<PartSet>& sets = candidates.sets;
     const Channels seen{CoreTexture::base_color, CoreTexture::normal};
-    const SourceSampler sampler(source, seen, workers, kept_flags(parts), &decoded);
-    const SourceSampler kept_sampler(candidates.asset, seen, workers, {}, &decoded);
-    const ExpectedPages pages = expected_pages(source, bake, parts, sampler, workers);
+    const SourceSampler sampler(source, seen, context, kept_flags(parts), &decoded);
+    const SourceSampler kept_sampler(candidates.asset, seen, context, {}, &decoded);
+    const ExpectedPages pages = expected_pages(source, bake, parts, sampler, context);
     const ComparedScenes scenes{
         source, parts, sampler, candidates.asset, kept_sampler, pages.texel_sides, pages.has_normal_map};
     const double side = view_points / std::sqrt(static_cast<double>(sets.size()));
@@ -210,7 +210,7 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
             std::any_of(set.begin(), set.end(), [&](Index p) { return needs_uvs[p] != 0; });
         const bool is_coarse =
             std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });
-        const std::array<KeptAndBakedLoss, 2> losses = compare_pictures(scenes, set, size, workers);
+        const std::array<KeptAndBakedLoss, 2> losses = compare_pictures(scenes, set, size, context);
         const bool is_good = must_be_kept || is_as_good(losses, is_coarse);
         if (is_good) good.insert(good.end(), set.begin(), set.end());
         total += is_good ? losses.back().kept : losses.back().baked;

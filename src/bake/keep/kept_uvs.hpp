@@ -47,7 +47,7 @@ std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart
 /// \throws engine::Cancelled
 /// Complexity: that of compare_pictures() for each set.
 ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
-                        const PartsWithUvs& candidates, DecodedImages& decoded, const Workers& workers);
+                        const PartsWithUvs& candidates, DecodedImages& decoded, const RunContext& context);
 
 /// Makes parts kept ones: their simplified meshes and reports are those with UVs.
 /// \param simplified  must outlive the parts

@@ -113,12 +113,12 @@ public:
         }
     }
 
-    SizedLosses compare(std::uint32_t size, const Workers& workers) const {
+    SizedLosses compare(std::uint32_t size, const RunContext& context) const {
         const std::vector<View> views = views_around(source_, view_count, size);
         std::vector<SizedLosses> losses(view_count);
-        parallel_blocks(view_count, 1, workers,
-                        [&](std::size_t v, std::size_t, CancellationCheck check_cancelled) {
-                            losses[v] = compare_view(views[v], check_cancelled);
+        parallel_blocks(view_count, 1, context,
+                        [&](std::size_t v, std::size_t, const RunContext& block_context) {
+                            losses[v] = compare_view(views[v], block_context);
                         });
         SizedLosses result;
         for (const SizedLosses& of_view : losses) {
@@ -131,7 +131,7 @@ public:
     }
 
 private:
-    SizedLosses compare_view(const View& view, CancellationCheck check_cancelled) const {
+    SizedLosses compare_view(const View& view, const RunContext& context) const {
         const std::vector<SeenPoint> of_source = seen_points(source_, view);
         const std::vector<SeenPoint> of_kept = seen_points(kept_, view);
         const std::vector<SeenPoint> of_baked = seen_points(baked_, view);
@@ -140,7 +140,7 @@ private:
             const SeenPoint &source = of_source[i], &kept = of_kept[i], &baked = of_baked[i];
             const bool is_empty = source.mesh == no_index && kept.mesh == no_index && baked.mesh == no_index;
             if (is_empty) continue;
-            check_cancelled(8 * map_query_cost);
+            context.count(8 * map_query_cost);
             const auto wanted = shade_original(scenes_.source_sampler, scenes_.source, source, view);
             const auto with_kept = shade_original(scenes_.kept_sampler, scenes_.kept, kept, view);
             const auto with_baked = shade_baked(baked, view);
@@ -201,8 +201,8 @@ private:
 }  // namespace
 
 SizedLosses compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts, std::uint32_t size,
-                             const Workers& workers) {
-    return Pictures(scenes, parts).compare(size, workers);
+                             const RunContext& context) {
+    return Pictures(scenes, parts).compare(size, context);
 }
 
 }  // namespace faqem::detail

@@ -56,6 +56,6 @@ inline constexpr std::array<std::uint32_t, 2> compared_sizes = {384, 1152};
 /// \throws engine::Cancelled
 /// Complexity: O(faces + size^2 log faces). The result does not depend on the number of threads.
 std::array<KeptAndBakedLoss, 2> compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts,
-                                                 std::uint32_t size, const Workers& workers);
+                                                 std::uint32_t size, const RunContext& context);
 
 }  // namespace faqem::detail

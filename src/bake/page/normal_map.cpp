@@ -43,9 +43,9 @@ Deviation face_deviation(const BakePart& part, Index face) {
 }  // namespace
 
 double normal_deviation(std::span<const BakePart> parts, std::span<const PageFace> faces,
-                        const Workers& workers) {
+                        const RunContext& context) {
     std::vector<Deviation> each(faces.size());
-    parallel_blocks(faces.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(faces.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             each[i] = face_deviation(parts[faces[i].part], faces[i].face);
     });
@@ -59,7 +59,7 @@ double normal_deviation(std::span<const BakePart> parts, std::span<const PageFac
 
 bool wants_normal_map(NormalMap choice, const Asset& source, const MaterialGroup& group,
                       std::span<const BakePart> parts, std::span<const PageFace> faces,
-                      const Workers& workers) {
+                      const RunContext& context) {
     if (choice == NormalMap::off || group.material.unlit || faces.empty()) return false;
     if (choice == NormalMap::on) return true;
     const auto has_any = [&](bool (*has)(const Material&)) {
@@ -67,7 +67,7 @@ bool wants_normal_map(NormalMap choice, const Asset& source, const MaterialGroup
                            [&](Index m) { return has(material_or_default(source, m)); });
     };
     if (has_any([](const Material& m) { return bool(m.normal_texture); })) return true;
-    return has_any(has_textures) && normal_deviation(parts, faces, workers) > min_deviation;
+    return has_any(has_textures) && normal_deviation(parts, faces, context) > min_deviation;
 }
 
 void set_tangents(const BakePart& part, std::span<const Index> faces, std::span<const Vec2f> uvs,

@@ -21,13 +21,13 @@ namespace faqem::detail {
 /// Complexity: O(faces) map queries.
 bool wants_normal_map(NormalMap choice, const Asset& source, const MaterialGroup& group,
                       std::span<const BakePart> parts, std::span<const PageFace> faces,
-                      const Workers& workers);
+                      const RunContext& context);
 
 /// Normal deviation: mean angle, in degrees, between the shading normals of the original (without its normal
 /// maps) and those of the simplified mesh. Weighted by face area, and measured at four points of every face.
 /// Complexity: O(faces) map queries.
 double normal_deviation(std::span<const BakePart> parts, std::span<const PageFace> faces,
-                        const Workers& workers);
+                        const RunContext& context);
 
 /// Computes tangents (MikkTSpace) at the corners of some faces of a simplified mesh.
 /// \param part      has normals

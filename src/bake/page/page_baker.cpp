@@ -79,7 +79,7 @@ void bake_texel(const PageRequest& page, const SampleOrder& order, std::uint32_t
 // Bakes a cell. Between two triangles that are not partners a texel belongs to one of them. On the shared hypotenuse
 // of partners a texel can have samples of both.
 void bake_piece(const PageRequest& page, const SampleOrder& order, const AtlasCell& cell, PageCanvas& canvas,
-                CancellationCheck check_cancelled) {
+                const RunContext& context) {
     std::vector<TexelProjector> projectors;
     projectors.reserve(2);
     for (const Index triangle : {cell.first, cell.second})
@@ -92,7 +92,7 @@ void bake_piece(const PageRequest& page, const SampleOrder& order, const AtlasCe
         return projectors[is_second ? 1 : 0];
     };
     for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
-        check_cancelled(std::uint64_t{cell.width} * page.samples * page.samples);
+        context.count(std::uint64_t{cell.width} * page.samples * page.samples);
         for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
             const auto projector_of = [&](const SamplePlace& place) -> TexelProjector& {
                 return cell.has_shared_hypotenuse ? projector_at(x + place.s, y + place.t)
@@ -105,7 +105,7 @@ void bake_piece(const PageRequest& page, const SampleOrder& order, const AtlasCe
 
 // Bakes a tile of a chart.
 void bake_piece(const PageRequest& page, const SampleOrder& order, const ChartTile& tile, PageCanvas& canvas,
-                CancellationCheck check_cancelled) {
+                const RunContext& context) {
     const PageLayout& layout = page.layout;
     const TileOwners owned =
         tile_owners(layout.atlas, layout.charts[tile.chart], page.mesh.triangles, tile, page.samples);
@@ -114,7 +114,7 @@ void bake_piece(const PageRequest& page, const SampleOrder& order, const ChartTi
     for (const Index triangle : owned.triangles) projectors.emplace_back(page, triangle);
     const std::size_t row = std::size_t{tile.width} * page.samples;
     for (std::uint32_t y = 0; y < tile.height; ++y) {
-        check_cancelled(row * page.samples);
+        context.count(row * page.samples);
         for (std::uint32_t x = 0; x < tile.width; ++x) {
             const std::uint32_t* const owners = &owned.owners[(y * row + x) * page.samples];
             if (*owners == TileOwners::none) continue;
@@ -128,22 +128,24 @@ void bake_piece(const PageRequest& page, const SampleOrder& order, const ChartTi
 
 }  // namespace
 
-PageImages bake_page(const PageRequest& page, BakeProgress& progress) {
+PageImages bake_page(const PageRequest& page, double from, double to, const RunContext& context) {
     PageCanvas canvas(page);
     const SampleOrder order(page.samples);
-    const auto bake_all = [&](const auto& pieces, std::size_t block) {
-        progress.run_blocks(pieces.size(), block,
-                            [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
-                                for (std::size_t i = begin; i < end; ++i)
-                                    bake_piece(page, order, pieces[i], canvas, check_cancelled);
-                            });
+    const auto bake_all = [&](const auto& pieces, std::size_t block, double begin_at, double end_at) {
+        reported_blocks(pieces.size(), block, context, Phase::bake, begin_at, end_at,
+                        [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
+                            for (std::size_t i = begin; i < end; ++i)
+                                bake_piece(page, order, pieces[i], canvas, block_context);
+                        });
     };
     // Cells are in descending order. Blocks of several small ones cost little to hand out, but every block has to be
     // small compared with the work of a thread.
     const std::vector<AtlasCell>& cells = page.layout.atlas.cells;
-    bake_all(cells, std::clamp<std::size_t>(cells.size() / 256, 1, 4));
-    bake_all(page.layout.tiles, 1);
-    return std::move(canvas).finish(progress.workers());
+    const double middle =
+        from + (to - from) * static_cast<double>(cells.size()) / static_cast<double>(page.layout.pieces());
+    bake_all(cells, std::clamp<std::size_t>(cells.size() / 256, 1, 4), from, middle);
+    bake_all(page.layout.tiles, 1, middle, to);
+    return std::move(canvas).finish(context);
 }
 
 }  // namespace faqem::detail

@@ -4,7 +4,7 @@
 
 #include "bake/page/page_canvas.hpp"
 #include "bake/page/page_request.hpp"
-#include "bake/parts/bake_progress.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 
@@ -16,8 +16,8 @@ namespace faqem::detail {
 /// the triangle's closest point. Normals are averaged in the tangent space of the simplified mesh; samples
 /// outside a triangle use the tangent space of its closest point.
 /// The result does not depend on the number of threads, as cells and tiles are independent of each other.
-/// \param progress  counts PageLayout::pieces()
+/// \param from, to  fractions of Phase::bake that are done before and after the page
 /// \throws Cancelled if the progress callback cancels, and whatever the callback throws
-PageImages bake_page(const PageRequest& page, BakeProgress& progress);
+PageImages bake_page(const PageRequest& page, double from, double to, const RunContext& context);
 
 }  // namespace faqem::detail

@@ -100,7 +100,7 @@ void PageCanvas::keep_colors_of_hidden_materials() {
 }
 
 // The steps after the last sample, several at a time.
-void PageCanvas::run_last_steps(const Workers& workers) {
+void PageCanvas::run_last_steps(const RunContext& context) {
     std::vector<std::function<void()>> steps;
     const auto add_fill = [&](Pixels& image, const std::vector<std::uint8_t>& known,
                               const std::vector<std::uint8_t>& known_alpha) {
@@ -116,7 +116,7 @@ void PageCanvas::run_last_steps(const Workers& workers) {
     for (Pixels& layer : images_.layers) add_fill(layer, has_layer_samples_, has_layer_samples_);
     steps.emplace_back([&] { images_.known = shown_texels(page_.layout.atlas); });
     steps.emplace_back([&] { count_samples(); });
-    parallel_blocks(steps.size(), 1, workers, [&](std::size_t i, std::size_t) { steps[i](); });
+    parallel_blocks(steps.size(), 1, context, [&](std::size_t i, std::size_t) { steps[i](); });
 }
 
 void PageCanvas::count_samples() {
@@ -131,9 +131,9 @@ void PageCanvas::count_samples() {
     }
 }
 
-PageImages PageCanvas::finish(const Workers& workers) && {
+PageImages PageCanvas::finish(const RunContext& context) && {
     keep_colors_of_hidden_materials();
-    run_last_steps(workers);
+    run_last_steps(context);
     images_.known_layers = std::move(has_layer_samples_);
     for (std::size_t i = 0; i < images_.known_layers.size(); ++i)
         images_.known_layers[i] = images_.known_layers[i] && images_.known[i];

@@ -21,12 +21,12 @@ public:
     void write(std::uint32_t x, std::uint32_t y, const TexelSums& texel);
 
     /// The images, in which texels that were not written are filled by push_pull().
-    PageImages finish(const Workers& workers) &&;
+    PageImages finish(const RunContext& context) &&;
 
 private:
     void write_base(std::size_t at, const TexelSums& texel, float share);
     void keep_colors_of_hidden_materials();
-    void run_last_steps(const Workers& workers);
+    void run_last_steps(const RunContext& context);
     void count_samples();
 
     const PageRequest& page_;

@@ -31,7 +31,7 @@ PairTriangle pair_triangle(const PageTriangle& triangle) {
 }
 
 std::optional<PageLayout> layout_triangles(const PageMesh& mesh, std::uint32_t texture_size,
-                                           const Workers& workers) {
+                                           const RunContext& context) {
     std::vector<PairTriangle> shapes(mesh.triangles.size());
     std::transform(mesh.triangles.begin(), mesh.triangles.end(), shapes.begin(), pair_triangle);
     const std::vector<std::uint8_t> corner = pair_triangles(shapes);
@@ -44,7 +44,7 @@ std::optional<PageLayout> layout_triangles(const PageMesh& mesh, std::uint32_t t
         t.order = mesh.order[i];
         if (corner[i] < 3) t.partner = shapes[i].adjacent[corner[i]].triangle;
     }
-    std::optional<Atlas> atlas = pack_triangles(triangles, texture_size, workers.check_cancelled);
+    std::optional<Atlas> atlas = pack_triangles(triangles, texture_size, context);
     if (!atlas) return std::nullopt;
     PageLayout result{*std::move(atlas), {}, {}, {}};
     result.summary.kind = Bake::per_triangle;
@@ -63,8 +63,8 @@ double mean_stretch(std::span<const Chart> charts) {
 }
 
 std::optional<PageLayout> layout_charts(const PageMesh& mesh, const Charts& charts,
-                                        std::uint32_t texture_size, const Workers& workers) {
-    std::optional<ChartPage> page = pack_charts(charts.charts, mesh.triangles.size(), texture_size, workers);
+                                        std::uint32_t texture_size, const RunContext& context) {
+    std::optional<ChartPage> page = pack_charts(charts.charts, mesh.triangles.size(), texture_size, context);
     if (!page) return std::nullopt;
     PageLayout result{std::move(page->atlas), std::move(page->charts), {}, {}};
     result.tiles = split_into_tiles(result.charts);
@@ -76,19 +76,19 @@ std::optional<PageLayout> layout_charts(const PageMesh& mesh, const Charts& char
 }
 
 std::optional<PageLayout> layout_by_kind(const PageMesh& mesh, Bake kind, std::uint32_t texture_size,
-                                         const Workers& workers) {
-    if (kind == Bake::per_triangle) return layout_triangles(mesh, texture_size, workers);
-    const Charts charts = make_charts(mesh.triangles, workers);
+                                         const RunContext& context) {
+    if (kind == Bake::per_triangle) return layout_triangles(mesh, texture_size, context);
+    const Charts charts = make_charts(mesh.triangles, context);
     const bool has_small_charts = min_mean_faces_per_chart * charts.charts.size() > mesh.triangles.size();
-    return kind == Bake::automatic && has_small_charts ? layout_triangles(mesh, texture_size, workers)
-                                                       : layout_charts(mesh, charts, texture_size, workers);
+    return kind == Bake::automatic && has_small_charts ? layout_triangles(mesh, texture_size, context)
+                                                       : layout_charts(mesh, charts, texture_size, context);
 }
 
 }  // namespace
 
 std::optional<PageLayout> layout_page(const PageMesh& mesh, Bake kind, std::uint32_t texture_size,
-                                      const Workers& workers) {
-    std::optional<PageLayout> result = layout_by_kind(mesh, kind, texture_size, workers);
+                                      const RunContext& context) {
+    std::optional<PageLayout> result = layout_by_kind(mesh, kind, texture_size, context);
     if (!result) return std::nullopt;
     result->summary.width = result->atlas.width;
     result->summary.height = result->atlas.height;

@@ -32,9 +32,9 @@ struct PageLayout {
 ///                      triangles on average
 /// \param texture_size  largest width and height of the page in texels, a power of two
 /// \return nothing if there are more charts than texels or, for an atlas by triangle, more triangles
-/// \throws whatever the cancellation check throws
+/// \throws whatever `context` throws
 /// Complexity: that of make_charts() and pack_charts(), or of pack_triangles().
 std::optional<PageLayout> layout_page(const PageMesh& mesh, Bake kind, std::uint32_t texture_size,
-                                      const Workers& workers);
+                                      const RunContext& context);
 
 }  // namespace faqem::detail

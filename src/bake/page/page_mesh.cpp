@@ -133,11 +133,11 @@ void set_order(const BakePart& part, std::span<const PageTriangle> triangles,
 
 PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> faces,
                         const SourceSampler& sampler, const std::optional<double>& density,
-                        const Workers& workers) {
+                        const RunContext& context) {
     const std::size_t count = faces.size();
     PageMesh page{std::move(faces), std::vector<PageTriangle>(count), std::vector<std::uint64_t>(count),
                   std::vector<double>(count)};
-    parallel_blocks(count, 256, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(count, 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const PageFace& at = page.faces[i];
             const TriangleMesh& mesh = parts[at.part].simplified->mesh;

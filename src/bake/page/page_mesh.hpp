@@ -40,7 +40,7 @@ struct PageMesh {
 /// Complexity: O(n log n).
 PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> faces,
                         const SourceSampler& sampler, const std::optional<double>& density,
-                        const Workers& workers);
+                        const RunContext& context);
 
 /// Texel density of a page divided by that of the source, both root mean squares over the simplified surface.
 /// \param atlas  of the triangles

@@ -95,13 +95,13 @@ std::vector<std::uint8_t> faces_with_reversed_winding(const BakePart& part) {
 }
 
 // Sets the normals of the corners for which the source has one.
-void transfer_normals(const BakePart& part, const Workers& workers, std::vector<Vector3>& normals) {
+void transfer_normals(const BakePart& part, const RunContext& context, std::vector<Vector3>& normals) {
     const auto set = [&](std::uint64_t corner, const SurfacePoint& point) {
         const Vector3 original = interpolated_normal(*part.source, point);
         if (!original.isZero(0)) normals[corner] = original;
     };
-    if (!part.map) return visit_corner_points(part, corner_inset, workers, set);
-    parallel_blocks(normals.size(), 768, workers, [&](std::size_t begin, std::size_t end) {
+    if (!part.map) return visit_corner_points(part, corner_inset, context, set);
+    parallel_blocks(normals.size(), 768, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
             set(c, part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset)));
     });
@@ -122,21 +122,21 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
            cluster(face, corner + 2) != cluster(other, other_corner + 1);
 }
 
-CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Workers workers) {
+CornerNormals make_normals(const BakePart& part, const BakeOptions& options, const RunContext& context) {
     const TriangleMesh& mesh = part.simplified->mesh;
     const std::size_t corners = 3 * mesh.triangles.size();
     const bool transfers = options.normals == Normals::transfer;
     std::vector<Vector3> raw(corners), face_normals(mesh.triangles.size());
     CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners),
                          faces_with_reversed_winding(part)};
-    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(mesh.triangles.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
             face_normals[f] = winding_normal(mesh.positions, mesh.triangles[f]);
             if (transfers && result.has_reversed_winding[f]) face_normals[f] = -face_normals[f];
             for (std::size_t c = 3 * f; c < 3 * f + 3; ++c) raw[c] = face_normals[f];
         }
     });
-    if (transfers) transfer_normals(part, workers, raw);
+    if (transfers) transfer_normals(part, context, raw);
     for (std::size_t c = 0; c < corners; ++c) {
         const Vector3& face_normal = face_normals[c / 3];
         if (raw[c].isZero(0)) raw[c] = Vector3(0, 0, 1);

@@ -30,6 +30,6 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
 /// Normals::flat has the clusters of Normals::smooth, but keeps the face normals.
 /// Complexity: O(corners) for a bounded number of creases per vertex.
 /// \param part  its normals are not used
-CornerNormals make_normals(const BakePart& part, const BakeOptions& options, Workers workers);
+CornerNormals make_normals(const BakePart& part, const BakeOptions& options, const RunContext& context);
 
 }  // namespace faqem::detail

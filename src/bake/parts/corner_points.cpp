@@ -48,18 +48,18 @@ public:
 
     // Calls visit(corner, point) for the corners of a vertex.
     template <class Visit>
-    void search_vertex(Index v, CancellationCheck check_cancelled, const Visit& visit) const {
+    void search_vertex(Index v, const RunContext& context, const Visit& visit) const {
         const std::span<const Index> candidates = faces_[v];
         const std::span<const std::uint64_t> corners = corners_.at(v);
         const auto search = [&](const auto& closest) {
             for (const std::uint64_t corner : corners) {
-                check_cancelled(map_query_cost);
+                context.count(map_query_cost);
                 const SurfacePoint point = closest(query(corner));
                 if (point.face != no_index) visit(corner, point);
             }
         };
         if (candidates.size() * corners.size() > max_comparisons) {
-            const FaceTree tree(history_, candidates, check_cancelled);
+            const FaceTree tree(history_, candidates, context);
             return search([&](const Query& q) {
                 return tree.closest(q.p, [&](Index f) { return is_accepted(f, q); });
             });
@@ -83,13 +83,12 @@ private:
 
     // The faces around a vertex.
     struct FaceTree {
-        FaceTree(const CollapseHistory& history, std::span<const Index> all,
-                 CancellationCheck check_cancelled)
+        FaceTree(const CollapseHistory& history, std::span<const Index> all, const RunContext& context)
             : faces(all) {
             std::vector<Triangle> triangles;
             triangles.reserve(faces.size());
             for (const Index f : faces) triangles.push_back(history.triangles[f]);
-            tree = Bvh(history.positions, triangles, check_cancelled);
+            tree = Bvh(history.positions, triangles, context);
         }
 
         template <class Filter>
@@ -154,13 +153,13 @@ private:
 
 }  // namespace
 
-void visit_corner_points(const BakePart& part, double inset, const Workers& workers,
+void visit_corner_points(const BakePart& part, double inset, const RunContext& context,
                          const std::function<void(std::uint64_t, const SurfacePoint&)>& visit) {
     const Search search(part, inset);
-    parallel_blocks(part.simplified->mesh.positions.size(), 64, workers,
-                    [&](std::size_t begin, std::size_t end, CancellationCheck check_cancelled) {
+    parallel_blocks(part.simplified->mesh.positions.size(), 64, context,
+                    [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
                         for (std::size_t v = begin; v < end; ++v)
-                            search.search_vertex(static_cast<Index>(v), check_cancelled, visit);
+                            search.search_vertex(static_cast<Index>(v), block_context, visit);
                     });
 }
 

@@ -18,9 +18,9 @@ namespace faqem::detail {
 /// \param part          its map is not used
 /// \param inset         see barycentrics_near_corner()
 /// \param visit         called once for each corner that has a point, concurrently
-/// \throws whatever `workers.check_cancelled` throws
+/// \throws whatever `context` throws
 /// O(n log n) in the faces of both meshes
-void visit_corner_points(const BakePart& part, double inset, const Workers& workers,
+void visit_corner_points(const BakePart& part, double inset, const RunContext& context,
                          const std::function<void(std::uint64_t corner, const SurfacePoint& point)>& visit);
 
 }  // namespace faqem::detail

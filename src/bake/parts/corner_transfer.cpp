@@ -184,11 +184,11 @@ private:
 
 }  // namespace
 
-TransferredCorners transfer_corners(const BakePart& part, Workers workers) {
+TransferredCorners transfer_corners(const BakePart& part, const RunContext& context) {
     TransferredCorners result;
     CornerTransfer transfer(part, result);
     std::atomic<std::uint64_t> crossing{0};
-    parallel_blocks(part.faces(), 256, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(part.faces(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) crossing += !transfer.transfer(static_cast<Index>(f));
     });
     result.crossing_faces = crossing;

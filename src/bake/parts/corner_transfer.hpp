@@ -22,8 +22,8 @@ struct TransferredCorners {
 /// Reads the attributes from the source through the map of the part. A face that crosses a border of a UV chart shows
 /// the chart at its centre up to the border, stretched over the whole face.
 /// \pre part.map is not null
-/// \throws whatever `workers.check_cancelled` throws
+/// \throws whatever `context` throws
 /// Complexity: 4 queries of the map per face, and 6 more for each corner beyond a border.
-TransferredCorners transfer_corners(const BakePart& part, Workers workers);
+TransferredCorners transfer_corners(const BakePart& part, const RunContext& context);
 
 }  // namespace faqem::detail

@@ -59,13 +59,13 @@ bool is_copied(const CustomAttribute& attribute) {
 }
 
 std::vector<CustomAttribute> corner_custom_attributes(const BakePart& part,
-                                                      engine::CancellationCheck check_cancelled) {
+                                                      const engine::RunContext& context) {
     const std::vector<CustomAttribute>& from = part.source->custom_attributes;
     if (from.empty() || !part.map) return {};
     std::vector<CustomAttribute> result = without_values(from);
     const TriangleMesh& mesh = part.simplified->mesh;
     for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
-        check_cancelled(2 * map_query_cost);
+        context.count(2 * map_query_cost);
         const auto face = static_cast<Index>(c / 3);
         const SurfacePoint exact = part.map->map(face, barycentrics_near_corner(c % 3, 0));
         // A little inside of the face, where it is clear which side of a border the corner belongs to.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bake/parts/corners.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 
 namespace faqem::detail {
 
@@ -17,9 +17,9 @@ bool is_copied(const CustomAttribute& attribute);
 /// source face, that is closest to the corner. Interpolated ones that differ by less than 1e-4 of the range of the
 /// attribute at a vertex are equal there.
 /// \return the attributes of the source with values by corner; none if there is no map
-/// \throws whatever `check_cancelled` throws
+/// \throws whatever `context` throws
 /// Complexity: O(corners) map queries
 std::vector<CustomAttribute> corner_custom_attributes(const BakePart& part,
-                                                      engine::CancellationCheck check_cancelled = {});
+                                                      const engine::RunContext& context = {});
 
 }  // namespace faqem::detail

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "bake/parts/corner_normals.hpp"
-#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -30,7 +29,7 @@ bool needs_map(const Asset& asset, const Part& part, const BakeOptions& bake) {
 
 std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyResult> simplified,
                                 std::span<const std::uint8_t> kept, const BakeOptions& bake,
-                                BakeProgress& progress) {
+                                const RunContext& context) {
     std::vector<BakePart> parts(source.parts.size());
     for (std::size_t p = 0; p < parts.size(); ++p) {
         parts[p].index = static_cast<Index>(p);
@@ -39,18 +38,17 @@ std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyRes
         parts[p].is_kept = kept[p] != 0;
     }
     // Several parts at a time: the tree of a map is built by one thread.
-    progress.begin(Phase::map, parts.size());
-    progress.run_blocks(parts.size(), 1, [&](std::size_t p, std::size_t, CancellationCheck check_cancelled) {
+    const auto map_part = [&](std::size_t p, std::size_t, const RunContext& block_context) {
         BakePart& part = parts[p];
         if (part.faces() == 0 || part.is_kept) return;
-        const Workers workers{progress.threads(), check_cancelled};
         if (needs_map(source, *part.source, bake)) {
-            part.map = std::make_unique<const SurfaceMap>(
-                make_surface_map(part.simplified->history, bake.mapping, part.source->triangles, workers));
+            part.map = std::make_unique<const SurfaceMap>(make_surface_map(
+                part.simplified->history, bake.mapping, part.source->triangles, block_context));
         }
-        if (bake.normals != Normals::none) part.normals = make_normals(part, bake, workers);
-    });
-    progress.report(Phase::map, 1);
+        if (bake.normals != Normals::none) part.normals = make_normals(part, bake, block_context);
+    };
+    reported_blocks(parts.size(), 1, context, Phase::map, 0, 1, map_part);
+    context.report(Phase::map, 1);
     return parts;
 }
 

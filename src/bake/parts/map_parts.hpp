@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "bake/parts/bake_progress.hpp"
 #include "bake/parts/corners.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 
@@ -19,6 +19,6 @@ namespace faqem::detail {
 /// \throws engine::Cancelled
 std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyResult> simplified,
                                 std::span<const std::uint8_t> kept, const BakeOptions& bake,
-                                BakeProgress& progress);
+                                const RunContext& context);
 
 }  // namespace faqem::detail

@@ -9,11 +9,11 @@
 namespace faqem::detail {
 
 Part make_output_part(const BakePart& part, CornerValues values, std::vector<Index> materials,
-                      engine::CancellationCheck check_cancelled) {
+                      const engine::RunContext& context) {
     values.normals = part.normals.normals;
-    values.custom_attributes = corner_custom_attributes(part, check_cancelled);
+    values.custom_attributes = corner_custom_attributes(part, context);
     WeldedPart welded = weld_corners(part, values);
-    transfer_skin_and_morphs(part, welded, check_cancelled);
+    transfer_skin_and_morphs(part, welded, context);
     welded.part.face_material = std::move(materials);
     return std::move(welded.part);
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bake/parts/corners.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 
 namespace faqem::detail {
 
@@ -14,10 +14,10 @@ namespace faqem::detail {
 /// custom attributes, skin weights and morph targets.
 /// \param values     UVs, colours and tangents; the normals are those of the part
 /// \param materials  by face
-/// \throws whatever `check_cancelled` throws
+/// \throws whatever `context` throws
 /// Complexity: O(corners log valence), and O(corners) map queries if there is something to transfer
 Part make_output_part(const BakePart& part, CornerValues values, std::vector<Index> materials,
-                      engine::CancellationCheck check_cancelled);
+                      const engine::RunContext& context);
 
 /// The material of each of some faces of a part.
 std::vector<Index> materials_of_faces(const Part& part, std::span<const Index> faces);

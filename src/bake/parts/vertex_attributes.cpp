@@ -93,7 +93,7 @@ struct ColorSum {
 }  // namespace
 
 void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
-                              engine::CancellationCheck check_cancelled) {
+                              const engine::RunContext& context) {
     const Part& from = *bake_part.source;
     Part& to = welded.part;
     const bool skin = !from.joints.empty() && !from.weights.empty();
@@ -102,7 +102,7 @@ void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
     const VertexCorners at = vertex_corners(mesh);
     to.morph_targets.resize(from.morph_targets.size());
     for (std::uint64_t corner : welded.corner) {
-        check_cancelled(map_query_cost);
+        context.count(map_query_cost);
         const std::uint64_t shared = at.at(mesh.triangles[corner / 3][corner % 3]).front();
         const SurfacePoint point =
             bake_part.map->map(static_cast<Index>(shared / 3), barycentrics_near_corner(shared % 3, 0));
@@ -122,10 +122,11 @@ void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
     }
 }
 
-std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler, Workers workers) {
+std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler,
+                                 const RunContext& context) {
     const TriangleMesh& mesh = part.simplified->mesh;
     std::vector<LinearColor> raw(3 * mesh.triangles.size());
-    parallel_blocks(mesh.triangles.size(), 256, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(mesh.triangles.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
             const Index face = static_cast<Index>(c / 3);
             // A vertex represents the surface around it: a quarter of an edge on each side.

@@ -11,14 +11,15 @@ namespace faqem::detail {
 /// All output vertices of one vertex of the simplified mesh get the same weights and displacements, so that
 /// no crack opens when they move. Weights are interpolated; the four largest are kept and scaled to a sum of
 /// 1.
-/// \throws whatever `check_cancelled` throws
+/// \throws whatever `context` throws
 void transfer_skin_and_morphs(const BakePart& part, WeldedPart& welded,
-                              engine::CancellationCheck check_cancelled = {});
+                              const engine::RunContext& context = {});
 
 /// Colours at the corners of the simplified mesh (FA-QEM: "encoded as per-vertex color attributes"): the base
 /// colour of the source, averaged over the corners of a vertex with the same cluster and face group.
 /// \return 3 * faces colours, linear, not premultiplied, in [0, 1]
-/// \throws whatever `workers.check_cancelled` throws
-std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler, Workers workers);
+/// \throws whatever `context` throws
+std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler,
+                                 const RunContext& context);
 
 }  // namespace faqem::detail

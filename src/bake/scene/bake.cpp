@@ -15,12 +15,10 @@
 #include "bake/keep/kept_parts.hpp"
 #include "bake/keep/kept_uvs.hpp"
 #include "bake/keep/untouched_parts.hpp"
-#include "bake/parts/bake_progress.hpp"
 #include "bake/parts/map_parts.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/error.hpp"
 #include "scene/check_asset.hpp"
 #include "scene/position_grids.hpp"
@@ -57,7 +55,7 @@ std::string layout_unit(Bake kind) {
 
 // Makes the parts that could keep their UVs with them.
 PartsWithUvs make_parts_with_uvs(const Asset& source, const SimplifiedParts& simplified, BakeOptions bake,
-                                 std::span<const BakePart> parts, BakeProgress& progress) {
+                                 std::span<const BakePart> parts, const RunContext& context) {
     PartsWithUvs result;
     if (bake.kind != Bake::automatic || simplified.kept.size() != parts.size()) return result;
     result.sets = sets_with_uvs(source, parts, simplified);
@@ -66,23 +64,28 @@ PartsWithUvs make_parts_with_uvs(const Asset& source, const SimplifiedParts& sim
     std::vector<std::uint8_t> is_left_out(parts.size(), 1);
     for (const PartSet& set : result.sets)
         for (const Index p : set) is_left_out[p] = 0;
-    const std::vector<BakePart> with_uvs = map_parts(source, simplified.kept, is_left_out, bake, progress);
+    const std::vector<BakePart> with_uvs = map_parts(source, simplified.kept, is_left_out, bake, context);
     UnencodedResult baked;
-    bake_keep({source, bake, with_uvs, progress}, baked);
+    bake_keep({source, bake, with_uvs, context}, baked);
     result.asset = std::move(baked.asset.asset);
     return result;
 }
 
 // Bakes new textures or, if these would have too few texels, vertex colours.
+// \param context  may stop it, other than that of the job
 // \return false, without changing anything, if the time was over before new textures were complete
-bool bake_textures(const BakeJob& job, DecodedImages decoded, UnencodedResult& out) {
+bool bake_textures(const BakeJob& job, const RunContext& context, DecodedImages decoded,
+                   UnencodedResult& out) {
     const auto is_kept = [](const BakePart& part) { return part.is_kept; };
     const UnencodedResult before = out;
     bool fits = false;
-    const auto work = [&] { fits = bake_pages(job, std::move(decoded), out); };
+    const auto work = [&](const RunContext& own) {
+        own.check_now();
+        fits = bake_pages({job.source, job.options, job.parts, own}, std::move(decoded), out);
+    };
     if (std::all_of(job.parts.begin(), job.parts.end(), is_kept)) {
-        work();
-    } else if (!job.progress.run_in_time(work)) {
+        work(job.context);
+    } else if (!context.in_time([&] { work(context); })) {
         out = before;
         return false;
     }
@@ -113,24 +116,27 @@ void keep_file_records(std::span<const BakePart> parts, std::span<const std::uin
 
 // Bakes all parts, except for the encoding of images.
 void bake_parts(const Asset& source, const SimplifiedParts& simplified, const BakeOptions& bake,
-                BakeProgress& progress, UnencodedResult& out) {
+                const RunContext& context, UnencodedResult& out) {
     const Stopwatch watch;
+    const RunContext untimed = context.untimed();
     Report& report = out.asset.report;
     const std::vector<std::uint8_t> untouched = find_untouched_parts(source, simplified, bake);
-    std::vector<BakePart> parts = map_parts(source, simplified.parts, untouched, bake, progress);
+    std::vector<BakePart> parts = map_parts(source, simplified.parts, untouched, bake, untimed);
     report.seconds.map = watch.seconds();
 
-    PartsWithUvs with_uvs = make_parts_with_uvs(source, simplified, bake, parts, progress);
+    PartsWithUvs with_uvs = make_parts_with_uvs(source, simplified, bake, parts, untimed);
     DecodedImages decoded;
     ComparedUvs compared;
     if (!with_uvs.sets.empty()) {
-        progress.run_in_time(
-            [&] { compared = compare_uvs(source, bake, parts, with_uvs, decoded, progress.workers()); });
+        context.in_time([&] {
+            context.check_now();
+            compared = compare_uvs(source, bake, parts, with_uvs, decoded, context);
+        });
     }
     keep_uvs(source, simplified, compared.good, parts, report);
 
-    const BakeJob job{source, bake, parts, progress};
-    const bool is_late = makes_atlas(bake.kind) && !bake_textures(job, std::move(decoded), out);
+    const BakeJob job{source, bake, parts, untimed};
+    const bool is_late = makes_atlas(bake.kind) && !bake_textures(job, context, std::move(decoded), out);
     if (is_late) {
         if (bake.correspondence == Recording::on)
             throw TimeLimitError(
@@ -145,38 +151,38 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
     if (bake.kind == Bake::none) bake_none(job, out);
     const std::vector<KeptPart> kept =
         add_kept_parts(source, parts, untouched, std::move(with_uvs.asset), keeps_images, out.asset);
-    if (!is_late) add_kept_images(source, bake, kept, progress.workers(), out);
+    if (!is_late) add_kept_images(source, bake, kept, untimed, out);
     for (PendingImage& image : out.pending)
         image.quality_change = quality_change(compared.pictures, image.content);
     keep_file_records(parts, untouched, out.asset.asset);
-    progress.report(Phase::bake, 1);
+    untimed.report(Phase::bake, 1);
 }
 
 // Keeps the UVs of all parts, with pending images.
 void keep_all_parts(const Asset& source, const SimplifiedParts& simplified, const BakeOptions& bake,
-                    BakeProgress& progress, UnencodedResult& out) {
+                    const RunContext& context, UnencodedResult& out) {
     const Stopwatch watch;
     const std::vector<std::uint8_t> untouched(source.parts.size(), 0);
-    const std::vector<BakePart> parts = map_parts(source, simplified.parts, untouched, bake, progress);
+    const std::vector<BakePart> parts = map_parts(source, simplified.parts, untouched, bake, context);
     out.asset.report.seconds.map = watch.seconds();
-    bake_keep({source, bake, parts, progress}, out);
+    bake_keep({source, bake, parts, context}, out);
     std::vector<KeptPart> kept;
     for (const BakePart& part : parts) {
         kept.push_back({part.index, false});
         if (part.faces() > 0) out.asset.report.kept_uvs.push_back(part_title(source, part.index));
     }
-    add_kept_images(source, bake, kept, progress.workers(), out);
+    add_kept_images(source, bake, kept, context, out);
     keep_file_records(parts, untouched, out.asset.asset);
     for (Part& part : out.asset.asset.parts) part.file_order = FileOrder::for_gpu;
-    progress.report(Phase::bake, 1);
+    context.report(Phase::bake, 1);
 }
 
-// Calls work(progress, result) for a result that has the report of the geometry stage and the data of the file.
+// Calls work(result) for a result that has the report of the geometry stage and the data of the file.
 template <class Work>
 UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified, const Options& options,
-                         const Work& work) {
+                         const RunContext& context, const Work& work) {
     check_parts_match(source, simplified);
-    BakeProgress progress(options);
+    context.show(Phase::map, 0);
     UnencodedResult out;
     Report& report = out.asset.report = simplified.report;
     out.asset.asset.source = source.source;
@@ -185,7 +191,7 @@ UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified,
     if (report.stop == StopReason::cancelled) return out;
     const Stopwatch watch;
     try {
-        work(progress, out);
+        work(out);
         set_quantization(source, options, out.asset.asset, report);
     } catch (const engine::Cancelled&) {
         set_cancelled(out.asset);
@@ -199,7 +205,7 @@ UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified,
 }  // namespace
 
 UnencodedResult bake_unencoded(const Asset& given, const SimplifiedParts& simplified,
-                               const Options& requested) {
+                               const Options& requested, const RunContext& context) {
     validate(requested);
     check_asset(given);
     const std::optional<FinestLevel> finest = finest_level(given);
@@ -208,31 +214,31 @@ UnencodedResult bake_unencoded(const Asset& given, const SimplifiedParts& simpli
     if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
         throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
     }
-    return run_bake(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
+    return run_bake(source, simplified, options, context, [&](UnencodedResult& out) {
         if (options.bake.kind == Bake::keep && requested.bake.kind != Bake::keep)
             out.asset.report.warnings.push_back(
                 "images of KTX2 or AVIF cannot be baked: the UVs and images of the source are kept");
-        bake_parts(source, simplified, options.bake, progress, out);
+        bake_parts(source, simplified, options.bake, context, out);
     });
 }
 
-UnencodedResult bake_with_uvs(const Asset& given, const SimplifiedParts& simplified,
-                              const Options& requested) {
+UnencodedResult bake_with_uvs(const Asset& given, const SimplifiedParts& simplified, const Options& requested,
+                              const RunContext& context) {
     validate(requested);
     check_asset(given);
     const std::optional<FinestLevel> finest = finest_level(given);
     const Asset& source = finest ? finest->asset : given;
     Options options = resolved_options(source, requested);
     options.bake.kind = Bake::keep;
-    return run_bake(source, simplified, options, [&](BakeProgress& progress, UnencodedResult& out) {
-        keep_all_parts(source, simplified, options.bake, progress, out);
+    return run_bake(source, simplified, options, context, [&](UnencodedResult& out) {
+        keep_all_parts(source, simplified, options.bake, context.untimed(), out);
     });
 }
 
-SimplifiedAsset bake_encoded(const Asset& source, const SimplifiedParts& simplified, const Options& options) {
-    const Deadline deadline = deadline_of(options);
-    UnencodedResult result = bake_unencoded(source, simplified, options);
-    encode_images(result, with_time_left(options, deadline));
+SimplifiedAsset bake_encoded(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                             const RunContext& context) {
+    UnencodedResult result = bake_unencoded(source, simplified, options, context);
+    encode_images(result, options, context);
     return std::move(result.asset);
 }
 

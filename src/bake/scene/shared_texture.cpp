@@ -6,7 +6,6 @@
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/error.hpp"
 #include "scene/simplify_parts.hpp"
-#include "scene/step_progress.hpp"
 
 namespace faqem::detail {
 
@@ -81,34 +80,36 @@ void check_shared_texture(const Options& options) {
 std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source,
                                                              const ReferenceParts& measured,
                                                              std::span<const LevelTarget> level_targets,
-                                                             const Options& options) {
+                                                             const Options& options,
+                                                             const RunContext& context) {
     // The simplification of the finest level is reported as Phase::simplify. All other steps are reported as
     // Phase::bake: baking this level, simplifying the other levels, and baking each of them.
     const double steps = level_targets.size() == 1 ? 1 : static_cast<double>(level_targets.size()) + 1;
     const auto baking = [&](std::size_t before) {
         const auto done = static_cast<double>(before);
-        return step_options(options, Phase::bake, done / steps, (done + 1) / steps);
+        return context.step(Phase::bake, done / steps, (done + 1) / steps);
     };
-    const Options finest_options = finest_level_options(step_options(options, Phase::simplify, 0, 1));
+    const Options finest_options = finest_level_options(options),
+                  other_options = other_level_options(options);
     const std::vector<SimplifiedPartsLevel> made = run_lod_chain<SimplifiedPartsLevel>(
-        level_targets.first(1), finest_options, measured.faces(),
-        [&](const std::vector<std::uint64_t>& targets, const Options& own) {
-            return simplify_parts_to_targets(source, targets, own, level_targets.first(1));
+        level_targets.first(1), finest_options, context, measured.faces(),
+        [&](const std::vector<std::uint64_t>& targets, const Options& own, const RunContext& of_run) {
+            return simplify_parts_to_targets(source, targets, own, of_run, level_targets.first(1));
         },
         measured);
     const SimplifiedPartsLevel& finest = made.front();
     std::vector<SimplifiedAssetLevel> out;
     out.reserve(level_targets.size());  // `baked` is a reference to the first element
-    out.push_back({bake_encoded(source, finest.result, finest_level_options(baking(0))), finest.distance,
-                   finest.error});
+    out.push_back(
+        {bake_encoded(source, finest.result, finest_options, baking(0)), finest.distance, finest.error});
     const SimplifiedAsset& baked = out.front().result;
     if (baked.report.stop == StopReason::cancelled || level_targets.size() == 1) return out;
 
     std::vector<SimplifiedPartsLevel> others = run_lod_chain<SimplifiedPartsLevel>(
-        level_targets.subspan(1), other_level_options(baking(1)), finest.result.report.faces_out,
-        [&](const std::vector<std::uint64_t>& targets, const Options& own) {
+        level_targets.subspan(1), other_options, baking(1), finest.result.report.faces_out,
+        [&](const std::vector<std::uint64_t>& targets, const Options& own, const RunContext& of_run) {
             std::vector<SimplifiedParts> results =
-                simplify_parts_to_targets(baked.asset, targets, own, level_targets.subspan(1));
+                simplify_parts_to_targets(baked.asset, targets, own, of_run, level_targets.subspan(1));
             for (SimplifiedParts& simplified : results)
                 add_counts_of_finest(simplified, finest.result, baked.report);
             return results;
@@ -117,7 +118,7 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
     keep_only_cancelled(others);
     for (SimplifiedPartsLevel& level : others) {
         const SimplifiedParts simplified = std::move(level.result);
-        out.push_back({bake_encoded(baked.asset, simplified, other_level_options(baking(out.size() + 1))),
+        out.push_back({bake_encoded(baked.asset, simplified, other_options, baking(out.size() + 1)),
                        level.distance, std::max(level.error, finest.error)});
         if (out.back().result.report.stop == StopReason::cancelled) break;
     }

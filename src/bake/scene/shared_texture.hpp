@@ -25,6 +25,7 @@ void check_shared_texture(const Options& options);
 std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source,
                                                              const ReferenceParts& measured,
                                                              std::span<const LevelTarget> level_targets,
-                                                             const Options& options);
+                                                             const Options& options,
+                                                             const RunContext& context);
 
 }  // namespace faqem::detail

@@ -13,7 +13,6 @@
 #include "asset/scene/material_textures.hpp"
 #include "bake/source/extension_layers.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "scene/material_groups.hpp"
 
 namespace faqem::detail {
@@ -58,19 +57,14 @@ bool needs_tangents(const Asset& asset, const Part& part) {
 }
 
 // Encodes the pending images. Without time for the choice of ImageFormat::automatic, they get the format of the source.
-void encode_in_time(UnencodedResult& result, const Options& options, engine::ProgressMonitor& monitor) {
-    const Workers workers{options.threads, CancellationCheck(monitor)};
-    std::vector<Image>& images = result.asset.asset.images;
-    BakeOptions bake = options.bake;
-    if (bake.image_format == ImageFormat::automatic) monitor.set_deadline(deadline_of(options));
-    try {
-        return encode_pending_images(result.pending, bake, workers, images);
-    } catch (const engine::Cancelled& stopped) {
-        if (stopped.reason == StopReason::cancelled) throw;
-    }
-    monitor.set_deadline(no_deadline);
+void encode_in_time(UnencodedResult& result, BakeOptions bake, const RunContext& context) {
+    const auto encode = [&](const RunContext& own) {
+        encode_pending_images(result.pending, bake, own, result.asset.asset.images);
+    };
+    if (bake.image_format != ImageFormat::automatic) return encode(context.untimed());
+    if (context.in_time([&] { encode(context); })) return;
     bake.image_format = ImageFormat::source;
-    encode_pending_images(result.pending, bake, workers, images);
+    encode(context.untimed());
     result.asset.report.warnings.push_back(
         "max_seconds was over before the smallest images were found: they have the formats of the source");
 }
@@ -108,14 +102,13 @@ void set_cancelled(SimplifiedAsset& result) {
     result.report.stop = StopReason::cancelled;
 }
 
-void encode_images(UnencodedResult& result, const Options& options) {
+void encode_images(UnencodedResult& result, const Options& options, const RunContext& context) {
     Report& report = result.asset.report;
     if (report.stop == StopReason::cancelled) return;
     const Stopwatch watch;
-    engine::ProgressMonitor monitor(
-        [&] { return options.progress ? options.progress(Phase::bake, 1) : Continue::yes; });
+    context.show(Phase::bake, 1);
     try {
-        encode_in_time(result, options, monitor);
+        encode_in_time(result, options.bake, context);
         report_images(result.asset.asset, report);
     } catch (const engine::Cancelled&) {
         set_cancelled(result.asset);

@@ -8,24 +8,25 @@
 namespace faqem::detail {
 
 /// bake() without the encoding of images. \throws as bake()
-UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified,
-                               const Options& options);
+UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                               const RunContext& context);
 
 /// bake() without the rules about the size of results and without histories. \throws as bake()
-SimplifiedAsset bake_encoded(const Asset& source, const SimplifiedParts& simplified, const Options& options);
+SimplifiedAsset bake_encoded(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                             const RunContext& context);
 
 /// bake() of parts that were simplified with Bake::keep. All keep their UVs and, other than in bake_unencoded(), their
 /// images are pending, unless BakeOptions::image_format is ImageFormat::source. No part is untouched
 /// (BakeOptions::untouched), and all have FileOrder::for_gpu. The result has all materials and
 /// images of the source, with the same indices.
 /// \throws as bake()
-UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simplified, const Options& options);
+UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+                              const RunContext& context);
 
 /// Encodes the pending images, which stay pending, and reports all images. Does nothing for a cancelled result.
-/// \param options  those of BakeOptions that are about the encoding, the threads, the progress callback, and
-///     max_seconds, which counts from the call: if it is over, images that ImageFormat::automatic is about get
-///     the format of the source
-void encode_images(UnencodedResult& result, const Options& options);
+/// \param options  those of BakeOptions that are about the encoding
+/// \param context  if its time is over, images that ImageFormat::automatic is about get the format of the source
+void encode_images(UnencodedResult& result, const Options& options, const RunContext& context);
 
 /// Halves pending images that have a side of more than `side` texels, as long as their sides are even. Images that are
 /// shown without filter keep their resolution.

@@ -51,7 +51,7 @@ struct SourceSampler::MissingImage {
     std::exception_ptr error = {};
 };
 
-SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers,
+SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const RunContext& context,
                              std::span<const std::uint8_t> skipped_parts, DecodedImages* decoded)
     : asset_(asset), wanted_(wanted) {
     DecodedImages own;
@@ -63,7 +63,7 @@ SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const W
     };
     for (std::size_t m = 0; m <= asset.materials.size(); ++m)
         if (used[m]) load_material(index(m), images, missing);
-    decode_images(missing, workers, images);
+    decode_images(missing, context, images);
     for (std::size_t m = 0; m <= asset.materials.size(); ++m) {
         if (used[m])
             material_slots_.push_back(load_material(index(m), images, missing));
@@ -74,7 +74,7 @@ SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const W
     tangents_.resize(asset.parts.size());
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         if (!skipped_parts.empty() && skipped_parts[p]) continue;
-        workers.check_cancelled.now();
+        context.check_now();
         measure_densities(asset.parts[p], densities_[p]);
         if (wanted.needs_tangents()) tangents_[p] = source_tangents(asset, asset.parts[p]);
     }
@@ -133,9 +133,9 @@ SourceSampler::TextureSlot SourceSampler::load_slot(const TextureRef& texture_re
 }
 
 // Decodes the images on all threads. Of several errors, that of the first image is thrown.
-void SourceSampler::decode_images(std::vector<MissingImage>& missing, const Workers& workers,
+void SourceSampler::decode_images(std::vector<MissingImage>& missing, const RunContext& context,
                                   DecodedImages& images) const {
-    parallel_blocks(missing.size(), 1, workers, [&](std::size_t i, std::size_t) {
+    parallel_blocks(missing.size(), 1, context, [&](std::size_t i, std::size_t) {
         MissingImage& m = missing[i];
         try {
             m.pixels = decode_for(asset_, m.image, m.material);
@@ -148,9 +148,9 @@ void SourceSampler::decode_images(std::vector<MissingImage>& missing, const Work
     });
     for (MissingImage& m : missing) {
         if (m.error) std::rethrow_exception(m.error);
-        workers.check_cancelled.now();
+        context.check_now();
         images[{m.image, m.encoding}] =
-            std::make_shared<const MipImage>(std::move(m.pixels), m.encoding, workers);
+            std::make_shared<const MipImage>(std::move(m.pixels), m.encoding, context);
     }
 }
 

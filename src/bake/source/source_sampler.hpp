@@ -70,7 +70,7 @@ public:
     ///                 change or end before this
     /// \throws InputError if an image is damaged
     /// \throws UnsupportedError if an image has an unknown format
-    SourceSampler(const Asset& asset, const Channels& wanted, const Workers& workers = {},
+    SourceSampler(const Asset& asset, const Channels& wanted, const RunContext& context = {},
                   std::span<const std::uint8_t> skipped_parts = {}, DecodedImages* decoded = nullptr);
 
     /// Appearance at a point, without normals.
@@ -151,7 +151,7 @@ private:
                                 std::vector<MissingImage>& missing);
     TextureSlot load_slot(const TextureRef& texture_ref, TexelEncoding encoding, Index material,
                           const DecodedImages& images, std::vector<MissingImage>& missing);
-    void decode_images(std::vector<MissingImage>& missing, const Workers& workers,
+    void decode_images(std::vector<MissingImage>& missing, const RunContext& context,
                        DecodedImages& images) const;
     void measure_densities(const Part& part, PartDensity& density) const;
     Vec4f base_factor(const Material& material, const Part& part, const SurfacePoint& point) const;

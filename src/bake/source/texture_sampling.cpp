@@ -128,10 +128,10 @@ double valid_or_zero(double x) { return std::abs(x) < 1e9 ? x : 0.0; }
 
 }  // namespace
 
-MipImage::MipImage(Pixels pixels, TexelEncoding encoding, const Workers& workers)
+MipImage::MipImage(Pixels pixels, TexelEncoding encoding, const RunContext& context)
     : pixels_(std::move(pixels)), encoding_(encoding) {
     for (std::size_t level = 0; width(level) > 1 || height(level) > 1; ++level)
-        levels_.push_back(downsample(level, workers));
+        levels_.push_back(downsample(level, context));
 }
 
 template <class Visit>
@@ -171,7 +171,7 @@ auto MipImage::with_reader(std::size_t level, const Visit& visit) const {
     });
 }
 
-MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) const {
+MipImage::Level MipImage::downsample(std::size_t from, const RunContext& context) const {
     Level result{std::max(1u, width(from) / 2), std::max(1u, height(from) / 2), {}};
     // Not a vector, since zeroing half a gigabyte takes long and cannot be cancelled.
     result.rgba =
@@ -197,7 +197,7 @@ MipImage::Level MipImage::downsample(std::size_t from, const Workers& workers) c
         });
     };
     constexpr std::size_t rows_at_once = 16;
-    parallel_blocks(result.height, rows_at_once, workers, [&](std::size_t y, std::size_t end) {
+    parallel_blocks(result.height, rows_at_once, context, [&](std::size_t y, std::size_t end) {
         for (; y < end; ++y) {
             fill_row(static_cast<std::uint32_t>(y));
         }

@@ -30,7 +30,7 @@ using LinearColor = std::array<float, 4>;
 class MipImage {
 public:
     /// \param pixels  at least one texel
-    MipImage(Pixels pixels, TexelEncoding encoding, const Workers& workers = {});
+    MipImage(Pixels pixels, TexelEncoding encoding, const RunContext& context = {});
 
     std::uint32_t width() const { return pixels_.width; }
     std::uint32_t height() const { return pixels_.height; }
@@ -54,7 +54,7 @@ private:
     template <class Visit>
     auto with_reader(std::size_t level, const Visit& visit) const;
     auto sample_level(std::size_t level, double u, double v, const TextureRef& texture_ref) const;
-    Level downsample(std::size_t from, const Workers& workers) const;
+    Level downsample(std::size_t from, const RunContext& context) const;
     std::uint32_t width(std::size_t level) const { return level ? levels_[level - 1].width : pixels_.width; }
     std::uint32_t height(std::size_t level) const {
         return level ? levels_[level - 1].height : pixels_.height;

@@ -4,11 +4,11 @@
 
 #include <span>
 
-#include "bake/parts/bake_progress.hpp"
 #include "bake/parts/corners.hpp"
 #include "bake/source/texture_sampling.hpp"
 #include "bake/texture/pending_images.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/detail/base/parallel.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -19,7 +19,7 @@ struct BakeJob {
     const Asset& source;
     const BakeOptions& options;
     std::span<const BakePart> parts;  ///< by part of the source, as map_parts() makes them
-    BakeProgress& progress;
+    const RunContext& context;
 };
 
 /// Bakes new images with a new atlas.

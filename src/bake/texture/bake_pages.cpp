@@ -91,7 +91,7 @@ std::vector<Page> plan_pages(const BakeJob& job, const MaterialGroups& groups) {
     for (std::size_t g = 0; g < pages.size(); ++g) {
         pages[g].channels[CoreTexture::normal] =
             wants_normal_map(job.options.normal_map, job.source, groups.groups[g], job.parts,
-                             pages[g].mesh.faces, job.progress.workers());
+                             pages[g].mesh.faces, job.context);
     }
     return pages;
 }
@@ -102,15 +102,13 @@ bool layout_pages(const BakeJob& job, const SourceSampler& sampler, std::vector<
     const auto needs_layout = [](const Page& page) {
         return page.channels.any() && !page.mesh.faces.empty();
     };
-    const Workers workers = job.progress.workers();
     parallel_blocks(
-        pages.size(), 1, workers, [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
+        pages.size(), 1, job.context, [&](std::size_t i, std::size_t, const RunContext& block_context) {
             Page& page = pages[i];
             if (!needs_layout(page)) return;
-            const Workers of_page{workers.threads, check_cancelled};
             page.mesh = make_page_mesh(job.parts, std::move(page.mesh.faces), sampler,
-                                       job.options.texel_density, of_page);
-            page.layout = layout_page(page.mesh, job.options.kind, job.options.texture_size, of_page);
+                                       job.options.texel_density, block_context);
+            page.layout = layout_page(page.mesh, job.options.kind, job.options.texture_size, block_context);
         });
     return std::all_of(pages.begin(), pages.end(),
                        [&](const Page& page) { return page.layout || !needs_layout(page); });
@@ -192,7 +190,10 @@ void bake_images(const BakeJob& job, const SourceSampler& sampler, const Materia
                  const std::vector<Page>& pages, const PartUvs& uvs, UnencodedResult& out) {
     std::size_t pieces = 0;
     for (const Page& page : pages) pieces += page.layout ? page.layout->pieces() : 0;
-    job.progress.begin(Phase::bake, pieces);
+    const auto share = [&](std::size_t done) {
+        return static_cast<double>(done) / static_cast<double>(pieces);
+    };
+    std::size_t done = 0;
     std::vector<Material>& materials = out.asset.asset.materials;
     for (std::size_t g = 0; g < pages.size(); ++g) {
         const Page& page = pages[g];
@@ -202,10 +203,11 @@ void bake_images(const BakeJob& job, const SourceSampler& sampler, const Materia
             continue;
         }
         const bool records_origins = job.options.correspondence == Recording::on;
+        const std::size_t before = std::exchange(done, done + page.layout->pieces());
         PageImages images = bake_page({job.parts, sampler, page.mesh, *page.layout, uvs.tangents,
                                        page.channels, group.material.alpha_mode, page.layers,
                                        group.materials.front(), job.options.samples, records_origins},
-                                      job.progress);
+                                      share(before), share(done), job.context);
         report_page(job, page, group.materials.front(), images, out.asset.report);
         if (records_origins) {
             const Atlas& atlas = page.layout->atlas;
@@ -236,13 +238,13 @@ void remove_unused_uvs(const std::vector<Page>& pages, const std::vector<Materia
 }
 
 Part textured_part(const BakePart& part, const MaterialGroups& groups, PartUvs& from,
-                   CancellationCheck check_cancelled) {
+                   const RunContext& context) {
     CornerValues values;
     values.tangents = std::move(from.tangents[part.index]);
     if (!from.uvs[part.index].empty()) values.uvs.push_back(std::move(from.uvs[part.index]));
     std::vector<Index> materials = kept_materials(part);
     for (Index& m : materials) m = groups.group_of(m);
-    return make_output_part(part, std::move(values), std::move(materials), check_cancelled);
+    return make_output_part(part, std::move(values), std::move(materials), context);
 }
 
 }  // namespace
@@ -253,7 +255,7 @@ bool bake_pages(const BakeJob& job, DecodedImages decoded, UnencodedResult& out)
     std::vector<Page> pages = plan_pages(job, groups);
     Channels wanted;
     for (const Page& page : pages) wanted = wanted | page.channels;
-    const SourceSampler sampler(job.source, wanted, job.progress.workers(), kept, &decoded);
+    const SourceSampler sampler(job.source, wanted, job.context, kept, &decoded);
     decoded.clear();  // the sampler has those that it needs
     if (!layout_pages(job, sampler, pages)) return false;
     warn_of_normal_maps(job.source, groups, pages, out.asset.report.warnings);
@@ -262,7 +264,7 @@ bool bake_pages(const BakeJob& job, DecodedImages decoded, UnencodedResult& out)
     Asset& asset = out.asset.asset;
     remove_unused_uvs(pages, asset.materials, job.options.correspondence == Recording::on, uvs);
     for (const BakePart& part : job.parts)
-        asset.parts.push_back(part.is_kept ? Part{} : textured_part(part, groups, uvs, job.progress.check()));
+        asset.parts.push_back(part.is_kept ? Part{} : textured_part(part, groups, uvs, job.context));
     return true;
 }
 

@@ -99,12 +99,12 @@ std::uint64_t keep_part(const BakeJob& job, const BakePart& part, Part& to) {
             "simplify_parts() transfers if bake.kind is Bake::keep");
     }
     const TransferredCorners transferred =
-        has_own ? TransferredCorners{} : transfer_corners(part, job.progress.workers());
+        has_own ? TransferredCorners{} : transfer_corners(part, job.context);
     std::vector<Index> materials =
         has_own ? kept_materials(part) : materials_of_faces(*part.source, transferred.faces);
     CornerValues values = values_of_attributes(part, has_own ? own : transferred.values);
     values.tangents = kept_tangents(job.source, part, materials, values.uvs);
-    to = make_output_part(part, std::move(values), std::move(materials), job.progress.check());
+    to = make_output_part(part, std::move(values), std::move(materials), job.context);
     return transferred.crossing_faces;
 }
 
@@ -115,7 +115,7 @@ void bake_vertex(const BakeJob& job, UnencodedResult& out) {
     bake.kind = Bake::vertex;  // also if an atlas was requested, but has too few texels
     const std::vector<std::uint8_t> kept = kept_flags(job.parts);
     const MaterialGroups groups = group_materials(job.source, bake, kept);
-    const SourceSampler sampler(job.source, {CoreTexture::base_color}, job.progress.workers(), kept);
+    const SourceSampler sampler(job.source, {CoreTexture::base_color}, job.context, kept);
     Asset& asset = out.asset.asset;
     for (const MaterialGroup& group : groups.groups) {
         for (const Index m : group.materials) {
@@ -125,14 +125,14 @@ void bake_vertex(const BakeJob& job, UnencodedResult& out) {
         }
     }
     for (const BakePart& part : job.parts) {
-        job.progress.report(Phase::bake, part.index / static_cast<double>(job.parts.size()));
+        job.context.report(Phase::bake, part.index / static_cast<double>(job.parts.size()));
         Part& to = asset.parts.emplace_back();
         if (part.is_kept) continue;
         CornerValues values;
-        if (part.map) values.colors = corner_colors(part, sampler, job.progress.workers());
+        if (part.map) values.colors = corner_colors(part, sampler, job.context);
         std::vector<Index> materials = kept_materials(part);
         for (Index& m : materials) m = groups.group_of(m);
-        to = make_output_part(part, std::move(values), std::move(materials), job.progress.check());
+        to = make_output_part(part, std::move(values), std::move(materials), job.context);
     }
 }
 
@@ -142,7 +142,7 @@ void bake_keep(const BakeJob& job, UnencodedResult& out) {
     asset.images = job.source.images;
     std::uint64_t crossing_faces = 0;
     for (const BakePart& part : job.parts) {
-        job.progress.check().now();
+        job.context.check_now();
         Part& to = asset.parts.emplace_back();
         if (!part.is_kept) crossing_faces += keep_part(job, part, to);
     }
@@ -163,7 +163,7 @@ void bake_none(const BakeJob& job, UnencodedResult& out) {
         if (part.is_kept) continue;
         if (!part.source->colors.empty())
             warnings.push_back(part_title(job.source, part.index) + ": vertex colours left out");
-        to = make_output_part(part, {}, kept_materials(part), job.progress.check());
+        to = make_output_part(part, {}, kept_materials(part), job.context);
     }
 }
 

@@ -100,7 +100,7 @@ struct LossyEncoding {
     const Pixels& pixels;  // may have fewer texels
     std::span<const std::uint8_t> known;
     ImageQuality quality;
-    CancellationCheck check_cancelled;
+    const RunContext& context;
 
     ImageLoss loss(const Image& image) const { return image_loss(original, decode(image), known); }
     bool allows(const Image& image) const { return is_within(loss(image), quality); }
@@ -112,7 +112,7 @@ struct LossyEncoding {
         std::optional<std::pair<Image, std::size_t>> best;
         std::size_t begin = 0, end = levels;
         while (begin < end) {
-            check_cancelled.now();
+            context.check_now();
             const std::size_t middle = begin + (end - begin) / 2;
             if (std::optional<Image> image = encode(middle)) {
                 best.emplace(*std::move(image), middle);
@@ -175,7 +175,7 @@ int png_difference(double quality, std::size_t channels) {
 std::optional<Image> near_lossless_png(const LossyEncoding& lossy, const std::string& name) {
     for (int difference = png_difference(lossy.quality.whole, lossy.pixels.has_alpha ? 4 : 3); difference > 0;
          --difference) {
-        lossy.check_cancelled.now();
+        lossy.context.check_now();
         Image image = write_png(lossy.pixels, name, difference);
         if (lossy.allows(image)) return image;
     }
@@ -283,18 +283,18 @@ Pixels halved(const Pixels& pixels) {
 }
 
 Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known, const std::string& name,
-                      Content content, const ImageLimits& limits, CancellationCheck check_cancelled) {
+                      Content content, const ImageLimits& limits, const RunContext& context) {
     std::vector<Pixels> smaller;  // by number of halvings, without `pixels` itself
     while (limits.may_shrink) {
         const Pixels& last = smaller.empty() ? pixels : smaller.back();
         if (last.width % 2 || last.height % 2 || std::min(last.width, last.height) / 2 < min_side) break;
-        check_cancelled.now();
+        context.check_now();
         Pixels next = halved(last);
         if (!is_within(image_loss(pixels, next, known), limits.quality)) break;
         smaller.push_back(std::move(next));
     }
     const auto encoded = [&](const Pixels& at, bool tries_lossless) {
-        return smallest_at({pixels, at, known, limits.quality, check_cancelled}, name, content, limits,
+        return smallest_at({pixels, at, known, limits.quality, context}, name, content, limits,
                            tries_lossless);
     };
     Image best = encoded(smaller.empty() ? pixels : smaller.back(), true);

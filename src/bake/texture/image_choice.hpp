@@ -78,10 +78,10 @@ Pixels halved(const Pixels& pixels);
 /// \param known    by texel: nonzero if the texel shows a triangle
 /// \param name     Image::name of the result
 /// \param content  data is encoded with full chroma resolution
-/// \param check_cancelled  called before each encoding; its exceptions are passed on
+/// \param context  checked before each encoding; its exceptions are passed on
 /// \return an image whose sides are those of `pixels`, divided by the same power of two
 /// Complexity: that of about ten encodings.
 Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known, const std::string& name,
-                      Content content, const ImageLimits& limits, CancellationCheck check_cancelled = {});
+                      Content content, const ImageLimits& limits, const RunContext& context = {});
 
 }  // namespace faqem::detail

@@ -8,7 +8,7 @@ namespace {
 
 Content encoded_content(TextureContent content) { return is_color(content) ? Content::color : Content::data; }
 
-Image encoded_image(const PendingImage& pending, const BakeOptions& bake, CancellationCheck check_cancelled) {
+Image encoded_image(const PendingImage& pending, const BakeOptions& bake, const RunContext& context) {
     const Pixels& pixels = pending.pixels;
     const Content content = encoded_content(pending.content);
     if (has_image_quality(bake.image_format)) {
@@ -18,8 +18,7 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, Cancel
             least_quality(bake, pending.content, pending.roughness, pending.quality_change),
             pending.may_shrink, !is_webp,
             bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp)};
-        Image smallest =
-            encode_smallest(pixels, *pending.known, pending.name, content, limits, check_cancelled);
+        Image smallest = encode_smallest(pixels, *pending.known, pending.name, content, limits, context);
         const bool was_webp = pending.original && pending.original->mime_type == "image/webp";
         const bool keeps_original = pending.original && (was_webp ? may_be_webp : !is_webp) &&
                                     smallest.encoded.size() >= pending.original->encoded.size();
@@ -36,11 +35,11 @@ bool tries_webp(const Asset& source) {
 }
 
 void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
-                           const Workers& workers, std::vector<Image>& images) {
-    parallel_blocks(pending.size(), 1, workers,
-                    [&](std::size_t i, std::size_t, CancellationCheck check_cancelled) {
-                        check_cancelled.now();
-                        images[pending[i].image] = encoded_image(pending[i], bake, check_cancelled);
+                           const RunContext& context, std::vector<Image>& images) {
+    parallel_blocks(pending.size(), 1, context,
+                    [&](std::size_t i, std::size_t, const RunContext& block_context) {
+                        block_context.check_now();
+                        images[pending[i].image] = encoded_image(pending[i], bake, block_context);
                     });
 }
 

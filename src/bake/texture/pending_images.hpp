@@ -55,7 +55,7 @@ bool tries_webp(const Asset& source);
 /// \throws engine::Cancelled
 /// Complexity: at most about ten encodings of each image.
 void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
-                           const Workers& workers, std::vector<Image>& images);
+                           const RunContext& context, std::vector<Image>& images);
 
 /// Encodes an image in a format without has_image_quality().
 /// Complexity: that of one encoding.

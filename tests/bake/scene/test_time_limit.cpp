@@ -149,10 +149,10 @@ TEST_CASE("new textures that are complete get the format of the source if there 
     const Asset source = wavy(12);
     Options options{.target = ratio(0.2), .bake = {.kind = Bake::atlas}};
     const SimplifiedParts parts = simplify_parts(source, options);
-    detail::UnencodedResult result = detail::bake_unencoded(source, parts, options);
+    detail::UnencodedResult result = detail::bake_unencoded(source, parts, options, {});
     REQUIRE(!result.pending.empty());
     options.max_seconds = no_time;
-    detail::encode_images(result, options);
+    detail::encode_images(result, options, engine::RunContext(options));
     CHECK(mentions(result.asset.report, "smallest images"));
     CHECK(result.asset.report.pages.size() == 1);
     for (const ResultImage& image : result.asset.report.images) {

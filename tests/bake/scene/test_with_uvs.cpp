@@ -41,19 +41,19 @@ Options keeping() {
 
 UnencodedResult with_uvs(const Asset& asset) {
     const Options options = keeping();
-    return bake_with_uvs(asset, simplify_parts_in_steps(asset, steps, options)[1], options);
+    return bake_with_uvs(asset, simplify_parts_in_steps(asset, steps, options, {})[1], options, {});
 }
 
 }  // namespace
 
 TEST_CASE("simplification in steps reaches each target, and each result can be baked") {
     const Asset asset = textured_sheet();
-    const std::vector<SimplifiedParts> results = simplify_parts_in_steps(asset, steps, keeping());
+    const std::vector<SimplifiedParts> results = simplify_parts_in_steps(asset, steps, keeping(), {});
     REQUIRE(results.size() == 3);
     for (std::size_t i = 0; i < results.size(); ++i) {
         CHECK(results[i].report.faces_out <= steps[i]);
         CHECK(results[i].report.faces_out + 2 >= steps[i]);
-        CHECK(bake_with_uvs(asset, results[i], keeping()).asset.asset.parts[0].triangles.size() ==
+        CHECK(bake_with_uvs(asset, results[i], keeping(), {}).asset.asset.parts[0].triangles.size() ==
               results[i].report.faces_out);
     }
 }
@@ -67,7 +67,7 @@ TEST_CASE("a result with UVs has pending images, which can be halved and encoded
     CHECK(limit_image_sides(result, 20));
     CHECK(result.pending[0].pixels.width == 16);
     CHECK(result.pending[0].known->size() == 16 * 16);
-    encode_images(result, keeping());
+    encode_images(result, keeping(), {});
     const Pixels pixels = decode(result.asset.asset.images.at(0));
     CHECK(pixels.width <= 16);
     CHECK(result.asset.report.images.at(0).width == pixels.width);
@@ -78,9 +78,9 @@ TEST_CASE("a result with UVs has pending images, which can be halved and encoded
 TEST_CASE("a result with UVs has the images of the source if their format is asked for") {
     const Asset asset = textured_sheet();
     Options options = keeping();
-    const SimplifiedParts parts = simplify_parts_in_steps(asset, steps, options)[1];
+    const SimplifiedParts parts = simplify_parts_in_steps(asset, steps, options, {})[1];
     options.bake.image_format = ImageFormat::source;
-    const UnencodedResult result = bake_with_uvs(asset, parts, options);
+    const UnencodedResult result = bake_with_uvs(asset, parts, options, {});
     CHECK(result.pending.empty());
     CHECK(result.asset.asset.images.at(0).encoded == asset.images[0].encoded);
 }

@@ -16,23 +16,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::CancellationCheck;
-
-/// Number of threads for a parallel loop, and the cancellation check of the calling thread.
-struct Workers {
-    // Not explicit, so that callers without a cancellation check can pass a number of threads.
-    Workers(std::uint32_t max_threads = 0, CancellationCheck check = {})
-        : threads(max_threads), check_cancelled(check) {}
-
-    std::uint32_t threads;  ///< maximum number of threads; 0: one per hardware thread
-    CancellationCheck check_cancelled;
-};
+using engine::RunContext;
 
 /// Number of threads to use.
 /// \param wanted  requested number; 0: one per hardware thread
@@ -54,26 +44,27 @@ public:
 
     /// Processes blocks until none are left or a thread has failed. Exceptions are stored, not thrown.
     template <class Work>
-    void run(Work& work, CancellationCheck check_cancelled) {
+    void run(Work& work, const RunContext& context) {
         for (std::size_t b; (b = next_.fetch_add(1)) < blocks_;) {
             try {
                 const std::size_t begin = b * block_, end = std::min(size_, begin + block_);
-                if constexpr (std::is_invocable_v<Work&, std::size_t, std::size_t, CancellationCheck>)
-                    work(begin, end, check_cancelled);
+                if constexpr (std::is_invocable_v<Work&, std::size_t, std::size_t, const RunContext&>)
+                    work(begin, end, context);
                 else
                     work(begin, end);
-                check_cancelled.now();
+                context.check_now();
             } catch (...) {
                 fail();
             }
         }
     }
 
-    /// run() for a helper thread, with a cancellation check that stops it after another thread has failed.
+    /// run() for a helper thread, with a context that stops it after another thread has failed.
     template <class Work>
-    void run_helper(Work& work) {
-        engine::ProgressMonitor monitor([this] { return has_failed_ ? Continue::cancel : Continue::yes; });
-        run(work, CancellationCheck(monitor));
+    void run_helper(Work& work, std::uint32_t threads) {
+        const RunContext own(
+            threads, [this](Phase, double) { return has_failed_ ? Continue::cancel : Continue::yes; });
+        run(work, own);
         const std::lock_guard lock(mutex_);
         --helpers_;
         ended_.notify_one();
@@ -89,15 +80,15 @@ public:
         --helpers_;
     }
 
-    /// Blocks until all helpers have ended, and calls `check_cancelled` every 10 ms meanwhile.
-    void wait(CancellationCheck check_cancelled) {
+    /// Blocks until all helpers have ended, and checks every 10 ms meanwhile.
+    void wait(const RunContext& context) {
         std::unique_lock lock(mutex_);
         while (helpers_ > 0) {
             ended_.wait_for(lock, std::chrono::milliseconds(10));
             if (helpers_ == 0 || has_failed_) continue;
             lock.unlock();
             try {
-                check_cancelled.now();
+                context.check_now();
             } catch (...) {
                 fail();
             }
@@ -138,31 +129,48 @@ private:
 /// the loop runs with fewer.
 /// \param size     number of elements; 0 is allowed
 /// \param block    elements per block, at least 1; the last block may be shorter
-/// \param workers  number of threads and cancellation check; the check is only used on the calling thread
+/// \param context  used on the calling thread only
 /// \param work     called concurrently. Cancellation is checked after each block; a block that takes longer than
-///                 some milliseconds accepts a CancellationCheck as third argument and calls it.
-/// \throws the exception of the calling thread or of its cancellation check, or else the first exception of a
+///                 some milliseconds accepts the RunContext of its thread as third argument and checks it. It has
+///                 as many threads for loops inside the block.
+/// \throws the exception of the calling thread or of `context`, or else the first exception of a
 ///         helper; all threads have ended by then
 template <class Work>
-void parallel_blocks(std::size_t size, std::size_t block, const Workers& workers, Work&& work) {
+void parallel_blocks(std::size_t size, std::size_t block, const RunContext& context, Work&& work) {
     BlockQueue queue(size, block);
     const std::size_t count =
-        std::min<std::size_t>(thread_count(workers.threads), std::max<std::size_t>(queue.blocks(), 1));
+        std::min<std::size_t>(thread_count(context.threads), std::max<std::size_t>(queue.blocks(), 1));
     std::vector<std::thread> helpers;
     helpers.reserve(count);
     try {
         for (std::size_t i = 1; i < count; ++i) {
             queue.add_helper();
-            helpers.emplace_back([&] { queue.run_helper(work); });
+            helpers.emplace_back([&] { queue.run_helper(work, context.threads); });
         }
     } catch (const std::system_error&) {
         // The system cannot start more threads; the existing ones do all the work.
         queue.remove_helper();
     }
-    queue.run(work, workers.check_cancelled);
-    queue.wait(workers.check_cancelled);
+    queue.run(work, context);
+    queue.wait(context);
     for (std::thread& helper : helpers) helper.join();
     queue.rethrow();
+}
+
+/// parallel_blocks() that reports a share of a phase.
+/// \param from, to  fractions of the phase that are done before and after the loop
+/// \param work      called as work(begin, end, context)
+template <class Work>
+void reported_blocks(std::size_t size, std::size_t block, const RunContext& context, Phase phase, double from,
+                     double to, Work&& work) {
+    context.report(phase, from);
+    std::atomic<std::size_t> finished{0};
+    parallel_blocks(size, block, context,
+                    [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
+                        work(begin, end, block_context);
+                        const auto now = static_cast<double>(finished += end - begin);
+                        block_context.show(phase, from + (to - from) * now / static_cast<double>(size));
+                    });
 }
 
 }  // namespace detail

@@ -73,8 +73,8 @@ inline Bvh::Hit walk_to_closest(const VertexFaces& vertex_faces, const MeshRef& 
 /// \param is_exact  bool(i): whether residual i is the result of a global search
 /// \param search    void(i): finds residual i by a global search; called concurrently
 template <class IsExact, class Search>
-void search_above_share(std::span<const double> squared, double share, Workers workers, IsExact&& is_exact,
-                        Search&& search) {
+void search_above_share(std::span<const double> squared, double share, const RunContext& context,
+                        IsExact&& is_exact, Search&& search) {
     while (true) {
         double longest = 0;
         for (const double length : squared) longest = std::max(longest, length);
@@ -83,7 +83,7 @@ void search_above_share(std::span<const double> squared, double share, Workers w
             if (squared[i] > share * share * longest && !is_exact(i)) far.push_back(i);
         }
         if (far.empty()) return;
-        parallel_blocks(far.size(), 64, workers, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(far.size(), 64, context, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) search(far[i]);
         });
     }
@@ -100,10 +100,11 @@ inline std::vector<std::uint8_t> moved_triangles(std::span<const Triangle> trian
     return moved;
 }
 
-FAQEM_INLINE void MeshToReferenceTracker::update(std::span<const Vector3> positions, Workers workers) {
+FAQEM_INLINE void MeshToReferenceTracker::update(std::span<const Vector3> positions,
+                                                 const RunContext& context) {
     const std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
     positions_.assign(positions.begin(), positions.end());
-    parallel_blocks(samples_.size(), tracker_block_size, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(samples_.size(), tracker_block_size, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (!moved[samples_[i].face] && residuals_[i].face != no_index) continue;
             const Index last = residuals_[i].face;
@@ -119,9 +120,9 @@ FAQEM_INLINE void MeshToReferenceTracker::update(std::span<const Vector3> positi
     });
 }
 
-FAQEM_INLINE void MeshToReferenceTracker::search_farthest(double share, Workers workers) {
+FAQEM_INLINE void MeshToReferenceTracker::search_farthest(double share, const RunContext& context) {
     search_above_share(
-        squared_distances_, share, workers, [&](std::size_t i) { return residuals_[i].is_exact; },
+        squared_distances_, share, context, [&](std::size_t i) { return residuals_[i].is_exact; },
         [&](std::size_t i) { search(i, residuals_[i].face); });
 }
 
@@ -161,8 +162,9 @@ FAQEM_INLINE Correspondence MeshToReferenceTracker::correspondence(std::size_t i
     return {samples_[i], residuals_[i].residual, normal(i)};
 }
 
-FAQEM_INLINE void MeshToReferenceTracker::measure_normal_deviations(double tolerance, Workers workers) {
-    parallel_blocks(samples_.size(), tracker_block_size, workers, [&](std::size_t begin, std::size_t end) {
+FAQEM_INLINE void MeshToReferenceTracker::measure_normal_deviations(double tolerance,
+                                                                    const RunContext& context) {
+    parallel_blocks(samples_.size(), tracker_block_size, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Residual& residual = residuals_[i];
             if (!(residual.normal_deviation < 0)) continue;
@@ -181,9 +183,10 @@ FAQEM_INLINE void MeshToReferenceTracker::measure_normal_deviations(double toler
     });
 }
 
-FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positions, Workers workers,
+FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positions,
+                                                 const RunContext& context,
                                                  std::span<const std::uint8_t> flipped) {
-    if (positions_.empty()) return initialize(positions, workers);
+    if (positions_.empty()) return initialize(positions, context);
     std::vector<std::uint8_t> moved = moved_triangles(triangles_, positions_, positions);
     for (std::size_t f = 0; f < flipped.size(); ++f) moved[f] |= flipped[f];
     if (!flipped.empty()) vertex_faces_ = make_vertex_faces(positions.size(), triangles_);
@@ -196,7 +199,7 @@ FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positi
             for (const Index neighbour : vertex_faces_[v]) to_measure[neighbour] = 1;
         }
     }
-    parallel_blocks(points_.size(), tracker_block_size, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(points_.size(), tracker_block_size, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const SurfaceSample& last = residuals_[i].sample;
             residuals_[i].is_exact = false;  // a distant face may have come closer
@@ -207,20 +210,21 @@ FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positi
     });
 }
 
-FAQEM_INLINE void ReferenceToMeshTracker::initialize(std::span<const Vector3> positions, Workers workers) {
+FAQEM_INLINE void ReferenceToMeshTracker::initialize(std::span<const Vector3> positions,
+                                                     const RunContext& context) {
     vertex_faces_ = make_vertex_faces(positions.size(), triangles_);
     positions_.assign(positions.begin(), positions.end());
-    tree_.emplace(positions_, triangles_, workers.check_cancelled);
-    parallel_blocks(points_.size(), tracker_block_size, workers, [&](std::size_t begin, std::size_t end) {
+    tree_.emplace(positions_, triangles_, context);
+    parallel_blocks(points_.size(), tracker_block_size, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             search(i, i == begin ? no_index : residuals_[i - 1].sample.face);
     });
 }
 
-FAQEM_INLINE void ReferenceToMeshTracker::search_farthest(double share, Workers workers) {
+FAQEM_INLINE void ReferenceToMeshTracker::search_farthest(double share, const RunContext& context) {
     if (std::exchange(is_tree_outdated_, false)) tree_->refit(positions_, triangles_);
     search_above_share(
-        squared_distances_, share, workers, [&](std::size_t i) { return residuals_[i].is_exact; },
+        squared_distances_, share, context, [&](std::size_t i) { return residuals_[i].is_exact; },
         [&](std::size_t i) { search(i, residuals_[i].sample.face); });
 }
 

@@ -25,10 +25,10 @@ namespace detail {
 struct ReferenceSurface {
     /// \param surface  not copied; its arrays must outlive this object
     /// O(n log n)
-    explicit ReferenceSurface(const MeshRef& surface, Workers workers = {}) : mesh(surface) {
-        parallel_blocks(2, 1, workers, [&](std::size_t part, std::size_t, CancellationCheck check_cancelled) {
+    explicit ReferenceSurface(const MeshRef& surface, const RunContext& context = {}) : mesh(surface) {
+        parallel_blocks(2, 1, context, [&](std::size_t part, std::size_t, const RunContext& block_context) {
             if (part == 0) {
-                tree = Bvh(surface.positions, surface.triangles, check_cancelled);
+                tree = Bvh(surface.positions, surface.triangles, block_context);
             } else {
                 normals = unit_normals(surface);
                 vertex_faces = make_vertex_faces(surface.positions.size(), surface.triangles);
@@ -59,17 +59,17 @@ public:
     /// Updates the residuals of samples whose face has moved since the last call. The first call searches
     /// globally, later ones track.
     /// \param positions  current vertex positions of the moving mesh
-    /// \param workers    the result does not depend on the number of threads
+    /// \param context    the result does not depend on the number of threads
     /// First call: O(samples log faces) typically. Later: O(1) for each sample whose face has moved, if its
     /// closest point has moved by a few faces only.
-    void update(std::span<const engine::Vector3> positions, Workers workers);
+    void update(std::span<const engine::Vector3> positions, const RunContext& context);
 
     /// Repeats the global search for all residuals longer than a fraction of the longest one, until all of
     /// these are exact. Otherwise a tracked residual that is too long could determine the maximum distance.
     /// \param share    fraction of the longest residual, in [0, 1]
-    /// \param workers  the result does not depend on the number of threads
+    /// \param context  the result does not depend on the number of threads
     /// O(samples), plus O(log faces) for each searched residual
-    void search_farthest(double share, Workers workers);
+    void search_farthest(double share, const RunContext& context);
 
     /// Replaces the samples on some faces, whose corners may have changed as well.
     /// \param faces    one per triangle; nonzero: the samples of this face are replaced
@@ -90,7 +90,7 @@ public:
     /// faces that are equally close, the one with the most similar normal is used. Results are kept until the
     /// face moves.
     /// \param tolerance  distances that differ by at most this count as equal
-    void measure_normal_deviations(double tolerance, Workers workers);
+    void measure_normal_deviations(double tolerance, const RunContext& context);
     /// Result for sample i, in [0, 2]; negative if it has not been measured.
     double normal_deviation(std::size_t i) const { return residuals_[i].normal_deviation; }
 
@@ -131,11 +131,11 @@ public:
     /// has moved. Takes O(faces) in addition.
     /// \param flipped  one per triangle, or empty; nonzero: the corners of this triangle have changed since
     ///                 the last call
-    void update(std::span<const engine::Vector3> positions, Workers workers,
+    void update(std::span<const engine::Vector3> positions, const RunContext& context,
                 std::span<const std::uint8_t> flipped = {});
 
     /// Same as MeshToReferenceTracker::search_farthest(). Takes O(faces) in addition.
-    void search_farthest(double share, Workers workers);
+    void search_farthest(double share, const RunContext& context);
 
     std::size_t size() const { return points_.size(); }
     const OrientedPoint& point(std::size_t i) const { return points_[i]; }
@@ -156,7 +156,7 @@ private:
         engine::Vector3 residual = engine::Vector3::Zero();
         bool is_exact = false;  ///< result of a global search, not tracked
     };
-    void initialize(std::span<const engine::Vector3> positions, Workers workers);
+    void initialize(std::span<const engine::Vector3> positions, const RunContext& context);
     void search(std::size_t i, Index near);
     void set_residual(std::size_t i, const Bvh::Hit& hit);
 

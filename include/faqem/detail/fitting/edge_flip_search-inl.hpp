@@ -71,27 +71,27 @@ class EdgeFlipSearch {
 public:
     EdgeFlipSearch(const SimplifiedMeshRef& simplified, const ReferenceSurface& original,
                    const ReferenceToMeshTracker& even_samples,
-                   const ReferenceToMeshTracker& original_vertices, double area, Workers workers)
+                   const ReferenceToMeshTracker& original_vertices, double area, const RunContext& context)
         : simplified_(simplified),
           original_(original),
           even_samples_(even_samples),
           original_vertices_(original_vertices),
           weight_(area / static_cast<double>(std::max<std::size_t>(even_samples.size(), 1))),
-          workers_(workers),
+          context_(context),
           halfedges_(sorted_halfedges(simplified.triangles)) {
         group_points_by_face();
     }
 
     std::vector<EdgeFlip> operator()() {
         std::vector<Candidate> candidates = find_candidates();
-        parallel_blocks(candidates.size(), 64, workers_, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(candidates.size(), 64, context_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) measure_from_original(candidates[i]);
         });
         std::erase_if(candidates, [](const Candidate& c) {
             return !(c.after.distance_integral <= c.before.distance_integral);
         });
         measure_faces(candidates);
-        parallel_blocks(candidates.size(), 16, workers_, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(candidates.size(), 16, context_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) measure_to_original(candidates[i]);
         });
         return select_independent(candidates);
@@ -141,7 +141,7 @@ private:
     std::vector<Candidate> find_candidates() const {
         std::vector<Candidate> all;
         for_each_edge(halfedges_, [&](std::span<const Halfedge> on) {
-            workers_.check_cancelled();
+            context_.count();
             if (on.size() != 2 || (simplified_.fixed[on[0].low] && simplified_.fixed[on[0].high])) return;
             const EdgeFlip faces = {on[0].face, on[1].face};
             if (!simplified_.groups.empty() && simplified_.groups[faces[0]] != simplified_.groups[faces[1]])
@@ -240,7 +240,7 @@ private:
         std::sort(wanted.begin(), wanted.end());
         wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
         face_deviation_.resize(simplified_.triangles.size());
-        parallel_blocks(wanted.size(), 64, workers_, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(wanted.size(), 64, context_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 face_deviation_[wanted[i]] = deviation_of(simplified_.triangles[wanted[i]]);
             }
@@ -274,7 +274,7 @@ private:
         std::vector<std::uint8_t> flipped(simplified_.triangles.size(), 0);
         std::set<std::pair<Index, Index>> made;
         for (const Candidate& c : candidates) {
-            workers_.check_cancelled();
+            context_.count();
             const Quadrilateral& q = c.corners;
             bool is_free = true;
             for (const auto& [v, w] : {std::pair(q.a, q.b), std::pair(q.b, q.c), std::pair(q.c, q.a),
@@ -294,7 +294,7 @@ private:
     const ReferenceToMeshTracker& even_samples_;
     const ReferenceToMeshTracker& original_vertices_;
     double weight_;  // area that a point of even_samples_ represents
-    Workers workers_;
+    const engine::RunContext& context_;
     std::vector<Halfedge> halfedges_;
     double max_squared_distance_ = 0;               // over all points of the original
     Buckets<std::size_t> points_of_face_;           // per face: points of the original that are closest to it
@@ -305,8 +305,8 @@ FAQEM_INLINE std::vector<EdgeFlip> find_edge_flips(const SimplifiedMeshRef& simp
                                                    const ReferenceSurface& original,
                                                    const ReferenceToMeshTracker& even_samples,
                                                    const ReferenceToMeshTracker& original_vertices,
-                                                   double area, Workers workers) {
-    return EdgeFlipSearch(simplified, original, even_samples, original_vertices, area, workers)();
+                                                   double area, const RunContext& context) {
+    return EdgeFlipSearch(simplified, original, even_samples, original_vertices, area, context)();
 }
 
 }  // namespace detail

@@ -36,13 +36,13 @@ using EdgeFlip = std::array<Index, 2>;
 /// \param even_samples       uniform samples of the original, with residuals to the current mesh
 /// \param original_vertices  the vertices of the original, likewise; used for the maximum distance only
 /// \param area               surface area of the original
-/// \param workers            the result does not depend on the number of threads
+/// \param context            the result does not depend on the number of threads
 /// \return the flips, in order of decreasing gain
 /// O(n log n). Source of the operation: Hoppe et al. 1993, Mesh Optimization
 std::vector<EdgeFlip> find_edge_flips(const SimplifiedMeshRef& simplified, const ReferenceSurface& original,
                                       const ReferenceToMeshTracker& even_samples,
                                       const ReferenceToMeshTracker& original_vertices, double area,
-                                      Workers workers);
+                                      const RunContext& context);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -82,7 +82,7 @@ inline void add(const Correspondence& correspondence, double weight, FaceSystem&
 /// Computes the contributions of all faces. Distances are normalized by their mean.
 inline std::vector<FaceSystem> face_systems(std::size_t faces,
                                             std::span<const Correspondence> correspondences, double power,
-                                            Workers workers) {
+                                            const RunContext& context) {
     double mean = 0;
     for (const Correspondence& correspondence : correspondences) {
         mean += correspondence.residual.norm();
@@ -94,7 +94,7 @@ inline std::vector<FaceSystem> face_systems(std::size_t faces,
         }
     });
     std::vector<FaceSystem> all(faces);
-    parallel_blocks(faces, 512, workers, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(faces, 512, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
             for (const std::size_t i : by_face[f]) {
                 const double distance =
@@ -110,9 +110,9 @@ inline std::vector<FaceSystem> face_systems(std::size_t faces,
 class NormalEquations {
 public:
     NormalEquations(std::span<const Triangle> triangles, std::span<const Correspondence> correspondences,
-                    std::span<const std::uint8_t> fixed, double power, Workers workers)
+                    std::span<const std::uint8_t> fixed, double power, const RunContext& context)
         : triangles_(triangles),
-          faces_(face_systems(triangles.size(), correspondences, power, workers)),
+          faces_(face_systems(triangles.size(), correspondences, power, context)),
           free_(fixed.size()),
           diagonal_(fixed.size()),
           inverse_(fixed.size(), Matrix3::Zero()),
@@ -186,8 +186,8 @@ inline double dot(std::span<const Vector3> a, std::span<const Vector3> b) {
 FAQEM_INLINE std::vector<Vector3> gauss_newton_step(std::span<const Triangle> triangles,
                                                     std::span<const Correspondence> correspondences,
                                                     std::span<const std::uint8_t> fixed, double power,
-                                                    Workers workers) {
-    const NormalEquations system(triangles, correspondences, fixed, power, workers);
+                                                    const RunContext& context) {
+    const NormalEquations system(triangles, correspondences, fixed, power, context);
     const std::size_t size = fixed.size();
     std::vector<Vector3> x(size, Vector3::Zero()), residual = system.rhs(), direction(size),
                                                    matrix_direction(size), preconditioned(size);
@@ -196,7 +196,7 @@ FAQEM_INLINE std::vector<Vector3> gauss_newton_step(std::span<const Triangle> tr
     double residual_product = dot(residual, preconditioned);
     const double enough = residual_tolerance * residual_tolerance * dot(residual, residual);
     for (int i = 0; i < max_iterations && dot(residual, residual) > enough; ++i) {
-        workers.check_cancelled.now();
+        context.check_now();
         system.multiply(direction, matrix_direction);
         const double length = residual_product / dot(direction, matrix_direction);
         for (std::size_t v = 0; v < size; ++v) {

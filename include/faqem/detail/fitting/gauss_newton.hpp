@@ -31,13 +31,13 @@ struct Correspondence {
 /// \param correspondences  samples on these triangles
 /// \param fixed            one per vertex; nonzero: the vertex does not move
 /// \param power            p >= 0: the step decreases the sum of d^(2 + p)
-/// \param workers          the result does not depend on the number of threads
+/// \param context          the result does not depend on the number of threads
 /// \return one step per vertex, in the units of the residuals; not finite if the system cannot be solved
 /// O(correspondences + faces) per iteration, at most 60 iterations
 std::vector<engine::Vector3> gauss_newton_step(std::span<const Triangle> triangles,
                                                std::span<const Correspondence> correspondences,
                                                std::span<const std::uint8_t> fixed, double power,
-                                               Workers workers);
+                                               const RunContext& context);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -42,9 +42,10 @@ inline std::size_t face_count(std::span<const Triangle> triangles) {
 
 /// Updates a tracker. Residuals longer than a fraction of the longest are searched globally; 1: none.
 template <class Tracker>
-void move(Tracker& tracker, std::span<const Vector3> positions, double searched_share, Workers workers) {
-    tracker.update(positions, workers);
-    if (searched_share < 1) tracker.search_farthest(searched_share, workers);
+void move(Tracker& tracker, std::span<const Vector3> positions, double searched_share,
+          const RunContext& context) {
+    tracker.update(positions, context);
+    if (searched_share < 1) tracker.search_farthest(searched_share, context);
 }
 
 FAQEM_INLINE double area(const MeshRef& mesh) {
@@ -57,10 +58,10 @@ FAQEM_INLINE double area(const MeshRef& mesh) {
 
 FAQEM_INLINE TwoSidedError::TwoSidedError(const ReferenceSurface& original,
                                           std::span<const Triangle> triangles,
-                                          std::span<const Vector3> positions, Workers workers)
+                                          std::span<const Vector3> positions, const RunContext& context)
     : original_(original),
       triangles_(triangles),
-      workers_(workers),
+      context_(context),
       faces_(face_count(triangles)),
       is_coarse_(point_count() == min_samples &&
                  coarse_face_ratio * faces_ <= face_count(original.mesh.triangles)),
@@ -74,13 +75,13 @@ FAQEM_INLINE std::size_t TwoSidedError::point_count() const {
 }
 
 FAQEM_INLINE std::vector<OrientedPoint> TwoSidedError::even_points() const {
-    workers_.check_cancelled.now();
+    context_.check_now();
     const MeshRef& mesh = original_.mesh;
     std::vector<OrientedPoint> points;
     for (const SurfaceSample& sample : area_uniform_samples(mesh, reference_sample_factor * point_count())) {
         points.push_back({sample.position(mesh.positions, mesh.triangles), original_.normals[sample.face]});
     }
-    workers_.check_cancelled.now();
+    context_.check_now();
     return points;
 }
 
@@ -92,41 +93,41 @@ void TwoSidedError::for_each_tracker(Visit&& visit) {
         visit(from_reference_vertices_, 3);
 }
 
-// Calls visit(tracker, number, check_cancelled) for the four trackers in parallel.
+// Calls visit(tracker, number, context) for the four trackers in parallel.
 template <class Visit>
 void TwoSidedError::for_each_tracker_in_parallel(Visit&& visit) {
-    parallel_blocks(4, 1, workers_, [&](std::size_t wanted, std::size_t, CancellationCheck check_cancelled) {
+    parallel_blocks(4, 1, context_, [&](std::size_t wanted, std::size_t, const RunContext& block_context) {
         for_each_tracker([&](auto& tracker, std::size_t kind) {
-            if (kind == wanted) visit(tracker, kind, check_cancelled);
+            if (kind == wanted) visit(tracker, kind, block_context);
         });
     });
 }
 
 FAQEM_INLINE void TwoSidedError::update_correspondences(std::span<const Vector3> positions) {
     for_each_tracker([&](auto& tracker, std::size_t kind) {
-        if (kind != reference_vertex_tracker) move(tracker, positions, is_coarse_ ? 0 : 1, workers_);
+        if (kind != reference_vertex_tracker) move(tracker, positions, is_coarse_ ? 0 : 1, context_);
     });
 }
 
 FAQEM_INLINE std::vector<FaceDeviation> TwoSidedError::measure(std::span<const Vector3> positions) {
     for_each_tracker([&](auto& tracker, std::size_t) {
-        move(tracker, positions, is_coarse_ ? 0 : sample_far_share, workers_);
+        move(tracker, positions, is_coarse_ ? 0 : sample_far_share, context_);
     });
     return deviations();
 }
 
 FAQEM_INLINE std::vector<FaceDeviation> TwoSidedError::remeasure(std::span<const Vector3> positions) {
-    for_each_tracker_in_parallel([&](auto& tracker, std::size_t, CancellationCheck check_cancelled) {
-        move(tracker, positions, sample_far_share, {1, check_cancelled});
+    for_each_tracker_in_parallel([&](auto& tracker, std::size_t, const RunContext& context) {
+        move(tracker, positions, sample_far_share, context.on_one_thread());
     });
     return deviations();
 }
 
 FAQEM_INLINE std::vector<FaceDeviation> TwoSidedError::deviations() {
     for (MeshToReferenceTracker* there : {&from_mesh_, &*from_mesh_corners_})
-        there->measure_normal_deviations(tie_tolerance, workers_);
+        there->measure_normal_deviations(tie_tolerance, context_);
     std::array<std::vector<FaceDeviation>, 4> by_tracker;
-    for_each_tracker_in_parallel([&](const auto& tracker, std::size_t kind, CancellationCheck) {
+    for_each_tracker_in_parallel([&](const auto& tracker, std::size_t kind, const RunContext&) {
         by_tracker[kind].resize(triangles_.size());
         for (std::size_t i = 0; i < tracker.size(); ++i) {
             FaceDeviation deviation{tracker.squared_distance(i),
@@ -151,7 +152,7 @@ FAQEM_INLINE std::span<const Correspondence> TwoSidedError::correspondences() {
     correspondences_.resize(count);
     std::size_t first = 0;
     const auto add = [&](const auto& tracker) {
-        parallel_blocks(tracker.size(), 4096, workers_, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(tracker.size(), 4096, context_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) correspondences_[first + i] = tracker.correspondence(i);
         });
         first += tracker.size();
@@ -183,8 +184,8 @@ FAQEM_INLINE void TwoSidedError::resample_flipped(std::span<const Vector3> posit
     const auto count = std::llround(share * static_cast<double>(point_count()));
     from_mesh_.replace_samples(flipped, area_uniform_samples(part, static_cast<std::size_t>(count)));
     from_mesh_corners_.emplace(original_, triangles_, vertex_and_midpoint_samples(triangles_));
-    from_reference_.update(positions, workers_, flipped);
-    from_reference_vertices_.update(positions, workers_, flipped);
+    from_reference_.update(positions, context_, flipped);
+    from_reference_vertices_.update(positions, context_, flipped);
 }
 
 }  // namespace detail

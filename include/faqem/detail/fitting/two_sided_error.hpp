@@ -41,10 +41,10 @@ public:
     /// \param triangles  triangles of the mesh; must outlive this object. Edges may be flipped in them later,
     ///                   see resample_flipped().
     /// \param positions  current vertex positions of the mesh
-    /// \param workers    the results do not depend on the number of threads
-    /// \throws whatever `workers.check_cancelled` throws, here and in the other functions
+    /// \param context    the results do not depend on the number of threads
+    /// \throws whatever `context` throws, here and in the other functions
     TwoSidedError(const ReferenceSurface& original, std::span<const Triangle> triangles,
-                  std::span<const engine::Vector3> positions, Workers workers);
+                  std::span<const engine::Vector3> positions, const RunContext& context);
 
     /// True if one of the surfaces has no area, so that there is nothing to measure.
     bool empty() const { return from_mesh_.size() == 0 || from_reference_.size() == 0; }
@@ -95,7 +95,7 @@ private:
 
     const ReferenceSurface& original_;
     std::span<const Triangle> triangles_;
-    Workers workers_;
+    const engine::RunContext& context_;
     std::size_t faces_;                 // number of faces of the mesh
     bool is_coarse_;                    // the mesh is much coarser than the reference surface
     MeshToReferenceTracker from_mesh_;  // from uniform samples

@@ -62,14 +62,14 @@ inline std::vector<std::uint8_t> boundary_vertices(std::span<const Triangle> tri
 class VertexFitting {
 public:
     VertexFitting(const MeshRef& original, const MeshRef& simplified, std::span<const std::uint8_t> fixed,
-                  double min_normal_cosine, Workers workers)
+                  double min_normal_cosine, const RunContext& context)
         : min_normal_cosine_(min_normal_cosine),
-          workers_(workers),
-          original_(original, workers),
+          context_(context),
+          original_(original, context),
           triangles_(simplified.triangles.begin(), simplified.triangles.end()),
           positions_(simplified.positions.begin(), simplified.positions.end()),
           fixed_(boundary_vertices(simplified.triangles, positions_.size())),
-          error_(original_, triangles_, positions_, workers) {
+          error_(original_, triangles_, positions_, context) {
         for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] |= fixed[v];
     }
 
@@ -78,12 +78,12 @@ public:
         start_ = positions_;
         guard_.emplace(MeshRef{start_, triangles_}, min_fitted_fold);
         if (error_.empty()) return;
-        workers_.check_cancelled.now();
+        context_.check_now();
         deviations_ = error_.measure(positions_);
         const std::vector<FaceDeviation> first = deviations_;
         const double before = max_squared_distance(first);
         for (int step = 0; step < steps; ++step) {
-            move(gauss_newton_step(triangles_, error_.correspondences(), fixed_, power, workers_));
+            move(gauss_newton_step(triangles_, error_.correspondences(), fixed_, power, context_));
             if (step + 1 < steps) error_.update_correspondences(positions_);
         }
         deviations_ = error_.measure(positions_);
@@ -112,7 +112,7 @@ public:
             const std::vector<Correspondence> correspondences =
                 error_.correspondences_at(movable_faces(fixed));
             if (!reduce_max_distance(
-                    before, gauss_newton_step(triangles_, correspondences, fixed, farthest_power, workers_)))
+                    before, gauss_newton_step(triangles_, correspondences, fixed, farthest_power, context_)))
                 return;
         }
     }
@@ -123,7 +123,7 @@ public:
         if (error_.empty()) return {};
         std::vector<EdgeFlip> flips =
             find_edge_flips({positions_, triangles_, fixed_, groups}, original_, error_.from_reference(),
-                            error_.from_reference_vertices(), area(original_.mesh), workers_);
+                            error_.from_reference_vertices(), area(original_.mesh), context_);
         std::vector<std::uint8_t> flipped(triangles_.size(), 0);
         for (const EdgeFlip& flip : flips) {
             flip_edge(triangles_[flip[0]], triangles_[flip[1]]);
@@ -192,7 +192,7 @@ private:
         std::vector<Vector3> to(positions_.size());
         bool all_good = false;
         for (int round = 0; !all_good; ++round) {
-            workers_.check_cancelled.now();
+            context_.check_now();
             for (std::size_t v = 0; v < step.size(); ++v) to[v] = positions_[v] + step[v];
             all_good = true;
             for_each_invalid_face(to, [&](const Triangle& t) {
@@ -278,7 +278,7 @@ private:
     }
 
     double min_normal_cosine_;
-    Workers workers_;
+    const engine::RunContext& context_;
     ReferenceSurface original_;
     std::vector<Triangle> triangles_;  // of the simplified mesh
     std::vector<Vector3> start_, positions_;
@@ -290,8 +290,8 @@ private:
 
 FAQEM_INLINE std::vector<Vector3> fit_vertices(const MeshRef& original, const MeshRef& simplified,
                                                std::span<const std::uint8_t> fixed, double min_normal_cosine,
-                                               Workers workers) {
-    VertexFitting fitting(original, simplified, fixed, min_normal_cosine, workers);
+                                               const RunContext& context) {
+    VertexFitting fitting(original, simplified, fixed, min_normal_cosine, context);
     fitting.fit_all_vertices(first_steps);
     fitting.reduce_max_distance();
     return fitting.take_positions();
@@ -300,8 +300,8 @@ FAQEM_INLINE std::vector<Vector3> fit_vertices(const MeshRef& original, const Me
 FAQEM_INLINE FittingResult fit_vertices_and_flip_edges(const MeshRef& original, const MeshRef& simplified,
                                                        std::span<const std::uint8_t> fixed,
                                                        std::span<const Index> groups,
-                                                       double min_normal_cosine, Workers workers) {
-    VertexFitting fitting(original, simplified, fixed, min_normal_cosine, workers);
+                                                       double min_normal_cosine, const RunContext& context) {
+    VertexFitting fitting(original, simplified, fixed, min_normal_cosine, context);
     FittingResult result;
     fitting.fit_all_vertices(first_steps);
     for (int round = 0; round < flip_rounds; ++round) {

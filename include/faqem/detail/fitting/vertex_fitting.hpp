@@ -27,13 +27,13 @@ namespace detail {
 /// \param fixed              one per vertex of `simplified`; nonzero: the vertex does not move. Boundary
 ///                           vertices do not move either.
 /// \param min_normal_cosine  minimum cosine between the initial and the new normal of a face, in [-1, 1]
-/// \param workers            the result does not depend on the number of threads
+/// \param context            the result does not depend on the number of threads
 /// \return the positions of all vertices of `simplified`
 /// O(points log faces) per step, with ten points per face of `simplified` (at least 5000, at most 2,000,000)
 /// and twice as many on the original
 std::vector<engine::Vector3> fit_vertices(const MeshRef& original, const MeshRef& simplified,
                                           std::span<const std::uint8_t> fixed, double min_normal_cosine,
-                                          Workers workers);
+                                          const RunContext& context);
 
 /// Result of fit_vertices_and_flip_edges().
 struct FittingResult {
@@ -47,7 +47,7 @@ struct FittingResult {
 /// The other parameters are those of fit_vertices(). Takes about twice as long as fit_vertices().
 FittingResult fit_vertices_and_flip_edges(const MeshRef& original, const MeshRef& simplified,
                                           std::span<const std::uint8_t> fixed, std::span<const Index> groups,
-                                          double min_normal_cosine, Workers workers);
+                                          double min_normal_cosine, const RunContext& context);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

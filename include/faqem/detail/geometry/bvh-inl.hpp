@@ -11,7 +11,7 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::CancellationCheck;
+using engine::RunContext;
 using engine::Vector3;
 
 /// Number of bins of the surface area heuristic.
@@ -171,12 +171,12 @@ std::vector<Bvh::Corners> Bvh::corners(const Positions& positions, std::span<con
 }
 
 FAQEM_INLINE Bvh::Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                      CancellationCheck check_cancelled)
-    : Bvh(corners(positions, triangles), check_cancelled) {}
+                      const RunContext& context)
+    : Bvh(corners(positions, triangles), context) {}
 
 FAQEM_INLINE Bvh::Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles,
-                      CancellationCheck check_cancelled)
-    : Bvh(corners(positions, triangles), check_cancelled) {}
+                      const RunContext& context)
+    : Bvh(corners(positions, triangles), context) {}
 
 inline float round_down(double x) {
     const auto rounded = static_cast<float>(x);
@@ -209,7 +209,7 @@ FAQEM_INLINE float Bvh::limit_in_frame(double distance_squared) const {
            std::numeric_limits<float>::min();
 }
 
-FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, CancellationCheck check_cancelled) {
+FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, const RunContext& context) {
     if (triangles.empty()) return;
     assert(triangles.size() < leaf_bit);
     Build build;
@@ -233,7 +233,7 @@ FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, CancellationCheck check_ca
     while (!todo.empty()) {
         const auto [range, at] = todo.back();
         todo.pop_back();
-        check_cancelled(range.size());
+        context.count(range.size());
         for (const Build::Range& part : build.split_into_children(range)) {
             const std::uint32_t k = nodes_[at].count++;
             if (part.size() == 1) {

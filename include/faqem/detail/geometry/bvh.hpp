@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "faqem/detail/geometry/triangle.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -30,16 +30,16 @@ public:
     Bvh() = default;
 
     /// Builds the tree by the surface area heuristic. Keeps copies of the corner positions.
-    /// \param positions        finite, in model units
-    /// \param triangles        vertex indices < positions.size(), fewer than 2^31 triangles. Triangles with a
-    ///                         corner no_index are left out. Triangles of zero area count as the segment or
-    ///                         point that they degenerate to.
-    /// \param check_cancelled  called during construction; exceptions pass through
+    /// \param positions  finite, in model units
+    /// \param triangles  vertex indices < positions.size(), fewer than 2^31 triangles. Triangles with a
+    ///                   corner no_index are left out. Triangles of zero area count as the segment or
+    ///                   point that they degenerate to.
+    /// \param context    checked during construction; exceptions pass through
     /// O(n log n) time, about 140 bytes per face
     Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-        engine::CancellationCheck check_cancelled = {});
+        const engine::RunContext& context = {});
     Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
-        engine::CancellationCheck check_cancelled = {});
+        const engine::RunContext& context = {});
 
     /// Replaces the positions and recomputes the boxes; the topology of the tree is kept. Queries stay
     /// correct, but become slower if the vertices have moved far.
@@ -197,7 +197,7 @@ private:
 
     struct Build;
 
-    Bvh(std::vector<Corners> triangles, engine::CancellationCheck check_cancelled);
+    Bvh(std::vector<Corners> triangles, const engine::RunContext& context);
     void fit_boxes();
 
     /// Converts a squared distance to the frame, rounded up.

@@ -77,20 +77,21 @@ FAQEM_INLINE std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
                                                           const std::vector<Level>& levels,
                                                           const Options& options) try {
     validate(options);
-    const detail::MeasurementMonitor monitor(options, 0);
-    const detail::DistanceReference original(mesh, options, monitor.cancellation_check());
+    const engine::RunContext context(options);
+    context.show(Phase::simplify, 0);
+    const detail::DistanceReference original(mesh, options, context);
     const std::uint64_t faces = mesh.triangles.size();
     const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
         levels, options, static_cast<double>(faces), detail::unpruned_diagonal(mesh, options, original));
     if (level_targets.empty()) return {};
     std::vector<SimplifiedLevel> chain = detail::run_lod_chain<SimplifiedLevel>(
-        level_targets, options, faces,
-        [&](const std::vector<std::uint64_t>& targets, const Options& own) {
-            return detail::run_to_targets(mesh, targets, own);
+        level_targets, options, context, faces,
+        [&](const std::vector<std::uint64_t>& targets, const Options& own, const engine::RunContext& of_run) {
+            return detail::run_to_targets(mesh, targets, own, of_run);
         },
         [&](const SimplifyResult& result, double allowed, detail::MeasureMode mode,
-            detail::CancellationCheck check_cancelled) {
-            return detail::distance(original, result, allowed, mode, options, check_cancelled);
+            const engine::RunContext& of_measurement) {
+            return detail::distance(original, result, allowed, mode, options, of_measurement);
         });
     for (SimplifiedLevel& level : chain) detail::report_removed_components(mesh, level.result);
     return chain;

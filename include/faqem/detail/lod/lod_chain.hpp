@@ -45,22 +45,17 @@ struct Attempt : Result {
 template <class Out, class Run, class Measure>
 class LodChain {
 public:
-    LodChain(std::span<const LevelTarget> level_targets, const Options& options, std::uint64_t faces,
-             Run& run, Measure& measure)
+    LodChain(std::span<const LevelTarget> level_targets, const Options& options, const RunContext& context,
+             std::uint64_t faces, Run& run, Measure& measure)
         : level_targets_(level_targets),
           options_(options),
+          context_(context),
           faces_(faces),
           run_(run),
           measure_(measure),
           steps_(1 +
                  static_cast<double>(std::count_if(level_targets.begin(), level_targets.end(), is_distance))),
-          out_(level_targets.size()) {
-        if (!options.progress) return;
-        options_.progress = [this, report = options.progress](Phase phase, double fraction) {
-            const double done = phase == Phase::simplify ? fraction : 0;
-            return report(Phase::simplify, (steps_done_ + done) / steps_);
-        };
-    }
+          out_(level_targets.size()) {}
 
     std::vector<Out> simplify() {
         for (std::size_t i = 0; i < level_targets_.size(); ++i) {
@@ -94,16 +89,16 @@ private:
         Options search = options_;
         search.max_error = model_units(level_targets_[i].allowed);
         auto found = search_within_error<Attempt<Result>>(
-            search, most, level_targets_[i].allowed,
-            [&](const Options& tried) {
+            search, next_step(), most, level_targets_[i].allowed,
+            [&](const Options& tried, const RunContext& of_run) {
                 const std::uint64_t target = target_face_count(tried.target, static_cast<double>(most));
                 targets_.push_back(target);
-                Attempt<Result> attempt{std::move(run_(targets_, tried).back()), target};
+                Attempt<Result> attempt{std::move(run_(targets_, tried, of_run).back()), target};
                 targets_.pop_back();
                 return attempt;
             },
-            [&](const Result& result, MeasureMode mode, CancellationCheck check_cancelled) {
-                return measure_(result, level_targets_[i].allowed, mode, check_cancelled);
+            [&](const Result& result, MeasureMode mode, const RunContext& of_measurement) {
+                return measure_(result, level_targets_[i].allowed, mode, of_measurement);
             });
         targets_.push_back(found.target);
         out_[i].result = std::move(found);
@@ -118,12 +113,8 @@ private:
     // Produces the levels whose targets are face counts. Returns false if cancelled: the last one of out_.
     bool simplify_to_face_counts() {
         if (std::all_of(level_targets_.begin(), level_targets_.end(), is_distance)) return true;
-        Options half = options_;
-        if (options_.progress)
-            half.progress = [&](Phase phase, double fraction) {
-                return options_.progress(phase, fraction / 2);
-            };
-        std::vector<Result> results = run_(targets_, half);
+        const RunContext last = next_step();
+        std::vector<Result> results = run_(targets_, options_, last.step(Phase::simplify, 0, 0.5));
         const bool is_complete = results.empty() || results.back().report.stop != StopReason::cancelled;
         out_.resize(results.size());
         for (std::size_t i = 0; i < out_.size(); ++i) {
@@ -134,13 +125,14 @@ private:
 
     // Measures the levels whose targets are face counts, and makes the errors ascend.
     void measure_levels() {
+        const RunContext last = next_step();
         double largest = 0;
         for (std::size_t i = 0; i < out_.size(); ++i) {
-            const bool is_measured = !level_targets_[i].faces || measure(i);
+            last.show(Phase::simplify, progress_at(i));
+            const bool is_measured = !level_targets_[i].faces || measure(i, last);
             largest = out_[i].error = std::max(out_[i].error, largest);
-            if (!is_measured ||
-                (options_.progress &&
-                 options_.progress(Phase::simplify, progress_at(i + 1)) == Continue::cancel)) {
+            last.show(Phase::simplify, progress_at(i + 1));
+            if (!is_measured || last.ask() == Continue::cancel) {
                 out_[i].result.report.stop = StopReason::cancelled;
                 out_.resize(i + 1);
             }
@@ -148,11 +140,10 @@ private:
     }
 
     // Measures level i. Returns false if cancelled.
-    bool measure(std::size_t i) {
+    bool measure(std::size_t i, const RunContext& context) {
         try {
-            const MeasurementMonitor monitor(options_, progress_at(i));
-            const MeasuredDistance found = measure_(out_[i].result, level_targets_[i].allowed,
-                                                    MeasureMode::full, monitor.cancellation_check());
+            const MeasuredDistance found =
+                measure_(out_[i].result, level_targets_[i].allowed, MeasureMode::full, context);
             out_[i].distance = found.value;
             out_[i].error = found.bound;
             return true;
@@ -161,13 +152,18 @@ private:
         }
     }
 
+    RunContext next_step() const {
+        return context_.step(Phase::simplify, steps_done_ / steps_, (steps_done_ + 1) / steps_);
+    }
+
     // Progress of the last step once this number of levels is measured.
     double progress_at(std::size_t levels) const {
         return 0.5 + 0.5 * static_cast<double>(levels) / static_cast<double>(out_.size());
     }
 
     std::span<const LevelTarget> level_targets_;
-    Options options_;
+    const Options& options_;
+    const RunContext& context_;
     std::uint64_t faces_;
     Run& run_;
     Measure& measure_;
@@ -181,17 +177,18 @@ private:
 /// converted to face counts by a search each; then one run produces all levels.
 /// \tparam Out           a type with the members of SimplifiedLevel
 /// \param level_targets  as returned by level_targets()
-/// \param options        options of the runs; progress covers all runs and measurements
+/// \param options        options of the runs
+/// \param context        its progress covers all runs and measurements
 /// \param faces          number of faces of the original
-/// \param run            (targets, Options) -> results, as run_to_targets()
-/// \param measure        (Result, allowed, MeasureMode, CancellationCheck) -> MeasuredDistance
+/// \param run            (targets, Options, RunContext) -> results, as run_to_targets()
+/// \param measure        (Result, allowed, MeasureMode, RunContext) -> MeasuredDistance
 /// \return one element per level; fewer if cancelled, the last one with StopReason::cancelled
 /// \throws whatever `run`, `measure` or the progress callback throws, except Cancelled
 template <class Out, class Run, class Measure>
 std::vector<Out> run_lod_chain(std::span<const LevelTarget> level_targets, const Options& options,
-                               std::uint64_t faces, Run&& run, Measure&& measure) {
+                               const RunContext& context, std::uint64_t faces, Run&& run, Measure&& measure) {
     LodChain<Out, std::remove_reference_t<Run>, std::remove_reference_t<Measure>> chain(
-        level_targets, options, faces, run, measure);
+        level_targets, options, context, faces, run, measure);
     return chain.simplify();
 }
 

@@ -11,10 +11,10 @@ namespace detail {
 using engine::to_eigen;
 
 FAQEM_INLINE ClosestPointMap::ClosestPointMap(const CollapseHistory& history,
-                                              engine::CancellationCheck check_cancelled)
+                                              const engine::RunContext& context)
     : history_(history),
       replay_(replay_vertices(history)),
-      tree_(history.positions, history.triangles, check_cancelled) {}
+      tree_(history.positions, history.triangles, context) {}
 
 FAQEM_INLINE SurfacePoint ClosestPointMap::to_surface_point(const Bvh::Hit& hit, Index face,
                                                             const Vec3& barycentric) const {

@@ -4,7 +4,7 @@
 
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/mapping/replay.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
 #include "faqem/surface_map.hpp"
@@ -17,9 +17,9 @@ namespace detail {
 class ClosestPointMap {
 public:
     /// \param history  valid; must outlive this object
-    /// \throws whatever `check_cancelled` throws
+    /// \throws whatever `context` throws
     /// O(n log n) in the faces of the original, plus O(size of the history)
-    explicit ClosestPointMap(const CollapseHistory& history, engine::CancellationCheck check_cancelled = {});
+    explicit ClosestPointMap(const CollapseHistory& history, const engine::RunContext& context = {});
 
     /// Maps one point. If several faces are equally close, the result is the one with the smallest index.
     /// \param face         face of the simplified mesh

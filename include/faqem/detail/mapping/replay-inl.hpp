@@ -189,11 +189,11 @@ FAQEM_INLINE ReplayTables replay_patches(const CollapseHistory& history) {
 }
 
 FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<const Index> surface_patches,
-                                   Workers workers, ReplayTables& replay) {
+                                   const RunContext& context, ReplayTables& replay) {
     replay.bounds.resize(replay.corners.size());
     replay.patch_component.resize(replay.corners.size());
     replay.mean_edge.resize(history.patch_count());
-    parallel_blocks(history.patch_count(), 1024, workers, [&](std::size_t first, std::size_t last) {
+    parallel_blocks(history.patch_count(), 1024, context, [&](std::size_t first, std::size_t last) {
         ComponentLabeller component_labeller;
         for (std::size_t k = first; k < last; ++k) {
             const std::uint64_t begin = replay.first_entry(history, k),

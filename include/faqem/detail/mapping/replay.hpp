@@ -83,8 +83,8 @@ ReplayTables replay_patches(const CollapseHistory& history);
 /// \param surface_patches  per face of the original: number of its surface patch
 /// \param replay           result of replay_patches(history), to which the tables are added
 /// O(n log n) in the entries
-void describe_patches(const CollapseHistory& history, std::span<const Index> surface_patches, Workers workers,
-                      ReplayTables& replay);
+void describe_patches(const CollapseHistory& history, std::span<const Index> surface_patches,
+                      const RunContext& context, ReplayTables& replay);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

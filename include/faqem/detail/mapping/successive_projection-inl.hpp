@@ -79,19 +79,20 @@ struct SuccessiveProjection::Patch {
 };
 
 FAQEM_INLINE SuccessiveProjection::SuccessiveProjection(const CollapseHistory& history,
-                                                        std::span<const Triangle> unwelded, Workers workers)
+                                                        std::span<const Triangle> unwelded,
+                                                        const RunContext& context)
     : history_(history) {
     // The tree and the surface patches do not need each other. The largest tables come after the tree, whose
     // construction needs temporary memory.
-    parallel_blocks(2, 1, workers, [&](std::size_t step, std::size_t, CancellationCheck check_cancelled) {
+    parallel_blocks(2, 1, context, [&](std::size_t step, std::size_t, const RunContext& block_context) {
         if (step == 0)
-            tree_ = Bvh(history.positions, history.triangles, check_cancelled);
+            tree_ = Bvh(history.positions, history.triangles, block_context);
         else
             surface_patches_ = find_surface_patches(history.positions, history.triangles, unwelded);
     });
     replay_ = replay_patches(history);
     last_ = final_versions(history);
-    describe_patches(history, surface_patches_.surface_patch, workers, replay_);
+    describe_patches(history, surface_patches_.surface_patch, context, replay_);
 }
 
 FAQEM_INLINE SuccessiveProjection::Query SuccessiveProjection::make_query(Index face,

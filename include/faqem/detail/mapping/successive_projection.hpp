@@ -46,11 +46,11 @@ class SuccessiveProjection {
 public:
     /// \param history   valid; must outlive this object
     /// \param unwelded  see find_surface_patches()
-    /// \param workers   number of threads and cancellation check of the construction
-    /// \throws whatever `workers.check_cancelled` throws
+    /// \param context   of the construction
+    /// \throws whatever `context` throws
     /// O(n log n) in the faces of the original, plus O(size of the history)
     explicit SuccessiveProjection(const CollapseHistory& history, std::span<const Triangle> unwelded = {},
-                                  Workers workers = {});
+                                  const RunContext& context = {});
 
     /// Maps one point.
     /// \param face         face of the simplified mesh

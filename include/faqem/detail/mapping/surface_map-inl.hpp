@@ -24,17 +24,18 @@ FAQEM_INLINE SurfaceMap::SurfaceMap(const CollapseHistory& history, Mapping mapp
 FAQEM_INLINE SurfaceMap::SurfaceMap(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
 FAQEM_INLINE SurfaceMap detail::make_surface_map(const CollapseHistory& history, Mapping mapping,
-                                                 std::span<const Triangle> unwelded, const Workers& workers) {
+                                                 std::span<const Triangle> unwelded,
+                                                 const RunContext& context) {
     auto impl = std::make_unique<SurfaceMap::Impl>();
     switch (mapping) {
         case Mapping::projection:
-            impl->map = std::make_unique<const detail::SuccessiveProjection>(history, unwelded, workers);
+            impl->map = std::make_unique<const detail::SuccessiveProjection>(history, unwelded, context);
             break;
         case Mapping::lineage:
             impl->map = std::make_unique<const detail::LineageMap>(history);
             break;
         case Mapping::closest:
-            impl->map = std::make_unique<const detail::ClosestPointMap>(history, workers.check_cancelled);
+            impl->map = std::make_unique<const detail::ClosestPointMap>(history, context);
             break;
     }
     return SurfaceMap(std::move(impl));

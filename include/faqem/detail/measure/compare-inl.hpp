@@ -41,12 +41,11 @@ std::vector<DistanceSums> sum_blocks(std::uint64_t size, std::uint32_t threads, 
     return sums;
 }
 
-inline detail::SearchLimits search_limits(double tolerance, double diagonal, std::uint32_t threads) {
+inline detail::SearchLimits search_limits(double tolerance, double diagonal) {
     if (!(tolerance >= 0)) throw OptionError("tolerance must be >= 0");
     return {.tolerance = tolerance,
             .absolute_tolerance = detail::min_relative_gap * diagonal,
-            .max_pieces = HausdorffOptions{}.max_pieces,
-            .workers = threads};
+            .max_pieces = HausdorffOptions{}.max_pieces};
 }
 
 inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree,
@@ -75,7 +74,7 @@ inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tre
     }
     const detail::HausdorffBounds most = detail::one_sided_hausdorff(
         from, to, tree, detail::nearest_faces_of_vertices(from, to, tree, options.threads),
-        std::sqrt(total.max_squared), limits);
+        std::sqrt(total.max_squared), limits, options.threads);
     const double n = static_cast<double>(std::max<std::uint64_t>(options.samples, 1));
     return {.max = most.value,
             .max_bound = most.bound,
@@ -91,8 +90,7 @@ FAQEM_INLINE Comparison compare(const MeshView& a, const MeshView& b, const Comp
                           sb = detail::extract_nonempty_surface(b, "second mesh");
     Comparison result;
     result.diagonal = sa.diagonal();
-    const detail::SearchLimits limits =
-        detail::search_limits(options.tolerance, result.diagonal, options.threads);
+    const detail::SearchLimits limits = detail::search_limits(options.tolerance, result.diagonal);
     const detail::Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
     const double tie = detail::normal_tie_tolerance * result.diagonal;
     result.a_to_b = detail::one_sided(sa, sb, tb, options, 2 * options.seed, tie, limits);
@@ -107,12 +105,12 @@ FAQEM_INLINE Comparison compare(const MeshView& a, const MeshView& b, const Comp
 FAQEM_INLINE DistanceBound hausdorff(const MeshView& a, const MeshView& b, const HausdorffOptions& options) {
     const detail::Surface sa = detail::extract_nonempty_surface(a, "first mesh"),
                           sb = detail::extract_nonempty_surface(b, "second mesh");
-    detail::SearchLimits limits = detail::search_limits(options.tolerance, sa.diagonal(), options.threads);
+    detail::SearchLimits limits = detail::search_limits(options.tolerance, sa.diagonal());
     limits.stop_above = options.stop_above;
     limits.stop_below = options.stop_below;
     limits.max_pieces = options.max_pieces;
     const detail::Bvh ta(sa.positions, sa.triangles), tb(sb.positions, sb.triangles);
-    const detail::HausdorffBounds most = detail::two_sided_hausdorff(sa, ta, sb, tb, limits);
+    const detail::HausdorffBounds most = detail::two_sided_hausdorff(sa, ta, sb, tb, limits, options.threads);
     return {most.value, most.bound, most.pieces};
 }
 

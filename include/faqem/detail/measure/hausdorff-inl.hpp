@@ -241,7 +241,7 @@ private:
 };
 
 FAQEM_INLINE std::vector<NearestFace> nearest_faces_of_vertices(const Surface& from, const Surface& to,
-                                                                const Bvh& tree, Workers workers,
+                                                                const Bvh& tree, const RunContext& context,
                                                                 double stop_above) {
     const std::size_t size = from.positions.size();
     std::vector<NearestFace> result;
@@ -250,7 +250,7 @@ FAQEM_INLINE std::vector<NearestFace> nearest_faces_of_vertices(const Surface& f
     while (result.size() < size) {
         const std::size_t first = result.size();
         result.resize(std::min(size, first + interval));
-        parallel_blocks(result.size() - first, vertex_block, workers,
+        parallel_blocks(result.size() - first, vertex_block, context,
                         [&](std::size_t begin, std::size_t end) {
                             CoherentQuery query(to, tree);
                             for (std::size_t i = first + begin; i < first + end; ++i) {
@@ -267,7 +267,7 @@ FAQEM_INLINE std::vector<NearestFace> nearest_faces_of_vertices(const Surface& f
 
 FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surface& to, const Bvh& tree,
                                                  const std::vector<NearestFace>& at_vertices, double known,
-                                                 const SearchLimits& limits) {
+                                                 const SearchLimits& limits, const RunContext& context) {
     double value_squared = known * known, closed_squared = 0;
     for (const NearestFace& n : at_vertices) value_squared = std::max(value_squared, n.distance_squared);
 
@@ -287,11 +287,10 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
     const bool refine = std::isfinite(limits.tolerance);
     std::vector<Found> blocks((from.triangles.size() + face_block - 1) / face_block);
     const double enough_at_first = refine ? enough() : 0;
-    parallel_blocks(from.triangles.size(), face_block, limits.workers,
-                    [&](std::size_t begin, std::size_t end) {
-                        bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end,
-                                    blocks[begin / face_block]);
-                    });
+    parallel_blocks(from.triangles.size(), face_block, context, [&](std::size_t begin, std::size_t end) {
+        bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end,
+                    blocks[begin / face_block]);
+    });
     join(blocks);
 
     HausdorffBounds result;
@@ -303,7 +302,7 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
         while (needs_work() && batch.size() < batch_size) batch.push_back(open.pop());
         const double enough_now = enough();
         blocks.resize((batch.size() + piece_block - 1) / piece_block);
-        parallel_blocks(batch.size(), piece_block, limits.workers, [&](std::size_t begin, std::size_t end) {
+        parallel_blocks(batch.size(), piece_block, context, [&](std::size_t begin, std::size_t end) {
             CoherentQuery query(to, tree);
             for (std::size_t i = begin; i < end; ++i) {
                 split(to, query, batch[i], enough_now, blocks[begin / piece_block]);
@@ -319,23 +318,24 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
 }
 
 FAQEM_INLINE HausdorffBounds two_sided_hausdorff(const Surface& a, const Bvh& tree_a, const Surface& b,
-                                                 const Bvh& tree_b, const SearchLimits& limits) {
+                                                 const Bvh& tree_b, const SearchLimits& limits,
+                                                 const RunContext& context) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     const auto largest = [](const std::vector<NearestFace>& nearest, double value) {
         for (const NearestFace& n : nearest) value = std::max(value, std::sqrt(n.distance_squared));
         return value;
     };
-    const auto there = nearest_faces_of_vertices(a, b, tree_b, limits.workers, limits.stop_above);
+    const auto there = nearest_faces_of_vertices(a, b, tree_b, context, limits.stop_above);
     double value = largest(there, 0);
     if (value > limits.stop_above) return {value, unknown, 0};
-    const auto back = nearest_faces_of_vertices(b, a, tree_a, limits.workers, limits.stop_above);
+    const auto back = nearest_faces_of_vertices(b, a, tree_a, context, limits.stop_above);
     value = largest(back, value);
     if (value > limits.stop_above) return {value, unknown, 0};
 
     // The value of the first direction is a lower bound for the second.
-    const HausdorffBounds first = one_sided_hausdorff(a, b, tree_b, there, value, limits);
+    const HausdorffBounds first = one_sided_hausdorff(a, b, tree_b, there, value, limits, context);
     if (first.value > limits.stop_above) return {first.value, unknown, first.pieces};
-    const HausdorffBounds second = one_sided_hausdorff(b, a, tree_a, back, first.value, limits);
+    const HausdorffBounds second = one_sided_hausdorff(b, a, tree_a, back, first.value, limits, context);
     return {second.value, std::max(first.bound, second.bound), first.pieces + second.pieces};
 }
 

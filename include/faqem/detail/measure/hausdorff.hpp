@@ -21,12 +21,11 @@ struct NearestFace {
 
 /// For each position of `from`, finds the closest face of `to`.
 /// \param tree        the tree of `to`, which must not be empty
-/// \param workers     number of threads and cancellation check
 /// \param stop_above  the search ends early, with fewer entries, soon after a distance above this is found;
 ///                    the number of entries does not depend on the number of threads. In model units.
 /// O(positions log faces) typically
 std::vector<NearestFace> nearest_faces_of_vertices(
-    const Surface& from, const Surface& to, const Bvh& tree, Workers workers,
+    const Surface& from, const Surface& to, const Bvh& tree, const RunContext& context,
     double stop_above = std::numeric_limits<double>::infinity());
 
 /// Absolute tolerance as a fraction of the diagonal. It lets the search end for identical meshes.
@@ -39,7 +38,6 @@ struct SearchLimits {
     double stop_above = std::numeric_limits<double>::infinity();  ///< stop when the value exceeds this
     double stop_below = 0;                                        ///< stop when the bound is at most this
     std::uint64_t max_pieces = 0;  ///< maximum number of pieces of faces to evaluate
-    Workers workers = {};
 };
 
 /// Lower and upper bound of a distance, in model units: value <= distance <= bound, up to rounding.
@@ -60,20 +58,20 @@ struct HausdorffBounds {
 /// \param at_vertices  complete result of nearest_faces_of_vertices(from, to)
 /// \param known        distance of some point of `from`, or 0; a lower bound of the result
 /// \param limits       termination criteria
-/// \throws whatever the cancellation check of `limits.workers` throws
+/// \throws whatever `context` throws
 /// O((faces + pieces) log faces) typically; 150 bytes per open piece
 HausdorffBounds one_sided_hausdorff(const Surface& from, const Surface& to, const Bvh& tree,
                                     const std::vector<NearestFace>& at_vertices, double known,
-                                    const SearchLimits& limits);
+                                    const SearchLimits& limits, const RunContext& context = {});
 
 /// Computes the two-sided Hausdorff distance, the larger one of both directions. If the value exceeds
 /// limits.stop_above, the bound may be infinite.
 /// \param a,b            surfaces, not empty
 /// \param tree_a,tree_b  their trees
-/// \throws whatever the cancellation check of `limits.workers` throws
+/// \throws whatever `context` throws
 /// O((vertices + faces + pieces) log faces) typically
 HausdorffBounds two_sided_hausdorff(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
-                                    const SearchLimits& limits);
+                                    const SearchLimits& limits, const RunContext& context = {});
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -20,8 +20,8 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::CancellationCheck;
 using engine::CollapseMesh;
+using engine::RunContext;
 using engine::Vector3;
 
 // Part of the whole surface's share that a block keeps. Of the surplus of collapses the most expensive ones
@@ -175,48 +175,6 @@ private:
     std::size_t before_ = 0;
 };
 
-/// Progress of all blocks. The user's callback is called on the calling thread only; other threads use their
-/// cancellation check.
-class SharedProgress {
-public:
-    /// \param all  number of faces to remove in all blocks
-    SharedProgress(const engine::LoopOptions& loop, std::size_t all) : loop_(loop), all_(all) {}
-
-    /// \param removed  number of faces that the block has removed
-    /// \param known    the value of `removed` at the last call for this block; updated
-    /// \throws whatever `check_cancelled` and the callback throw
-    Continue operator()(std::size_t removed, std::size_t& known, CancellationCheck check_cancelled) {
-        removed_ += removed - std::exchange(known, removed);
-        if (std::this_thread::get_id() != caller_)
-            check_cancelled.now();
-        else if (loop_.progress && !is_cancelled_)
-            ask();
-        return is_cancelled_ ? Continue::cancel : Continue::yes;
-    }
-    bool is_cancelled() const { return is_cancelled_; }
-
-private:
-    void ask() {
-        struct CancelOnThrow {
-            ~CancelOnThrow() {
-                if (!answered) cancelled = true;
-            }
-            std::atomic<bool>& cancelled;
-            bool answered = false;
-        } guard{is_cancelled_};
-        const double share =
-            static_cast<double>(removed_) / static_cast<double>(std::max<std::size_t>(all_, 1));
-        const Continue answer = loop_.progress(std::min(share, 1.0));
-        guard.answered = answer == Continue::yes;
-    }
-
-    const engine::LoopOptions& loop_;
-    std::size_t all_;
-    std::thread::id caller_ = std::this_thread::get_id();
-    std::atomic<std::size_t> removed_{0};
-    std::atomic<bool> is_cancelled_{false};
-};
-
 /// One per original vertex: nonzero if its distance is tracked.
 inline std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking) {
     const bool all = tracking.watched == Watched::borders_and_surface;
@@ -247,9 +205,11 @@ inline engine::TrackedVertices tracked_vertices(std::span<const Index> watched,
 }
 
 /// Simplifies one block with an engine of its own.
+/// \param removed  faces that all blocks have removed, of `removable`
 template <class Metric>
 BlockResult simplify_block(Block& block, Metric metric, const engine::LoopOptions& loop, double share,
-                           Recording patches, SharedProgress& progress, CancellationCheck check_cancelled) {
+                           Recording patches, std::atomic<std::size_t>& removed, std::size_t removable,
+                           const RunContext& context) {
     BlockResult result;
     CollapseMesh mesh(block.positions, block.triangles);
     block.forget_surface();
@@ -260,15 +220,21 @@ BlockResult simplify_block(Block& block, Metric metric, const engine::LoopOption
     const std::size_t to_remove = mesh.face_count() - std::min(options.target_faces, mesh.face_count());
     StepRecorder recorder(block, patches, to_remove, result);
     std::size_t known = 0;
+    // Other threads than the calling one show it to nobody.
+    const auto show = [&](std::size_t removed_here) {
+        removed += removed_here - std::exchange(known, removed_here);
+        context.show(Phase::simplify, static_cast<double>(removed) / static_cast<double>(removable));
+    };
     options.progress = [&](double fraction) {
-        return progress(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)), known,
-                        check_cancelled);
+        show(static_cast<std::size_t>(fraction * static_cast<double>(to_remove)));
+        return context.ask();
     };
     engine::Engine<Metric, engine::SweepQueue, StepRecorder> engine(mesh, pairs, wedges, block.locked, metric,
                                                                     recorder);
     result.loop_result = engine.run(options);
+    if (result.loop_result.stop == StopReason::cancelled) throw engine::Cancelled{};
     recorder.end_step(mesh);
-    progress(to_remove, known, check_cancelled);
+    show(to_remove);
     return result;
 }
 
@@ -357,7 +323,7 @@ FAQEM_INLINE engine::LoopOptions block_options(const engine::LoopOptions& loop, 
 
 FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop,
                                            std::size_t least, const BlockTracking* tracking,
-                                           Recording patches, Workers workers) {
+                                           Recording patches, const RunContext& context) {
     BlockSteps result;
     if (input.positions.size() <= 2 * input.per_block) return result;
     const std::size_t faces = input.triangles.size();
@@ -367,27 +333,33 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
     if (!(kept_share < max_kept_share)) return result;
     const auto removable = static_cast<std::size_t>((1 - kept_share) * static_cast<double>(faces));
     const Buckets<Index> block_faces = faces_by_block(input);
-    SharedProgress progress(loop, removable);
     const Buckets<Index> watched = tracking ? watched_by_block(input, *tracking) : Buckets<Index>();
     std::vector<BlockResult> results(input.block_count());
-    parallel_blocks(
-        results.size(), 1, workers, [&](std::size_t b, std::size_t, CancellationCheck check_cancelled) {
-            if (progress.is_cancelled() || engine::is_over(loop.deadline)) return;
-            Block block(input, b, block_faces[b]);
-            const auto simplify = [&](auto metric) {
-                return simplify_block(block, std::move(metric), loop, share, patches, progress,
-                                      check_cancelled);
-            };
-            if (!tracking) {
-                results[b] = simplify(engine::MemorylessMetric());
-                return;
-            }
-            const std::size_t begin_at = tracking->watched == Watched::borders ? 0 : block.triangles.size();
-            results[b] = simplify(engine::TrackedMetric(
-                {}, tracking->original, tracked_vertices(watched[b], tracking->vertex_map, block), begin_at,
-                loop.distance_weight));
-        });
-    result.is_cancelled = progress.is_cancelled();
+    std::atomic<std::size_t> removed{0};
+    const RunContext untimed = context.untimed();
+    try {
+        parallel_blocks(
+            results.size(), 1, untimed, [&](std::size_t b, std::size_t, const RunContext& block_context) {
+                if (context.is_late()) return;
+                Block block(input, b, block_faces[b]);
+                const auto simplify = [&](auto metric) {
+                    return simplify_block(block, std::move(metric), loop, share, patches, removed, removable,
+                                          block_context);
+                };
+                if (!tracking) {
+                    results[b] = simplify(engine::MemorylessMetric());
+                    return;
+                }
+                const std::size_t begin_at =
+                    tracking->watched == Watched::borders ? 0 : block.triangles.size();
+                results[b] = simplify(engine::TrackedMetric(
+                    {}, tracking->original, tracked_vertices(watched[b], tracking->vertex_map, block),
+                    begin_at, loop.distance_weight));
+            });
+    } catch (const engine::Cancelled&) {
+        result.is_cancelled = true;
+        return result;
+    }
     const StepSelection kept = select_steps(results, removable);
     std::size_t steps = 0, patch_faces = 0;
     for (const BlockResult& block : results) {

@@ -94,18 +94,17 @@ struct BlockInput {
 /// the highest costs are discarded in all blocks, so that the whole surface keeps the requested number of
 /// faces and all blocks are simplified up to the same cost.
 /// \param input     the surface
-/// \param loop      options for the whole surface; `progress` is called on the calling thread with the share
-///                  of this function
+/// \param loop      options for the whole surface; `progress` is not used
 /// \param least     number of faces that are kept at least; the interior of the blocks keeps the share
 ///                  spare_share * least / faces
 /// \param tracking  null: the memoryless metric is used; otherwise the tracked metric
 /// \param patches   whether patch_faces and patch_begin are filled
-/// \param workers   the result does not depend on the number of threads
+/// \param context   reports Phase::simplify; the result does not depend on the number of threads
 /// \return no steps if there are at most two blocks, or if less than a quarter of the faces could be removed
-/// \throws whatever `loop.progress` and `workers.check_cancelled` throw
+/// \throws whatever the progress callback throws
 /// Complexity: O(n log n) time, distributed over the threads; O(n) memory
 BlockSteps simplify_in_blocks(const BlockInput& input, const engine::LoopOptions& loop, std::size_t least,
-                              const BlockTracking* tracking, Recording patches, Workers workers);
+                              const BlockTracking* tracking, Recording patches, const RunContext& context);
 
 /// Applies the steps and compacts the result.
 /// Complexity: O(n)

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 #include "faqem/option_types.hpp"
@@ -36,11 +37,12 @@ inline constexpr double flat_distance = 3e-5;
 /// Simplifies a copy of the mesh with preset fast as far as its locks and seams permit, and records the
 /// costs. Defined in run-inl.hpp.
 /// \param mesh     see simplify(); read only during the call
-/// \param options  of the run; preset, weights, target, max_error and history are ignored
+/// \param options  of the run; preset, weights, target, max_error and history are ignored, and what is in `context`
 /// \throws OptionError, InputError  as simplify()
 /// \throws whatever the progress callback throws
 /// Complexity: O(n log n)
-FAQEM_EXPORT CostCurve cost_curve(const MeshView& mesh, const Options& options);
+FAQEM_EXPORT CostCurve cost_curve(const MeshView& mesh, const Options& options,
+                                  const engine::RunContext& context);
 
 /// Whether a mesh can be simplified to a number of faces by flat collapses alone.
 FAQEM_EXPORT bool is_flat_down_to(const CostCurve& curve, std::uint64_t faces);

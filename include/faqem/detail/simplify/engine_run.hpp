@@ -21,7 +21,7 @@
 #include "faqem/engine/queue/heap_queue.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -30,8 +30,8 @@ namespace detail {
 // Up to this number of pairs the queue returns the exact minimum.
 inline constexpr std::size_t max_exact_pairs = 1 << 17;
 
-using engine::CancellationCheck;
 using engine::CollapseMesh;
+using engine::RunContext;
 
 // The data that one engine works on, indexed by slots.
 struct EngineInput {
@@ -64,7 +64,7 @@ inline std::vector<double> vertex_importance(const MeshView& mesh, const Preproc
 // hold a lower target, continues to that target.
 inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs, const Settings& settings,
                                      RunRecorder& recorder, const engine::LoopOptions& loop,
-                                     const RunState& state, CancellationCheck check_cancelled,
+                                     const RunState& state, const RunContext& context,
                                      const std::function<bool(const engine::LoopResult&)>& should_continue) {
     engine::FeatureCurves* curves = work.curves.empty() ? nullptr : &work.curves;
     const auto collapse = [&]<class Queue>(auto metric, Queue queue) {
@@ -90,7 +90,7 @@ inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs
             break;
     }
     return weighted(engine::TrackedMetric({}, *state.original(), engine::TrackedVertices(state.vertex_map()),
-                                          loop.target_faces, loop.distance_weight, curves, check_cancelled),
+                                          loop.target_faces, loop.distance_weight, curves, context),
                     engine::SweepQueue(max_exact_pairs));
 }
 

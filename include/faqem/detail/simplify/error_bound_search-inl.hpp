@@ -15,23 +15,22 @@ FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 FAQEM_INLINE DistanceReference::DistanceReference(const MeshView& mesh, const Options& options,
-                                                  CancellationCheck check_cancelled)
-    : surface_(extract_surface({mesh.positions, unpruned_triangles(mesh, options, check_cancelled)})),
-      tree_(surface_.positions, surface_.triangles, check_cancelled) {}
+                                                  const RunContext& context)
+    : surface_(extract_surface({mesh.positions, unpruned_triangles(mesh, options, context)})),
+      tree_(surface_.positions, surface_.triangles, context) {}
 
 FAQEM_INLINE MeasuredDistance DistanceReference::distance(const MeshView& result, double allowed,
-                                                          MeasureMode mode, Workers workers) const {
+                                                          MeasureMode mode, const RunContext& context) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (surface_.triangles.empty()) return {};
     const Surface simplified = extract_surface(result);
     if (simplified.triangles.empty()) return {infinity, infinity};
-    const Bvh tree(simplified.positions, simplified.triangles, workers.check_cancelled);
+    const Bvh tree(simplified.positions, simplified.triangles, context);
     SearchLimits limits{.absolute_tolerance = min_relative_gap * surface_.diagonal(),
-                        .max_pieces = HausdorffOptions{}.max_pieces,
-                        .workers = workers};
+                        .max_pieces = HausdorffOptions{}.max_pieces};
     MeasuredDistance found{0, infinity};
     const auto search = [&] {
-        const HausdorffBounds most = two_sided_hausdorff(surface_, tree_, simplified, tree, limits);
+        const HausdorffBounds most = two_sided_hausdorff(surface_, tree_, simplified, tree, limits, context);
         found.value = std::max(found.value, most.value);
         found.bound = std::min(found.bound, most.bound);
     };
@@ -48,7 +47,7 @@ FAQEM_INLINE MeasuredDistance DistanceReference::distance(const MeshView& result
 
 FAQEM_INLINE MeasuredDistance distance(const DistanceReference& original, const SimplifyResult& result,
                                        double allowed, MeasureMode mode, const Options& options,
-                                       CancellationCheck check_cancelled) {
+                                       const RunContext& context) {
     const Report& report = result.report;
     const Settings exact = settings(options);
     const bool exact_weld = exact.weld == Weld::none || exact.weld_distance == 0;
@@ -56,7 +55,7 @@ FAQEM_INLINE MeasuredDistance distance(const DistanceReference& original, const 
         report.vertices_fitted == 0 && report.edges_flipped == 0) {
         return {};
     }
-    return original.distance(result.mesh.view(), allowed, mode, {options.threads, check_cancelled});
+    return original.distance(result.mesh.view(), allowed, mode, context);
 }
 
 FAQEM_INLINE double unpruned_diagonal(const MeshView& mesh, const Options& options,
@@ -65,17 +64,17 @@ FAQEM_INLINE double unpruned_diagonal(const MeshView& mesh, const Options& optio
 }
 
 FAQEM_INLINE SimplifyResult
-simplify_within_error(const MeshView& mesh, const Options& options,
-                      const std::function<SimplifyResult(const Options&)>& run) try {
-    const MeasurementMonitor monitor(options, 0);
-    const DistanceReference original(mesh, options, monitor.cancellation_check());
+simplify_within_error(const MeshView& mesh, const Options& options, const RunContext& context,
+                      const std::function<SimplifyResult(const Options&, const RunContext&)>& run) try {
+    context.show(Phase::simplify, 0);
+    const DistanceReference original(mesh, options, context.untimed());
     const MaxError& error = *options.max_error;
     const double unit = error.unit == MaxError::Unit::model ? 1 : unpruned_diagonal(mesh, options, original);
     const double allowed = error.value * unit;
     return search_within_error<SimplifyResult>(
-        options, mesh.triangles.size(), allowed, run,
-        [&](const SimplifyResult& result, MeasureMode mode, CancellationCheck check_cancelled) {
-            return distance(original, result, allowed, mode, options, check_cancelled);
+        options, context, mesh.triangles.size(), allowed, run,
+        [&](const SimplifyResult& result, MeasureMode mode, const RunContext& of_measurement) {
+            return distance(original, result, allowed, mode, options, of_measurement);
         });
 } catch (const engine::Cancelled&) {
     return cancelled_result<SimplifyResult>();

@@ -12,7 +12,6 @@
 
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/detail/simplify/face_count_search.hpp"
@@ -41,13 +40,13 @@ enum class MeasureMode {
 /// The original surface, to measure several results against. Immutable; owns its data.
 class FAQEM_EXPORT DistanceReference {
 public:
-    /// \param mesh             the original; read only during the call
-    /// \param options          of the runs: faces removed by Topology::prune are left out
-    /// \param check_cancelled  called between the steps; exceptions pass through
+    /// \param mesh     the original; read only during the call
+    /// \param options  of the runs: faces removed by Topology::prune are left out
+    /// \param context  checked between the steps; exceptions pass through
     /// \throws InputError  as simplify()
     /// Complexity: O(n log n)
     explicit DistanceReference(const MeshView& mesh, const Options& options = {},
-                               CancellationCheck check_cancelled = {});
+                               const RunContext& context = {});
 
     /// The faces of the original that have area.
     const Surface& surface() const { return surface_; }
@@ -57,10 +56,10 @@ public:
     /// \param result   a simplified mesh; read only during the call
     /// \param allowed  the distance to decide about, model units
     /// \param mode     accuracy
-    /// \param workers  the result does not depend on the number of threads
-    /// \throws whatever `workers.check_cancelled` throws
+    /// \param context  the result does not depend on the number of threads
+    /// \throws whatever `context` throws
     MeasuredDistance distance(const MeshView& result, double allowed, MeasureMode mode,
-                              Workers workers) const;
+                              const RunContext& context) const;
 
 private:
     Surface surface_;
@@ -69,41 +68,20 @@ private:
 
 /// The distance between a result of simplify() and the original. It is 0 without measurement if the mesh was
 /// only welded exactly, since the surface is the same then.
-/// \param original         made from the input of simplify()
-/// \param result           of simplify()
-/// \param allowed          the distance to decide about, model units
-/// \param mode             accuracy
-/// \param options          of the run; weld, prune and threads are used
-/// \param check_cancelled  called between the steps; exceptions pass through
+/// \param original  made from the input of simplify()
+/// \param result    of simplify()
+/// \param allowed   the distance to decide about, model units
+/// \param mode      accuracy
+/// \param options   of the run; weld and prune are used
+/// \param context   checked between the steps; exceptions pass through
 FAQEM_EXPORT MeasuredDistance distance(const DistanceReference& original, const SimplifyResult& result,
                                        double allowed, MeasureMode mode, const Options& options,
-                                       CancellationCheck check_cancelled = {});
+                                       const RunContext& context = {});
 
 /// Bounding-box diagonal of the whole mesh including the faces that are pruned, model units. Lengths in
 /// Length::Unit::diagonal refer to it.
 /// \param original  made from `mesh` and `options`
 double unpruned_diagonal(const MeshView& mesh, const Options& options, const DistanceReference& original);
-
-/// Calls the progress callback of the options during a measurement; does nothing if there is no callback.
-class MeasurementMonitor {
-public:
-    /// \param options   must outlive this object
-    /// \param fraction  of Phase::simplify, in [0, 1]: passed to the callback
-    /// \param deadline  when the measurement is stopped
-    MeasurementMonitor(const Options& options, double fraction, Deadline deadline = no_deadline)
-        : monitor_([&options, fraction] {
-              return options.progress ? options.progress(Phase::simplify, fraction) : Continue::yes;
-          }) {
-        monitor_.set_deadline(deadline);
-        if (options.progress || deadline != no_deadline) check_cancelled_ = CancellationCheck(monitor_);
-    }
-
-    CancellationCheck cancellation_check() const { return check_cancelled_; }
-
-private:
-    engine::ProgressMonitor monitor_;
-    CancellationCheck check_cancelled_;
-};
 
 /// An empty result with StopReason::cancelled.
 template <class Result>
@@ -117,8 +95,9 @@ Result cancelled_result() {
 /// \param run  simplifies `mesh` to the target of the options that it is given, without an error bound
 /// \pre options are valid and have max_error
 /// \throws as simplify()
-SimplifyResult simplify_within_error(const MeshView& mesh, const Options& options,
-                                     const std::function<SimplifyResult(const Options&)>& run);
+SimplifyResult simplify_within_error(
+    const MeshView& mesh, const Options& options, const RunContext& context,
+    const std::function<SimplifyResult(const Options&, const RunContext&)>& run);
 
 /// Sets stop reason, target and warnings of the report of a search.
 /// \param report           of the best result, with max_error
@@ -129,16 +108,11 @@ FAQEM_EXPORT void report_search(Report& report, std::uint64_t undecided_count);
 template <class Result, class Run, class Measure>
 class ErrorBoundSearch {
 public:
-    ErrorBoundSearch(const Options& options, std::uint64_t faces, double allowed, Run& run, Measure& measure)
-        : options_(options), run_options_(options), faces_(faces), run_(run), measure_(measure) {
+    ErrorBoundSearch(const Options& options, const RunContext& context, std::uint64_t faces, double allowed,
+                     Run& run, Measure& measure)
+        : options_(options), context_(context), faces_(faces), run_(run), measure_(measure) {
         error_.allowed = allowed;
-        run_options_.max_error.reset();
-        if (!options.progress) return;
-        // A measurement takes about as long as a run. All of them are reported as a single phase.
-        run_options_.progress = [this](Phase phase, double fraction) {
-            return options_.progress(Phase::simplify,
-                                     progress_at(phase == Phase::simplify ? fraction / 2 : 0));
-        };
+        options_.max_error.reset();
     }
 
     Result simplify() {
@@ -192,8 +166,10 @@ private:
 
     // One run and its measurement.
     Result attempt(const Target& target, MeasureMode mode) {
-        run_options_.target = target;
-        Result result = run_(with_time_left(run_options_, deadline_));
+        options_.target = target;
+        // A measurement takes about as long as a run. All of them are reported as a single phase.
+        Result result =
+            run_(std::as_const(options_), context_.step(Phase::simplify, progress_at(0), progress_at(0.5)));
         if (is_cancelled(result) || !measure(result, mode)) return result;
         undecided_count_ += distance_.undecided_count;
         cancel_if_requested(result, progress_at(1));
@@ -205,9 +181,9 @@ private:
     // final result is measured in any case.
     bool measure(Result& result, MeasureMode mode) {
         try {
-            const MeasurementMonitor monitor(options_, progress_at(0.5),
-                                             mode == MeasureMode::full ? no_deadline : deadline_);
-            distance_ = measure_(std::as_const(result), mode, monitor.cancellation_check());
+            context_.show(Phase::simplify, progress_at(0.5));
+            distance_ = mode == MeasureMode::full ? measure_(std::as_const(result), mode, context_.untimed())
+                                                  : measure_(std::as_const(result), mode, context_);
             return true;
         } catch (const engine::Cancelled& stopped) {
             result.report.stop = stopped.reason;
@@ -216,8 +192,8 @@ private:
     }
 
     void cancel_if_requested(Result& result, double progress) const {
-        if (options_.progress && options_.progress(Phase::simplify, progress) == Continue::cancel)
-            result.report.stop = StopReason::cancelled;
+        context_.show(Phase::simplify, progress);
+        if (context_.ask() == Continue::cancel) result.report.stop = StopReason::cancelled;
     }
 
     double progress_at(double of_run) const {
@@ -226,8 +202,8 @@ private:
         return (static_cast<double>(error_.runs) + of_run) / planned;
     }
 
-    const Options& options_;  // of the caller
-    Options run_options_;
+    Options options_;  // of the runs
+    const RunContext& context_;
     std::uint64_t faces_;
     Run& run_;
     Measure& measure_;
@@ -235,7 +211,6 @@ private:
     MeasuredError error_;
     MeasuredDistance distance_;  // of the last result that was measured
     std::uint64_t undecided_count_ = 0;
-    Deadline deadline_ = deadline_of(options_);
     bool is_late_ = false;  // the search ended early
 };
 
@@ -244,17 +219,17 @@ private:
 /// \param options  of the caller, with max_error
 /// \param faces    number of faces of the input
 /// \param allowed  the maximum error, in the units of `measure`
-/// \param run      Options -> Result; Result has a member `report`
-/// \param measure  (Result, MeasureMode, CancellationCheck) -> MeasuredDistance
+/// \param run      (Options, RunContext) -> Result; Result has a member `report`
+/// \param measure  (Result, MeasureMode, RunContext) -> MeasuredDistance
 /// \return the result with the fewest faces within the error; if there is none, the input with only welding
 ///         applied. Report::max_error is set unless the search was cancelled.
 /// \throws whatever `run` and `measure` throw, except engine::Cancelled from `measure`
 /// Complexity: at most FaceCountSearch::max_runs + 1 runs and measurements
 template <class Result, class Run, class Measure>
-Result search_within_error(const Options& options, std::uint64_t faces, double allowed, Run&& run,
-                           Measure&& measure) {
+Result search_within_error(const Options& options, const RunContext& context, std::uint64_t faces,
+                           double allowed, Run&& run, Measure&& measure) {
     return ErrorBoundSearch<Result, std::remove_reference_t<Run>, std::remove_reference_t<Measure>>(
-               options, faces, allowed, run, measure)
+               options, context, faces, allowed, run, measure)
         .simplify();
 }
 

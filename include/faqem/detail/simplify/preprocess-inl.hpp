@@ -19,7 +19,7 @@ namespace detail {
 
 using engine::Vector3;
 
-using engine::CancellationCheck;
+using engine::RunContext;
 inline constexpr Triangle dropped_face = {no_index, no_index, no_index};
 
 inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
@@ -210,18 +210,18 @@ FAQEM_INLINE Vec3 PreprocessedMesh::to_model(const Vector3& p) const {
 }
 
 FAQEM_INLINE PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,
-                                         CancellationCheck check_cancelled) {
+                                         const RunContext& context) {
     check_sizes(mesh);
     check_triangles(mesh);
     const std::vector<Vec3> positions = checked_positions(mesh.positions);
     PreprocessedMesh out;
-    check_cancelled.now();
+    context.check_now();
     apply_weld(mesh, positions, representatives(mesh, positions, settings), out);
-    check_cancelled.now();
+    context.check_now();
     restore_locked_positions(mesh, positions, out);
     drop_degenerate_faces(out);
     drop_duplicate_faces(mesh.face_groups, out);
-    check_cancelled.now();
+    context.check_now();
     find_scale(settings.diagonal, out);
     if (settings.prune) {
         out.pruned = prune(out.positions, welded_locks(mesh, out.welded, out.positions.size()),
@@ -231,10 +231,10 @@ FAQEM_INLINE PreprocessedMesh preprocess(const MeshView& mesh, const Settings& s
 }
 
 FAQEM_INLINE std::vector<Triangle> unpruned_triangles(const MeshView& mesh, const Options& options,
-                                                      CancellationCheck check_cancelled) {
+                                                      const RunContext& context) {
     std::vector<std::uint8_t> is_pruned(mesh.triangles.size(), 0);
     if (options.topology.prune) {
-        for (const PrunedFace& pruned : preprocess(mesh, settings(options), check_cancelled).pruned.faces)
+        for (const PrunedFace& pruned : preprocess(mesh, settings(options), context).pruned.faces)
             is_pruned[pruned.face] = 1;
     }
     std::vector<Triangle> left;

@@ -8,7 +8,7 @@
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/prune_components.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -40,17 +40,17 @@ struct PreprocessedMesh {
 /// small components. Locked vertices keep their positions: vertices welded to them move there.
 /// \param mesh      see simplify(); read only during the call
 /// \param settings  weld, weld_distance, diagonal and prune are used
-/// \param check_cancelled  called between the steps; exceptions pass through
+/// \param context   checked between the steps; exceptions pass through
 /// \throws InputError  as simplify()
 /// Complexity: O(n log n)
 PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,
-                            engine::CancellationCheck check_cancelled = {});
+                            const engine::RunContext& context = {});
 
 /// The input faces without those that Topology::prune removes; vertex indices are those of the input.
 /// \throws as preprocess()
 /// Complexity: O(n log n); O(n) without pruning
 std::vector<Triangle> unpruned_triangles(const MeshView& mesh, const Options& options,
-                                         engine::CancellationCheck check_cancelled = {});
+                                         const engine::RunContext& context = {});
 
 /// Vertex locks after welding.
 /// \param mesh      its vertex_locks are read

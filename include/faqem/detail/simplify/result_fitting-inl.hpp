@@ -11,7 +11,7 @@ namespace detail {
 
 FAQEM_INLINE void fit_result(const RunState& state, const PreprocessedMesh& prepared,
                              double min_normal_cosine, const EngineInput& input,
-                             const std::vector<Index>& slots, const Workers& workers,
+                             const std::vector<Index>& slots, const RunContext& context,
                              SimplifyResult& result) {
     std::vector<engine::Vector3> now;
     std::vector<std::uint8_t> fixed;
@@ -27,10 +27,10 @@ FAQEM_INLINE void fit_result(const RunState& state, const PreprocessedMesh& prep
     FittingResult fitted;
     if (input.wedges.empty()) {
         fitted = fit_vertices_and_flip_edges(state.initial_surface(), simplified, fixed, mesh.face_groups,
-                                             min_normal_cosine, workers);
+                                             min_normal_cosine, context);
     } else {  // no edge flips: they would change the attributes of the corners
         fitted.positions =
-            fit_vertices(state.initial_surface(), simplified, fixed, min_normal_cosine, workers);
+            fit_vertices(state.initial_surface(), simplified, fixed, min_normal_cosine, context);
     }
     for (std::size_t v = 0; v < now.size(); ++v) {
         if (fitted.positions[v] == now[v]) continue;

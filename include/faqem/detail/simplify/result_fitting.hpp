@@ -20,10 +20,10 @@ namespace detail {
 /// \param input              of the engine that made the result
 /// \param slots              vertex of `input` for each vertex of the result
 /// \param result             changed in place
-/// \throws whatever the check of `workers` throws
+/// \throws whatever the check of `context` throws
 /// Complexity: O(n log n) per iteration
 void fit_result(const RunState& state, const PreprocessedMesh& prepared, double min_normal_cosine,
-                const EngineInput& input, const std::vector<Index>& slots, const Workers& workers,
+                const EngineInput& input, const std::vector<Index>& slots, const RunContext& context,
                 SimplifyResult& result);
 
 }  // namespace detail

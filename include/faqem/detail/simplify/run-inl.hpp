@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "faqem/detail/base/stopwatch.hpp"
-#include "faqem/detail/base/time_limit.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
@@ -25,12 +24,10 @@ namespace detail {
 // One run of simplify(): preprocessing, collapses, fitting, results.
 class Run {
 public:
-    Run(const MeshView& mesh, const Options& options)
-        : mesh_(mesh), options_(options), settings_(settings(options)) {
-        if (options_.progress) check_cancelled_ = CancellationCheck(monitor_);
-        loop_.deadline = deadline_of(options);
-        timed_monitor_.set_deadline(loop_.deadline);
-        check_time_ = loop_.deadline == no_deadline ? check_cancelled_ : CancellationCheck(timed_monitor_);
+    Run(const MeshView& mesh, const Options& options, const RunContext& context)
+        : mesh_(mesh), options_(options), context_(context), settings_(settings(options)) {
+        context_.show(Phase::weld, 0);
+        loop_.deadline = context_.deadline();
     }
     Run(const Run&) = delete;
 
@@ -78,7 +75,7 @@ private:
     }
 
     void prepare() {
-        prepared_ = preprocess(mesh_, settings_, check_cancelled_);
+        prepared_ = preprocess(mesh_, settings_, untimed_);
         totals_.faces_dropped = prepared_.dropped_faces;
         totals_.seconds.weld = stopwatch_.seconds();
         state_ = RunState(prepared_, welded_locks(mesh_, prepared_.welded, prepared_.positions.size()),
@@ -87,17 +84,16 @@ private:
         if (mesh_.vertex_weights.empty()) prepared_.release_welded();
         if (settings_.fit_vertices) state_.keep_initial_surface();
         if (settings_.quadric_policy == Settings::QuadricPolicy::tracked) state_.track_original();
-        check_cancelled_.now();
+        untimed_.check_now();
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length(),
                        settings_.min_fold_cosine};
         loop_.rules.groups = options_.topology.group_boundaries;
         loop_.tiny_component_diagonal = 0.02 * settings_.diagonal;
-        if (options_.progress) {
-            loop_.progress = [this](double done) {
-                return progress(done_in_blocks_ + (1 - done_in_blocks_) * done);
-            };
-        }
+        loop_.progress = [this](double done) {
+            context_.show(Phase::simplify, progress_at(done_in_blocks_ + (1 - done_in_blocks_) * done));
+            return context_.ask();
+        };
     }
 
     // Sets the options of the loop for the next target.
@@ -109,21 +105,16 @@ private:
         done_in_blocks_ = 0;
     }
 
-    // Reports progress. The share of a target is proportional to the number of faces removed for it.
-    Continue progress(double done) {
+    // The share of a target is proportional to the number of faces removed for it.
+    double progress_at(double done) const {
         const auto gone = [&](std::size_t targets) {
             const double faces = static_cast<double>(mesh_.triangles.size());
             return targets == 0 ? 0 : faces - std::min(faces, static_cast<double>(targets_[targets - 1]));
         };
         const double before = gone(results_.size()), after = gone(results_.size() + 1);
         const double all = gone(targets_.size());
-        const double share = all > 0 ? (before + done * (after - before)) / all : done;
-        phase_ = Phase::simplify;
-        fraction_ = share;
-        return options_.progress(phase_, fraction_);
+        return all > 0 ? (before + done * (after - before)) / all : done;
     }
-
-    Workers workers() const { return {options_.threads, check_cancelled_}; }
 
     double min_pair_length() const { return 1e-8 * settings_.diagonal; }
 
@@ -153,13 +144,9 @@ private:
 
     bool reduce_in_blocks(std::size_t least, const BlockTracking* tracking) {
         const std::size_t faces = state_.mesh().triangles.size();
-        if (faces <= least || engine::is_over(loop_.deadline)) return true;
-        engine::LoopOptions loop = loop_;
+        if (faces <= least || context_.is_late()) return true;
         const double share = (1 - done_in_blocks_) * static_cast<double>(faces - least) /
-                             static_cast<double>(faces - loop.target_faces);
-        if (options_.progress) {
-            loop.progress = [&](double done) { return progress(done_in_blocks_ + share * done); };
-        }
+                             static_cast<double>(faces - loop_.target_faces);
         // After a first round, smaller surfaces are split as well: tracking distances in parallel saves more
         // time than the faces between blocks cost.
         const std::size_t few = has_used_blocks_ ? max_vertices_per_block / 4 : max_vertices_per_block;
@@ -167,7 +154,9 @@ private:
         const BlockInput input{now.positions, now.triangles, state_.locked(),
                                vertices_per_block(now.positions.size(), few)};
         const BlockSteps blocks =
-            simplify_in_blocks(input, loop, least, tracking, options_.history, workers());
+            simplify_in_blocks(input, loop_, least, tracking, options_.history,
+                               context_.step(Phase::simplify, progress_at(done_in_blocks_),
+                                             progress_at(done_in_blocks_ + share)));
         if (blocks.is_cancelled) return false;
         if (blocks.steps.empty()) return true;
         has_used_blocks_ = true;
@@ -223,7 +212,7 @@ private:
             work.curves = engine::FeatureCurves(collapse_mesh, work.groups);
         }
         work.importance = vertex_importance(mesh_, prepared_, state_.mesh());
-        return run_engine(work, pairs, settings_, recorder, loop_, state_, check_time_, should_continue);
+        return run_engine(work, pairs, settings_, recorder, loop_, state_, context_, should_continue);
     }
 
     // If the mesh may be split into blocks, each target has its own engine, which uses the right distance
@@ -288,27 +277,21 @@ private:
 
     // Fits the vertices, unless the run was stopped or the time is over. Without a collapse the mesh equals the
     // original.
-    void fit(const EngineInput& work, const std::vector<Index>& slots, SimplifyResult& result) try {
+    void fit(const EngineInput& work, const std::vector<Index>& slots, SimplifyResult& result) {
         Report& report = result.report;
         if (report.stop == StopReason::cancelled || report.stop == StopReason::reached_time_limit) return;
         if (report.collapses == 0) return;
-        fit_result(state_, prepared_, settings_.min_normal_cosine, work, slots,
-                   {options_.threads, check_time_}, result);
-    } catch (const engine::Cancelled& stopped) {
-        if (stopped.reason == StopReason::cancelled) throw;
-        result.report.warnings.push_back("max_seconds was over before the vertices were fitted");
+        const bool is_fitted = context_.in_time([&] {
+            fit_result(state_, prepared_, settings_.min_normal_cosine, work, slots, context_, result);
+        });
+        if (!is_fitted) report.warnings.push_back("max_seconds was over before the vertices were fitted");
     }
-
-    Continue ask() const { return options_.progress ? options_.progress(phase_, fraction_) : Continue::yes; }
 
     const MeshView& mesh_;
     const Options& options_;
-    Phase phase_ = Phase::weld;
-    double fraction_ = 0;  // of the phase, as last reported
+    const RunContext& context_;
     // The time limit does not stop steps without which there is no result.
-    engine::ProgressMonitor monitor_{[this] { return ask(); }}, timed_monitor_{[this] { return ask(); }};
-    CancellationCheck check_cancelled_;  // does nothing without a callback
-    CancellationCheck check_time_;       // with the time limit as well
+    const RunContext untimed_ = context_.untimed();
     Settings settings_;
     PreprocessedMesh prepared_;
     RunState state_;
@@ -325,16 +308,16 @@ private:
 
 FAQEM_INLINE std::vector<SimplifyResult> run_to_targets(const MeshView& mesh,
                                                         std::span<const std::uint64_t> targets,
-                                                        const Options& options) {
-    return Run(mesh, options).simplify(targets);
+                                                        const Options& options, const RunContext& context) {
+    return Run(mesh, options, context).simplify(targets);
 }
 
-FAQEM_INLINE CostCurve cost_curve(const MeshView& mesh, const Options& options) {
+FAQEM_INLINE CostCurve cost_curve(const MeshView& mesh, const Options& options, const RunContext& context) {
     Options cheap = options;
     cheap.preset = Preset::fast;
     cheap.weights = {};
     validate(cheap);
-    return Run(mesh, cheap).curve();
+    return Run(mesh, cheap, context).curve();
 }
 
 }  // namespace detail

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 #include "faqem/option_types.hpp"
 #include "faqem/simplify.hpp"
@@ -33,7 +34,7 @@ inline std::uint64_t target_face_count(const Target& target, double faces) {
 /// totals since the original; the times are those of the one target.
 /// \param mesh     see simplify(); read only during the call
 /// \param targets  face counts, not empty, in descending order
-/// \param options  must be valid; `target` and `max_error` are ignored
+/// \param options  must be valid; `target`, `max_error` and what is in `context` are ignored
 /// \return one result per target. If the run is cancelled, the last result has StopReason::cancelled and the
 ///         results of the following targets are missing.
 /// \throws InputError  as simplify()
@@ -41,7 +42,8 @@ inline std::uint64_t target_face_count(const Target& target, double faces) {
 /// Complexity: O(n log n) for all targets together
 FAQEM_EXPORT std::vector<SimplifyResult> run_to_targets(const MeshView& mesh,
                                                         std::span<const std::uint64_t> targets,
-                                                        const Options& options);
+                                                        const Options& options,
+                                                        const engine::RunContext& context);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -13,7 +13,7 @@
 #include "faqem/engine/tracking/boundary_bindings.hpp"
 #include "faqem/engine/tracking/distance.hpp"
 #include "faqem/engine/tracking/vertex_bindings.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -48,11 +48,12 @@ public:
     /// \param target_faces  target face count; 0: only boundaries are tracked
     /// \param weight        w, the cost of a squared distance, > 0; engine units squared
     /// \param curves        as for MemorylessMetric
-    /// \param check_cancelled  called by initialise(), exact_cost() and after_collapse(); exceptions pass through
+    /// \param context       must outlive this object; checked by initialise(), exact_cost() and after_collapse();
+    ///     exceptions pass through
     TrackedMetric(const MemorylessWeights& weights, const OriginalSurface& original, TrackedVertices tracked,
                   std::size_t target_faces, double weight, const FeatureCurves* curves = nullptr,
-                  CancellationCheck check_cancelled = {})
-        : check_cancelled_(check_cancelled),
+                  const RunContext& context = RunContext::endless())
+        : context_(context),
           memoryless_(weights, curves),
           original_(&original),
           tracked_(std::move(tracked)),
@@ -135,7 +136,7 @@ private:
     void start_tracking_if_near_target(const CollapseMesh& mesh) {
         if (mesh.face_count() / tracking_start_ratio > target_faces_) return;
         is_tracking_ = true;
-        bindings_->bind_all(mesh, check_cancelled_);
+        bindings_->bind_all(mesh, context_);
     }
 
     // Sets faces_after_ to the faces at the new vertex after the collapse, and bound_ to the vertices bound
@@ -155,7 +156,7 @@ private:
     // Calls visit(i) for each vertex in bound_, which may be most of the original vertices.
     template <class Visit>
     void for_each_bound(Visit&& visit) const {
-        check_cancelled_(bound_.size());
+        context_.count(bound_.size());
         for (const Index x : bound_) visit(x);
     }
 
@@ -177,7 +178,7 @@ private:
         return at == no_index ? 0 : bindings_->squared_distance_to_ring(at, p, nearest);
     }
 
-    CancellationCheck check_cancelled_;
+    const RunContext& context_;
     MemorylessMetric memoryless_;
     std::optional<VertexBindings> bindings_;
     std::optional<BoundaryBindings> boundary_bindings_;

@@ -11,7 +11,7 @@
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/tracking/distance.hpp"
 #include "faqem/engine/tracking/original_surface.hpp"
-#include "faqem/engine/util/cancellation.hpp"
+#include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -50,13 +50,13 @@ public:
 
     /// Binds each tracked vertex to a face near it, unless its current vertex has no faces. Typically
     /// O(tracked vertices)
-    /// \param mesh             the current mesh
-    /// \param check_cancelled  called for each vertex; exceptions pass through
-    void bind_all(const CollapseMesh& mesh, CancellationCheck check_cancelled = {}) {
+    /// \param mesh     the current mesh
+    /// \param context  checked for each vertex; exceptions pass through
+    void bind_all(const CollapseMesh& mesh, const RunContext& context = {}) {
         first_bound_.assign(mesh.face_slots(), no_index);
         next_bound_.assign(tracked_.original.size(), no_index);
         for (Index i = 0; i < next_bound_.size(); ++i) {
-            check_cancelled(4);  // searches about 24 faces
+            context.count(4);  // searches about 24 faces
             const Index current = current_vertex(tracked_.current[i]);
             if (mesh.degree(current) > 0) bind(i, find_near_face(mesh, position(i), current));
         }
