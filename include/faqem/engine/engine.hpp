@@ -369,8 +369,7 @@ private:
                 return delete_components(
                     options, {options.tiny_component_diagonal, visible_area_share * mesh_.area()});
             case Rung::any_component:
-                // Preserved seams and groups are a request of the user, like locks. If they prevent the
-                // target from being reached, only tiny components are deleted to compensate.
+                // Seams and groups are kept like locks. Only tiny components are deleted to compensate.
                 return wedges_.empty() && !keeps_groups() && delete_components(options, {});
             default:
                 return relax_rule(rules_, rung);
