@@ -19,11 +19,11 @@ namespace {
 void add_format_warning(const Asset& result, const fs::path& file, std::vector<std::string>& warnings) {
     if (result.format == ModelFormat::automatic || result.file_bytes > 0) return;
     const detail::FileFormat& made_for = detail::result_format(result.format, result.format);
-    const detail::FileFormat* saved = detail::format_by_name(file);
-    if (saved == &made_for || (saved->is_gltf && made_for.is_gltf)) return;
+    const detail::FileFormat& saved = detail::written_format(file);
+    if (&saved == &made_for || (saved.is_gltf && made_for.is_gltf)) return;
     warnings.push_back("the result was made for " + std::string(made_for.extension) +
-                       " files; with the option format for " + std::string(saved->extension) +
-                       " it would have what these can hold");
+                       " files; set the option format to " + std::string(saved.extension.substr(1)) +
+                       ", and it is made for what " + std::string(saved.extension) + " files can hold");
 }
 
 }  // namespace

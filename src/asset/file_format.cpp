@@ -113,9 +113,9 @@ const FileFormat* format_of_file(const fs::path& file) {
     return format_by_name(file);
 }
 
-EncodedModel encode_model(const Asset& asset, const fs::path& file) {
+const FileFormat& written_format(const fs::path& file) {
     const FileFormat* format = format_by_name(file);
-    if (format && format->encode) return format->encode(asset, file);
+    if (format && format->encode) return *format;
     throw UnsupportedError(
         file.string(), "",
         "cannot be written: the file name must end in " + listed_extensions(FormatUse::write));
@@ -126,6 +126,10 @@ const FileFormat& result_format(ModelFormat wanted, ModelFormat loaded) {
     const auto found = std::find_if(formats.begin(), formats.end(),
                                     [&](const FileFormat& format) { return format.format == known; });
     return known == ModelFormat::automatic || found == formats.end() ? formats.front() : *found;
+}
+
+EncodedModel encode_model(const Asset& asset, const fs::path& file) {
+    return written_format(file).encode(asset, file);
 }
 
 std::vector<std::string_view> format_extensions(FormatUse use) {

@@ -57,6 +57,9 @@ struct FileFormat {
 /// What can be done with a format.
 enum class FormatUse { read, write, write_levels };
 
+/// Returns the format of an output file, by its name. \throws UnsupportedError  it cannot be written
+FAQEM_EXPORT const FileFormat& written_format(const std::filesystem::path& file);
+
 /// Encodes a model as save() writes it. \param file  its name, whose extension determines the format
 /// \throws UnsupportedError  the format cannot be written
 /// \throws WriteError        the format cannot hold the asset

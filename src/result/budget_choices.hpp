@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which face counts and images to try for a byte budget, from the bytes and errors of each apart.
+/// Which face counts and images to try for a byte limit, from the bytes and errors of each apart.
 
 #include <cstddef>
 #include <cstdint>

@@ -18,7 +18,7 @@ namespace faqem::detail {
 /// Total size of encoded images, bytes.
 std::uint64_t encoded_bytes(const std::vector<Image>& images);
 
-/// Tries images for a byte budget on all faces.
+/// Tries images for a byte limit on all faces.
 class ImageTrials {
 public:
     /// \param full   all faces, with pending images unless those of the source are kept

@@ -2,7 +2,6 @@
 
 #include "result/simplify.hpp"
 
-#include <iterator>
 #include <utility>
 
 #include "bake/scene/unencoded_result.hpp"

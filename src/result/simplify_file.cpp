@@ -12,6 +12,16 @@ namespace faqem {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Whether the run was not cancelled, faces are left, and the result is within Options::max_error.
+bool may_be_saved(const Report& report) {
+    return report.stop != StopReason::cancelled && report.faces_out > 0 &&
+           (!report.max_error || report.max_error->within());
+}
+
+}  // namespace
+
 Asset detail::load_triangles(const fs::path& file) {
     Asset asset = load(file);
     const std::string left_out = keep_finest_level(asset);
@@ -35,11 +45,6 @@ SimplifiedAsset detail::simplify_file(const fs::path& file, const Options& optio
     return result;
 }
 
-bool detail::may_be_saved(const Report& report) {
-    return report.stop != StopReason::cancelled && report.faces_out > 0 &&
-           (!report.max_error || report.max_error->within());
-}
-
 void detail::save_result(SimplifiedAsset& result, const fs::path& file, Overwrite overwrite) {
     const Stopwatch watch;
     const EncodedModel model = encode_model(result.asset, file);
@@ -54,11 +59,9 @@ void detail::save_result(SimplifiedAsset& result, const fs::path& file, Overwrit
 
 Report simplify(const fs::path& file, const fs::path& out, const Options& options, Overwrite overwrite) {
     Options own = options;
-    const detail::FileFormat* format = detail::format_by_name(out);
-    if (format) own.format = format->format;
-    if (!format || !format->encode) detail::encode_model({}, out);  // throws
+    own.format = detail::written_format(out).format;
     SimplifiedAsset result = detail::simplify_file(file, own, [](const Asset&) {});
-    if (detail::may_be_saved(result.report)) detail::save_result(result, out, overwrite);
+    if (may_be_saved(result.report)) detail::save_result(result, out, overwrite);
     return std::move(result.report);
 }
 

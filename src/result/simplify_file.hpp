@@ -33,9 +33,6 @@ FAQEM_EXPORT Asset load_triangles(const std::filesystem::path& file);
 FAQEM_EXPORT SimplifiedAsset simplify_file(const std::filesystem::path& file, const Options& options,
                                            const std::function<void(const Asset&)>& loaded);
 
-/// Whether a result may be saved: the run was not cancelled, faces are left, and it is within Options::max_error.
-FAQEM_EXPORT bool may_be_saved(const Report& report);
-
 /// Saves a result and completes its report: the size of the files, what they cannot store, and the time.
 /// \throws whatever save() throws
 FAQEM_EXPORT void save_result(SimplifiedAsset& result, const std::filesystem::path& file,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Ways to encode an image, among which a byte budget chooses.
+/// Ways to encode an image, among which a byte limit chooses.
 
 #include <cstdint>
 #include <vector>
