@@ -32,23 +32,41 @@ double corner_weight(const TriangleMesh& mesh, std::uint64_t corner) {
 
 struct Cluster {
     Vector3 seed, sum;
+    Index facet;
+};
+
+// What the normals of the corners come from.
+struct RawNormals {
+    std::vector<Vector3> face_normals;  // by face
+    std::vector<Vector3> normals;       // by corner
+    std::vector<Index> facets;          // by corner; no_index: of no facet that is as large as the face
+    std::vector<float> min_cosines;     // by corner: least cosine of the angle to the face that is accepted
+
+    bool is_accepted(std::uint64_t corner, const Vector3& normal) const {
+        const Vector3& of_face = face_normals[corner / 3];
+        const double limit = min_cosines[corner];
+        return of_face.isZero(0) || (limit < 0 ? normal.dot(of_face) >= limit : normal.dot(of_face) > 0);
+    }
 };
 
 // Clusters the corners of one vertex and writes their mean normals. A cluster has the number of its first
 // corner.
-void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corners,
-                   const std::vector<Vector3>& face_normals, const std::vector<Vector3>& raw,
+void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corners, const RawNormals& raw,
                    double min_normal_cosine, CornerNormals& result) {
     std::vector<Cluster> clusters;
     std::vector<std::size_t> member(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vector3& n = raw[corners[i]];
+        const Vector3& n = raw.normals[corners[i]];
+        const Index facet = raw.facets[corners[i]];
+        const auto joins = [&](const Cluster& cluster) {
+            return cluster.facet == facet && cluster.seed.dot(n) >= min_normal_cosine;
+        };
         std::size_t k = 0;
         const std::size_t searched = std::min(clusters.size(), max_clusters);
-        while (k < searched && !(clusters[k].seed.dot(n) >= min_normal_cosine)) ++k;
+        while (k < searched && !joins(clusters[k])) ++k;
         if (k == searched) {
             k = clusters.size();
-            clusters.push_back({n, Vector3::Zero()});
+            clusters.push_back({n, Vector3::Zero(), facet});
         }
         clusters[k].sum += corner_weight(mesh, corners[i]) * n;
         member[i] = k;
@@ -56,13 +74,12 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
     std::vector<Index> number(clusters.size(), no_index);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::uint64_t c = corners[i];
-        const Vector3& face_normal = face_normals[c / 3];
         Vector3 n = unit_or_zero(clusters[member[i]].sum);
         Index& first = number[member[i]];
         Index cluster = first == no_index ? first = static_cast<Index>(c) : first;
-        if (n.isZero(0)) n = raw[c];
-        if (!face_normal.isZero(0) && !(n.dot(face_normal) > 0)) {
-            n = face_normal;
+        if (n.isZero(0)) n = raw.normals[c];
+        if (!raw.is_accepted(c, n)) {
+            n = raw.face_normals[c / 3];
             cluster = static_cast<Index>(c);
         }
         result.normals[c] = to_vec3f(n);
@@ -94,14 +111,30 @@ std::vector<std::uint8_t> faces_with_reversed_winding(const BakePart& part) {
     return result;
 }
 
+// Least cosine of the angle between a normal of the result and its face. Normals that make a large angle with the faces
+// of the source, as those of leaves that all point up, may do so in the result, too.
+float min_normal_cosine_at(double source_cosine) {
+    const double cosine = std::abs(source_cosine);
+    return cosine < 0.5 ? static_cast<float>(-cosine - 0.25) : 0.0f;
+}
+
 // Sets the normals of the corners for which the source has one.
-void transfer_normals(const BakePart& part, const RunContext& context, std::vector<Vector3>& normals) {
+void transfer_normals(const BakePart& part, const RunContext& context, RawNormals& raw) {
+    const Facets facets = normal_facets(*part.source);
+    const TriangleMesh& mesh = part.simplified->mesh;
     const auto set = [&](std::uint64_t corner, const SurfacePoint& point) {
         const Vector3 original = interpolated_normal(*part.source, point);
-        if (!original.isZero(0)) normals[corner] = original;
+        if (original.isZero(0)) return;
+        raw.normals[corner] = original;
+        if (facets.of_face.empty()) return;
+        raw.min_cosines[corner] = min_normal_cosine_at(
+            original.dot(winding_normal(part.source->positions, part.source->triangles[point.face])));
+        const Index facet = facets.of_face[point.face];
+        const double area = area_vector(mesh.positions, mesh.triangles[corner / 3]).norm() / 2;
+        if (2 * facets.areas[facet] >= area) raw.facets[corner] = facet;
     };
     if (!part.map) return visit_corner_points(part, corner_inset, context, set);
-    parallel_blocks(normals.size(), 768, context, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(raw.normals.size(), 768, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
             set(c, part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset)));
     });
@@ -126,30 +159,32 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, con
     const TriangleMesh& mesh = part.simplified->mesh;
     const std::size_t corners = 3 * mesh.triangles.size();
     const bool transfers = options.normals == Normals::transfer;
-    std::vector<Vector3> raw(corners), face_normals(mesh.triangles.size());
+    RawNormals raw{std::vector<Vector3>(mesh.triangles.size()), std::vector<Vector3>(corners),
+                   std::vector<Index>(corners, no_index), std::vector<float>(corners, 0.0f)};
     CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners),
                          faces_with_reversed_winding(part)};
     parallel_blocks(mesh.triangles.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
-            face_normals[f] = winding_normal(mesh.positions, mesh.triangles[f]);
-            if (transfers && result.has_reversed_winding[f]) face_normals[f] = -face_normals[f];
-            for (std::size_t c = 3 * f; c < 3 * f + 3; ++c) raw[c] = face_normals[f];
+            Vector3& face_normal = raw.face_normals[f];
+            face_normal = winding_normal(mesh.positions, mesh.triangles[f]);
+            if (transfers && result.has_reversed_winding[f]) face_normal = -face_normal;
+            for (std::size_t c = 3 * f; c < 3 * f + 3; ++c) raw.normals[c] = face_normal;
         }
     });
     if (transfers) transfer_normals(part, context, raw);
     for (std::size_t c = 0; c < corners; ++c) {
-        const Vector3& face_normal = face_normals[c / 3];
-        if (raw[c].isZero(0)) raw[c] = Vector3(0, 0, 1);
-        if (!face_normal.isZero(0) && !(raw[c].dot(face_normal) > 0)) raw[c] = face_normal;
+        Vector3& n = raw.normals[c];
+        if (n.isZero(0)) n = Vector3(0, 0, 1);
+        if (!raw.is_accepted(c, n)) n = raw.face_normals[c / 3];
     }
     // The tolerance allows for rounding differences between equal normals.
     const double min_normal_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
     const VertexCorners at = vertex_corners(mesh);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        smooth_vertex(mesh, at.at(v), face_normals, raw, min_normal_cosine, result);
+        smooth_vertex(mesh, at.at(v), raw, min_normal_cosine, result);
     }
     if (options.normals == Normals::flat) {
-        std::transform(raw.begin(), raw.end(), result.normals.begin(), to_vec3f);
+        std::transform(raw.normals.begin(), raw.normals.end(), result.normals.begin(), to_vec3f);
     }
     return result;
 }

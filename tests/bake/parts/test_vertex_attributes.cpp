@@ -121,6 +121,42 @@ TEST_CASE("normals are finite and within 90 degrees of the face normal") {
     }
 }
 
+TEST_CASE("normals that are perpendicular to their faces in the source stay so") {
+    // Upright cards whose normals all point up, as those of grass.
+    Asset asset = pipe(16);
+    asset.parts[0].normals.assign(asset.parts[0].positions.size(), {0, 1, 0});
+    Options options = of_kind(Bake::none);
+    options.target = ratio(0.5);
+    const Part part = simplify(asset, options).asset.parts[0];
+    CHECK(part.triangles.size() == 16);
+    for (const Vec3f& n : part.normals) CHECK(n[1] > 0.999f);
+}
+
+TEST_CASE("normals stay apart where those of the source are, on facets as large as the faces") {
+    // Strips of a prism that turn by 21 degrees, with a normal each: less than the angle that is averaged.
+    constexpr int strips = 4;
+    Asset asset = pipe(strips), faceted;
+    faceted.parts.resize(1);
+    Part& part = faceted.parts[0];
+    for (std::size_t f = 0; f < asset.parts[0].triangles.size(); ++f) {
+        const double middle = (static_cast<double>(f / 2) + 0.5) * 1.5 / strips;
+        for (const Index v : asset.parts[0].triangles[f]) {
+            part.positions.push_back(asset.parts[0].positions[v]);
+            part.normals.push_back(
+                {static_cast<float>(std::cos(middle)), 0, static_cast<float>(-std::sin(middle))});
+        }
+        const auto first = static_cast<Index>(3 * f);
+        part.triangles.push_back({first, first + 1, first + 2});
+    }
+    Options options = of_kind(Bake::none);
+    options.target = ratio(1);
+    const Part result = simplify(faceted, options).asset.parts[0];
+    CHECK(result.positions.size() == 4 * strips);
+    for (const Triangle& t : result.triangles)
+        for (const Index v : t)
+            CHECK(dot(result.normals[v], {result.normals[t[0]][0], 0, result.normals[t[0]][2]}) > 0.9999);
+}
+
 TEST_CASE("vertex colours of the source are preserved") {
     Asset asset = pipe(10);
     Part& part = asset.parts[0];
