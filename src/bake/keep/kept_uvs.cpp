@@ -25,7 +25,8 @@ namespace {
 // and lit pictures are judged apart: a better surface does not make up for torn colours.
 constexpr double allowed_mean_loss = 0.25, allowed_loss = 0.8;
 
-// The same where new images would have less than an eighth of the resolution: closer views show the difference.
+// The same where new images would have less than an eighth of the resolution, or blur single texels that the source
+// shows without filter: closer views show the difference.
 constexpr double allowed_loss_if_coarse = 2, coarse_share = 1.0 / 64;
 
 // Mean squared difference of a channel that is not seen: 50 dB.
@@ -33,9 +34,6 @@ constexpr double invisible_difference = 1e-5;
 
 // Points per side of a view: of a scene with one set of parts, and at least.
 constexpr std::uint32_t view_points = 256, min_view_points = 64;
-
-// Share of a page's texels that its charts cover.
-constexpr double usual_fill = 0.6;
 
 std::uint64_t lost_components(const Report& report) {
     return report.components_collapsed + report.components_deleted;
@@ -94,8 +92,9 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
             faces[group].push_back({part.index, f});
             const double own = area_vector(mesh.positions, mesh.triangles[f]).norm() / 2;
             constexpr double third = 1.0 / 3;
+            const Index at = part.map->map(f, {third, third, third}).face;
             const double density =
-                sampler.texel_density(part.index, part.map->map(f, {third, third, third}).face);
+                std::max(sampler.texel_density(part.index, at), sampler.region_density(part.index, at));
             const double wanted = own * density * density;
             if (!std::isfinite(wanted)) continue;
             area[part.index] += own;
@@ -109,7 +108,7 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
     for (std::size_t g = 0; g < faces.size(); ++g) {
         const bool normal_map =
             wants_normal_map(bake.normal_map, source, groups.groups[g], parts, faces[g], context);
-        const double share = std::min(1.0, usual_fill * side * side / needed[g]);
+        const double share = std::min(1.0, usual_page_fill * side * side / needed[g]);
         for (const PageFace& face : faces[g]) {
             if (normal_map) result.has_normal_map[face.part] = 1;
             result.share[face.part] = std::min(result.share[face.part], share);
@@ -206,9 +205,9 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
     PictureLoss total;
     for (const PartSet& set : sets) {
         const bool must_be_kept =
-            shows_single_texels(source, set) ||
             std::any_of(set.begin(), set.end(), [&](Index p) { return needs_uvs[p] != 0; });
         const bool is_coarse =
+            shows_single_texels(source, set) ||
             std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });
         const std::array<KeptAndBakedLoss, 2> losses = compare_pictures(scenes, set, size, context);
         const bool is_good = must_be_kept || is_as_good(losses, is_coarse);

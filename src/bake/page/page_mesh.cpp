@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -68,40 +69,84 @@ void connect_triangles(std::span<const BakePart> parts, PageMesh& page) {
 
 // Source texels per unit of length at a simplified face.
 struct FaceDensity {
-    double mean;    // root mean square over four points
-    double middle;  // at the middle
+    double mean = 0;            // root mean square over four points
+    double middle = 0;          // at the middle
+    double regions = 0;         // the largest that the regions at these points need
+    Index material = no_index;  // at the middle
+    double area = 0;            // of the simplified face
 };
 
 FaceDensity density_at(const BakePart& part, const SourceSampler& sampler, Index face) {
-    std::array<double, quarter_points.size()> densities{};
+    FaceDensity result;
     double sum = 0;
-    for (std::size_t i = 0; i < densities.size(); ++i) {
-        densities[i] = sampler.texel_density(part.index, part.map->map(face, quarter_points[i]).face);
-        sum += densities[i] * densities[i];
+    for (std::size_t i = 0; i < quarter_points.size(); ++i) {
+        const SurfacePoint point = part.map->map(face, quarter_points[i]);
+        const double density = sampler.texel_density(part.index, point.face);
+        sum += density * density;
+        result.regions = std::max(result.regions, sampler.region_density(part.index, point.face));
+        if (i > 0) continue;
+        result.middle = density;
+        result.material = sampler.material(part.index, point);
     }
-    return {std::sqrt(sum / 4), densities[0]};
+    result.mean = std::sqrt(sum / 4);
+    return result;
 }
 
-// Clamps the densities of the triangles of one part to within a factor of 4 of their area-weighted median.
-void clamp_densities(std::span<PageTriangle> triangles) {
-    struct Weighted {
-        double density, area;
-    };
-    std::vector<Weighted> sorted;
-    double total = 0;
-    for (const PageTriangle& t : triangles) {
-        sorted.push_back({t.density, area_vector(t).norm() / 2});
-        total += sorted.back().area;
-    }
-    std::sort(sorted.begin(), sorted.end(), [](const Weighted& a, const Weighted& b) {
-        return a.density != b.density ? a.density < b.density : a.area < b.area;
+// The median of the densities, weighted by area. Complexity: O(n log n)
+double median_density(std::vector<FaceDensity> faces) {
+    double total = 0, sum = 0;
+    for (const FaceDensity& face : faces) total += face.area;
+    std::sort(faces.begin(), faces.end(), [](const FaceDensity& a, const FaceDensity& b) {
+        return a.mean != b.mean ? a.mean < b.mean : a.area < b.area;
     });
-    double sum = 0, median = 0;
-    for (const Weighted& w : sorted) {
-        median = w.density;
-        if ((sum += w.area) >= total / 2) break;
+    for (const FaceDensity& face : faces)
+        if ((sum += face.area) >= total / 2) return face.mean;
+    return faces.empty() ? 0 : faces.back().mean;
+}
+
+// Sets the densities of the triangles of one part: those of the source, within a factor of 4 of the median of the part.
+// \return by triangle: the density with which it would show everything, those of the source within a factor of 4 of
+//         the median of their material
+std::vector<double> set_densities(std::span<const FaceDensity> faces, std::span<PageTriangle> triangles) {
+    std::map<Index, std::vector<FaceDensity>> by_material;
+    for (const FaceDensity& face : faces) by_material[face.material].push_back(face);
+    std::map<Index, double> medians;
+    for (auto& [material, own] : by_material) medians[material] = median_density(std::move(own));
+    const double median =
+        medians.size() == 1 ? medians.begin()->second : median_density({faces.begin(), faces.end()});
+    // One density for all regions, which may be small: charts in which it jumps are distorted. It is not that of the
+    // smallest ones, which are hardly seen.
+    double regions = 0, area = 0;
+    for (const FaceDensity& face : faces) {
+        regions += face.area * face.regions;
+        area += face.area;
     }
-    for (PageTriangle& t : triangles) t.density = std::clamp(t.density, median / 4, median * 4);
+    regions = std::isfinite(regions) && area > 0 ? regions / area : 0;
+    std::vector<double> wanted;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const FaceDensity& face = faces[i];
+        triangles[i].density = std::clamp(face.mean, median / 4, median * 4);
+        const double of_material = std::min(face.mean, medians[face.material] * 4);
+        wanted.push_back(std::max({triangles[i].density, of_material, regions}));
+    }
+    return wanted;
+}
+
+// Raises the densities of triangles to the wanted ones, as far as the page has room.
+void use_room(std::span<const double> wanted, double page_texels, std::span<PageTriangle> triangles) {
+    double used = 0, more = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const double area = area_vector(triangles[i]).norm() / 2, own = triangles[i].density;
+        if (!std::isfinite(area)) continue;
+        used += area * own * own;
+        more += area * (wanted[i] * wanted[i] - own * own);
+    }
+    const double share = std::min(1.0, (page_texels - used) / more);
+    if (!(share > 0)) return;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        double& density = triangles[i].density;
+        density = std::sqrt(density * density + share * (wanted[i] * wanted[i] - density * density));
+    }
 }
 
 // The factor by which the lengths of a page are larger than the densities say.
@@ -132,31 +177,36 @@ void set_order(const BakePart& part, std::span<const PageTriangle> triangles,
 }  // namespace
 
 PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> faces,
-                        const SourceSampler& sampler, const std::optional<double>& density,
-                        const RunContext& context) {
+                        const SourceSampler& sampler, const BakeOptions& bake, const RunContext& context) {
     const std::size_t count = faces.size();
     PageMesh page{std::move(faces), std::vector<PageTriangle>(count), std::vector<std::uint64_t>(count),
                   std::vector<double>(count)};
+    std::vector<FaceDensity> densities(count);
     parallel_blocks(count, 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const PageFace& at = page.faces[i];
             const TriangleMesh& mesh = parts[at.part].simplified->mesh;
             for (std::size_t c = 0; c < 3; ++c)
                 page.triangles[i].corners[c] = mesh.positions[mesh.triangles[at.face][c]];
-            const FaceDensity density_of_face = density_at(parts[at.part], sampler, at.face);
-            page.triangles[i].density = density_of_face.mean;
-            page.source_density[i] = density_of_face.middle;
+            densities[i] = density_at(parts[at.part], sampler, at.face);
+            densities[i].area = area_vector(page.triangles[i]).norm() / 2;
+            page.source_density[i] = densities[i].middle;
         }
     });
     connect_triangles(parts, page);
+    std::vector<double> wanted;
     for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
         const Index part = page.faces[begin].part;
         while (end < count && page.faces[end].part == part) ++end;
         const auto of_part = std::span(page.triangles).subspan(begin, end - begin);
-        clamp_densities(of_part);
+        const std::vector<double> of_faces =
+            set_densities(std::span(densities).subspan(begin, end - begin), of_part);
+        wanted.insert(wanted.end(), of_faces.begin(), of_faces.end());
         set_order(parts[part], of_part, std::span(page.order).subspan(begin, end - begin));
     }
-    const double factor = density ? *density : small_page_factor(page.triangles);
+    const double side = bake.texture_size;
+    use_room(wanted, usual_page_fill * side * side, page.triangles);
+    const double factor = bake.texel_density ? *bake.texel_density : small_page_factor(page.triangles);
     for (PageTriangle& t : page.triangles) t.density *= factor;
     return page;
 }

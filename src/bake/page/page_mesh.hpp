@@ -15,6 +15,9 @@
 
 namespace faqem::detail {
 
+/// Share of a page's texels that its charts usually cover.
+inline constexpr double usual_page_fill = 0.6;
+
 /// A face of a simplified mesh.
 struct PageFace {
     Index part = 0, face = 0;
@@ -33,14 +36,14 @@ struct PageMesh {
 };
 
 /// Makes the mesh of a page. Texel densities are those of the source, between a quarter and four times the median of
-/// the part; small pages have up to twice as many texels.
+/// the part. As far as the page has room, they are up to four times the median of the material, and those that
+/// SourceSampler::region_density() says. Small pages have up to twice as many texels.
 /// \param parts    the parts, with maps and normals
 /// \param faces    the faces of the page; those of one part must be consecutive
-/// \param density  factor of the texel densities, instead of that for small pages
+/// \param bake     its texel_density is a factor of the texel densities, instead of that for small pages
 /// Complexity: O(n log n).
 PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> faces,
-                        const SourceSampler& sampler, const std::optional<double>& density,
-                        const RunContext& context);
+                        const SourceSampler& sampler, const BakeOptions& bake, const RunContext& context);
 
 /// Texel density of a page divided by that of the source, both root mean squares over the simplified surface.
 /// \param atlas  of the triangles

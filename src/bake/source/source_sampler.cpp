@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "asset/image/image.hpp"
+#include "asset/image/srgb.hpp"
+#include "bake/source/color_regions.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 #include "scene/vector_conversion.hpp"
@@ -76,6 +78,10 @@ SourceSampler::SourceSampler(const Asset& asset, const Channels& wanted, const R
         if (!skipped_parts.empty() && skipped_parts[p]) continue;
         context.check_now();
         measure_densities(asset.parts[p], densities_[p]);
+        const auto differs = [&, part = static_cast<Index>(p)](const SurfacePoint& a, const SurfacePoint& b) {
+            return has_jump(part, a, b);
+        };
+        densities_[p].of_regions = region_densities(asset.parts[p], differs);
         if (wanted.needs_tangents()) tangents_[p] = source_tangents(asset, asset.parts[p]);
     }
 }
@@ -307,6 +313,20 @@ Vector3 SourceSampler::layer_normal(Index p, const SurfacePoint& point, double s
                                     const Vector3& face_normal, const ExtensionLayer& layer) const {
     const TextureSlot& slot = slots(p, point).extensions[layer.textures.front()];
     return perturbed_normal(slot, layer.normal_scale, p, point, spacing, face_normal);
+}
+
+bool SourceSampler::has_jump(Index p, const SurfacePoint& a, const SurfacePoint& b) const {
+    constexpr double visible_jump = 0.06;  // of values in [0, 1], colours in sRGB
+    const Appearance first = sample(p, a, 0), second = sample(p, b, 0);
+    const auto is_visible = [&](double x, double y) { return !(std::abs(x - y) <= visible_jump); };
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (is_visible(srgb_from_linear(first.base[k]), srgb_from_linear(second.base[k]))) return true;
+    }
+    for (std::size_t i = 0; i < first.plain.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (is_visible(first.plain[i][k], second.plain[i][k])) return true;
+    }
+    return false;
 }
 
 double SourceSampler::texel_density(Index p, Index face) const {

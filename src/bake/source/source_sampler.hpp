@@ -109,6 +109,12 @@ public:
     /// texels: a page needs texels to show where their colours end.
     double texel_density(Index part, Index face) const;
 
+    /// Texels per unit of length that show the region of a face, see region_densities(); 0 if any do.
+    double region_density(Index part, Index face) const {
+        const std::vector<float>& of_part = densities_[part].of_regions;
+        return of_part.empty() ? 0 : of_part[face];
+    }
+
 private:
     struct TextureSlot {  // a texture of a material; no image: not sampled
         std::shared_ptr<const MipImage> image;
@@ -142,6 +148,7 @@ private:
         // By UV set and face; empty for sets that no texture uses.
         std::vector<std::vector<float>> uv_per_length;
         double untextured_density = 1;
+        std::vector<float> of_regions;  // see region_densities()
     };
 
     struct MissingImage;
@@ -154,6 +161,7 @@ private:
     void decode_images(std::vector<MissingImage>& missing, const RunContext& context,
                        DecodedImages& images) const;
     void measure_densities(const Part& part, PartDensity& density) const;
+    bool has_jump(Index part, const SurfacePoint& a, const SurfacePoint& b) const;
     Vec4f base_factor(const Material& material, const Part& part, const SurfacePoint& point) const;
     std::array<double, 2> uv_at(const TextureSlot& slot, const Part& part, const SurfacePoint& point) const;
     LinearColor fetch(const TextureSlot& slot, Index part, const SurfacePoint& point, double spacing,

@@ -106,8 +106,8 @@ bool layout_pages(const BakeJob& job, const SourceSampler& sampler, std::vector<
         pages.size(), 1, job.context, [&](std::size_t i, std::size_t, const RunContext& block_context) {
             Page& page = pages[i];
             if (!needs_layout(page)) return;
-            page.mesh = make_page_mesh(job.parts, std::move(page.mesh.faces), sampler,
-                                       job.options.texel_density, block_context);
+            page.mesh =
+                make_page_mesh(job.parts, std::move(page.mesh.faces), sampler, job.options, block_context);
             page.layout = layout_page(page.mesh, job.options.kind, job.options.texture_size, block_context);
         });
     return std::all_of(pages.begin(), pages.end(),
