@@ -28,7 +28,7 @@ int main(int argc, char** argv) try {
                                             {.target = faqem::ratio(0.2), .history = faqem::Recording::on});
 
     // To the simplified mesh: each of its vertices is mapped to the original.
-    const faqem::SurfaceMap to_original(simplified.history, faqem::Mapping::projection);
+    const faqem::SurfaceMap to_original(simplified.history);
     std::vector<double> simplified_temperature(simplified.mesh.positions.size(), 0);
     for (faqem::Index f = 0; f < simplified.mesh.triangles.size(); ++f) {
         for (std::size_t k = 0; k < 3; ++k) {

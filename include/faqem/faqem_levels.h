@@ -115,18 +115,10 @@ FAQEM_API faqem_status faqem_history_truncate_parts(const faqem_history* history
 
 /* ---- Map to the original ---- */
 
-/** How points of the simplified mesh are mapped to the original, see faqem::Mapping and docs/baking.md. */
-typedef enum faqem_mapping FAQEM_ENUM {
-    FAQEM_MAPPING_PROJECTION = 0,
-    FAQEM_MAPPING_LINEAGE = 1,
-    FAQEM_MAPPING_CLOSEST = 2
-} faqem_mapping;
-
 /**
- * Maps points of a simplified mesh to the original by the collapse history, to transfer fields, labels or
- * weights.
+ * Maps points of a simplified mesh to the original by the collapse history (docs/baking.md), to transfer
+ * fields, labels or weights.
  * \param result              made with FAQEM_RECORDING_ON, or restored from a history
- * \param mapping             algorithm
  * \param faces               count faces of the simplified mesh
  * \param barycentric         3 * count weights of the corners, >= 0, sum 1 (to 1e-6)
  * \param count               number of points
@@ -136,10 +128,9 @@ typedef enum faqem_mapping FAQEM_ENUM {
  * Complexity: O(n log n) per call in the number of original faces, plus typically O(log n) per point: map
  * many points in one call.
  */
-FAQEM_API faqem_status faqem_result_map(const faqem_result* result, faqem_mapping mapping,
-                                        const uint32_t* faces, const double* barycentric, size_t count,
-                                        uint32_t* source_faces, double* source_barycentric,
-                                        faqem_error* error);
+FAQEM_API faqem_status faqem_result_map(const faqem_result* result, const uint32_t* faces,
+                                        const double* barycentric, size_t count, uint32_t* source_faces,
+                                        double* source_barycentric, faqem_error* error);
 
 #ifdef __cplusplus
 }

@@ -133,13 +133,6 @@ constexpr bool makes_atlas(Bake kind) {
     return kind == Bake::automatic || kind == Bake::atlas || kind == Bake::per_triangle;
 }
 
-/// How points of the simplified mesh are mapped to the original; details in docs/baking.md.
-enum class Mapping {
-    projection,  ///< successive projection through the collapse history (after Liu et al. 2024)
-    lineage,     ///< heuristic of FA-QEM: the closer parent of each undone collapse
-    closest,     ///< closest point of the original, regardless of side and surface patch; for comparison
-};
-
 /// Formats of the model files that save() writes. What a result cannot be stored with is not made for it: an atlas for PLY,
 /// colours for STL. See docs/assets.md, "Results for a format".
 enum class ModelFormat {

@@ -39,7 +39,6 @@ struct BakeOptions {
     /// Unset: 1, rising to 1.41 on small pages, which lose most by resampling.
     std::optional<double> texel_density = {};
     NormalMap normal_map = NormalMap::automatic;
-    Mapping mapping = Mapping::projection;
     /// Samples per texel along each axis, in [1, 8]: 2 means 2 x 2.
     std::uint32_t samples = 2;
     Normals normals = Normals::transfer;

@@ -7,7 +7,6 @@
 
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
-#include "faqem/option_types.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
@@ -21,8 +20,7 @@ class LocalMap;
 
 /// Constructs a SurfaceMap on several threads; the calling thread checks for cancellation.
 /// \throws whatever `context` throws
-FAQEM_EXPORT SurfaceMap make_surface_map(const CollapseHistory& history, Mapping mapping,
-                                         std::span<const Triangle> unwelded,
+FAQEM_EXPORT SurfaceMap make_surface_map(const CollapseHistory& history, std::span<const Triangle> unwelded,
                                          const engine::RunContext& context);
 }  // namespace detail
 
@@ -32,7 +30,6 @@ enum class MapStep {
     history,
     approximate,  ///< by the walk, which took a face of the wrong side or of another surface patch
     /// The walk was abandoned or ended on a wrong face, and the closest face that passes the tests was taken.
-    /// Always with Mapping::closest.
     closest,
 };
 
@@ -49,14 +46,13 @@ class FAQEM_EXPORT SurfaceMap {
 public:
     /// Prepares the map, on all threads of the machine.
     /// \param history   history of the run; not copied, must outlive the map
-    /// \param mapping   see Mapping
     /// \param unwelded  empty, or the triangles of the original before welding, one per face of the history.
-    ///                  With them Mapping::projection distinguishes surfaces that touch, but share vertices
-    ///                  only because of welding. Not used after the call
+    ///                  With them surfaces that touch, but share vertices only because of welding, are
+    ///                  distinguished. Not used after the call
     /// \pre validate(history) passes
     /// Complexity: O(n log n) time in the faces of the original plus the size of the history, O(size of the
     /// history) memory.
-    SurfaceMap(const CollapseHistory& history, Mapping mapping, std::span<const Triangle> unwelded = {});
+    explicit SurfaceMap(const CollapseHistory& history, std::span<const Triangle> unwelded = {});
     ~SurfaceMap();
     SurfaceMap(SurfaceMap&&) noexcept;
     SurfaceMap& operator=(SurfaceMap&&) noexcept;
@@ -76,7 +72,7 @@ public:
 private:
     struct Impl;
     explicit SurfaceMap(std::unique_ptr<const Impl> impl);
-    friend SurfaceMap detail::make_surface_map(const CollapseHistory& history, Mapping mapping,
+    friend SurfaceMap detail::make_surface_map(const CollapseHistory& history,
                                                std::span<const Triangle> unwelded,
                                                const engine::RunContext& context);
     friend class detail::LocalMap;

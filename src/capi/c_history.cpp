@@ -13,11 +13,6 @@
 namespace {
 
 using namespace faqem;
-using faqem::capi::has_same_value;
-
-static_assert(has_same_value(FAQEM_MAPPING_PROJECTION, Mapping::projection) &&
-              has_same_value(FAQEM_MAPPING_LINEAGE, Mapping::lineage) &&
-              has_same_value(FAQEM_MAPPING_CLOSEST, Mapping::closest));
 
 const CollapseHistory& history_of(const faqem_result* result) {
     capi::require_argument(result, "result");
@@ -111,22 +106,20 @@ faqem_status faqem_history_truncate_parts(const faqem_history* history, uint64_t
     });
 }
 
-faqem_status faqem_result_map(const faqem_result* result, faqem_mapping mapping, const uint32_t* faces,
-                              const double* barycentric, size_t count, uint32_t* source_faces,
-                              double* source_barycentric, faqem_error* error) {
+faqem_status faqem_result_map(const faqem_result* result, const uint32_t* faces, const double* barycentric,
+                              size_t count, uint32_t* source_faces, double* source_barycentric,
+                              faqem_error* error) {
     return capi::catch_exceptions(error, [&] {
         const CollapseHistory& history = history_of(result);
         capi::require_argument(faces, "faces");
         capi::require_argument(barycentric, "barycentric");
         capi::require_argument(source_faces, "source_faces");
         capi::require_argument(source_barycentric, "source_barycentric");
-        if (mapping < FAQEM_MAPPING_PROJECTION || mapping > FAQEM_MAPPING_CLOSEST)
-            throw OptionError("mapping: unknown enumerator");
         const auto weights = [&](std::size_t i) {
             return Vec3{barycentric[3 * i], barycentric[3 * i + 1], barycentric[3 * i + 2]};
         };
         for (std::size_t i = 0; i < count; ++i) check_point(history, faces[i], weights(i), i);
-        const SurfaceMap map(history, static_cast<Mapping>(mapping));
+        const SurfaceMap map(history);
         for (std::size_t i = 0; i < count; ++i) {
             const SurfacePoint point = map.map(faces[i], weights(i));
             source_faces[i] = point.face;

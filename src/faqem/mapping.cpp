@@ -1,7 +1,5 @@
 // Compiles include/faqem/detail/mapping.
-#include "faqem/detail/mapping/closest_point-inl.hpp"
 #include "faqem/detail/mapping/forward_map-inl.hpp"
-#include "faqem/detail/mapping/lineage-inl.hpp"
 #include "faqem/detail/mapping/local_map-inl.hpp"
 #include "faqem/detail/mapping/replay-inl.hpp"
 #include "faqem/detail/mapping/successive_projection-inl.hpp"

@@ -117,8 +117,7 @@ static void points_of_a_flat_grid_are_mapped_to_themselves(void) {
         const double weights[3] = {0.5, 0.25, 0.25};
         uint32_t face = 0;
         double there[3];
-        CHECK(faqem_result_map(result, FAQEM_MAPPING_PROJECTION, &f, weights, 1, &face, there, NULL) ==
-              FAQEM_OK);
+        CHECK(faqem_result_map(result, &f, weights, 1, &face, there, NULL) == FAQEM_OK);
         CHECK(face < mesh.face_count);
         for (int k = 0; k < 2; ++k) {
             double here = 0, mapped = 0;
@@ -133,20 +132,15 @@ static void points_of_a_flat_grid_are_mapped_to_themselves(void) {
     uint32_t face = count;
     double weights[3] = {1, 0, 0}, there[3];
     faqem_error error;
-    CHECK(faqem_result_map(result, FAQEM_MAPPING_LINEAGE, &face, weights, 1, &face, there, &error) ==
-          FAQEM_ERROR_INPUT);
+    CHECK(faqem_result_map(result, &face, weights, 1, &face, there, &error) == FAQEM_ERROR_INPUT);
     face = 0;
     weights[0] = NAN;
-    CHECK(faqem_result_map(result, FAQEM_MAPPING_LINEAGE, &face, weights, 1, &face, there, &error) ==
-          FAQEM_ERROR_INPUT);
+    CHECK(faqem_result_map(result, &face, weights, 1, &face, there, &error) == FAQEM_ERROR_INPUT);
     weights[0] = 1;
-    CHECK(faqem_result_map(result, (faqem_mapping)3, &face, weights, 1, &face, there, &error) ==
-          FAQEM_ERROR_OPTION);
     faqem_result_destroy(result);
 
     CHECK(faqem_simplify(&mesh, NULL, &result, NULL) == FAQEM_OK); /* without a history */
-    CHECK(faqem_result_map(result, FAQEM_MAPPING_LINEAGE, &face, weights, 1, &face, there, &error) ==
-          FAQEM_ERROR_OPTION);
+    CHECK(faqem_result_map(result, &face, weights, 1, &face, there, &error) == FAQEM_ERROR_OPTION);
     faqem_history* history = NULL;
     CHECK(faqem_history_create((const faqem_result* const*)&result, 1, &history, &error) ==
           FAQEM_ERROR_OPTION);

@@ -30,7 +30,7 @@ compare() {
 for model in "$work"/*.glb; do
     case $model in */out.glb) continue ;; esac
     for options in "--preset qem" "--preset paper" "--preset stmw" "--preset fast" "--preset balanced" \
-        "--preset best" "--bake vertex" "--bake keep" "--bake none" "--mapping lineage" "--virtual-edges=0.1" \
+        "--preset best" "--bake vertex" "--bake keep" "--bake none" "--virtual-edges=0.1" \
         "--visibility weighted" "--max-error 1% --bake none"; do
         first=$(hash "$tool" "$model" 1 "$options")
         for threads in 1 1 2 3 16; do compare "$tool" $threads "$threads threads"; done

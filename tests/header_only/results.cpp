@@ -46,9 +46,8 @@ private:
     std::ofstream out_;
 };
 
-void write_mapping(const faqem::TriangleMesh& mesh, const faqem::CollapseHistory& history,
-                   faqem::Mapping mapping, Writer& out) {
-    const faqem::SurfaceMap map(history, mapping);
+void write_mapping(const faqem::TriangleMesh& mesh, const faqem::CollapseHistory& history, Writer& out) {
+    const faqem::SurfaceMap map(history);
     for (faqem::Index face = 0; face < mesh.triangles.size(); face += 7) {
         const faqem::SurfacePoint point = map.map(face, {0.2, 0.3, 0.5});
         out.value(point.face);
@@ -71,9 +70,7 @@ bool write_results(const char* file) {
             const faqem::SimplifyResult result = faqem::simplify(view, options);
             out.result(result);
             out.value(faqem::hausdorff(view, {result.mesh.positions, result.mesh.triangles}).bound);
-            write_mapping(result.mesh, result.history, faqem::Mapping::projection, out);
-            write_mapping(result.mesh, result.history, faqem::Mapping::lineage, out);
-            write_mapping(result.mesh, result.history, faqem::Mapping::closest, out);
+            write_mapping(result.mesh, result.history, out);
             out.array(faqem::vertex_map(result.history));
         }
         out.result(faqem::simplify(view, {.max_error = faqem::of_diagonal(0.01)}));

@@ -77,6 +77,7 @@ SMALL = {
     "src/scene/vector_conversion",
     # Bodies and declarations of an interface.
     "include/faqem/detail/base/version",
+    "include/faqem/detail/mapping/surface_map",
     "include/faqem/detail/simplify/simplify",
     "src/asset/gltf/gltf",
     "src/cli/commands/commands",

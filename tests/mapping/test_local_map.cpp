@@ -44,8 +44,8 @@ bool same_but_for_rounding(const SurfacePoint& a, const SurfacePoint& b) {
 }
 
 // Maps rows of points of all faces with and without a local map for every `block` points.
-void check_same_points(const SimplifyResult& result, Mapping mapping, int block) {
-    const SurfaceMap map(result.history, mapping);
+void check_same_points(const SimplifyResult& result, int block) {
+    const SurfaceMap map(result.history);
     constexpr int n = 24;
     std::size_t different = 0, points = 0, kept = 0;
     for (Index f = 0; f < result.mesh.triangles.size(); ++f) {
@@ -72,7 +72,7 @@ void check_same_points(const SimplifyResult& result, Mapping mapping, int block)
     }
     CHECK(points > 1000);
     CHECK(different == 0);
-    CHECK((mapping == Mapping::projection ? kept > points / 10 : kept == 0));
+    CHECK(kept > points / 10);
 }
 
 }  // namespace
@@ -84,9 +84,8 @@ TEST_CASE("local map: gives the points of the whole map") {
         options.target = ratio(0.1);
         options.history = Recording::on;
         const SimplifyResult result = simplify(mesh.view(), options);
-        for (const Mapping mapping : {Mapping::projection, Mapping::closest, Mapping::lineage})
-            check_same_points(result, mapping, 8);
-        check_same_points(result, Mapping::projection, 3);
+        check_same_points(result, 8);
+        check_same_points(result, 3);
     }
 }
 
@@ -95,7 +94,7 @@ TEST_CASE("local map: is the whole map until it is prepared") {
     options.target = ratio(0.3);
     options.history = Recording::on;
     const SimplifyResult result = simplify(double_sheet(6, 0.1).view(), options);
-    const SurfaceMap map(result.history, Mapping::projection);
+    const SurfaceMap map(result.history);
     const SurfacePoint near = map.map(0, {0.4, 0.3, 0.3});
     CHECK(same(detail::LocalMap{}.map_near(map, 0, {0.3, 0.4, 0.3}, near),
                map.map_near(0, {0.3, 0.4, 0.3}, near)));

@@ -65,7 +65,7 @@ TEST_CASE("successive projection: points are mapped to their material group") {
     HandHistory hand(positions, faces, groups);
     hand.collapse(5, 6, {1.9, 1, 0});  // moves the group boundary into the other group
     const CollapseHistory history = hand.finish();
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     for (Index f = 0; f < history.kept_faces.size(); ++f) {
         for (const Vec3& w : spread(4)) {
             CHECK(history.face_groups[map.map(f, w).face] == history.face_groups[history.kept_faces[f]]);
@@ -91,7 +91,7 @@ TEST_CASE("successive projection: if the walk ends on an opposite face, the clos
     hand.collapse(d, e, {0.5, 1, 0});
     const CollapseHistory history = hand.finish();
     REQUIRE(history.kept_faces == std::vector<Index>{0, 1});
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     const SurfacePoint hit = map.map(0, {0.4, 0.3, 0.3});
     CHECK(hit.face == 2);
     CHECK(hit.step == MapStep::closest);
@@ -102,7 +102,7 @@ TEST_CASE("successive projection: points of an inverted face are marked as inexa
     HandHistory hand({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}}, {{0, 1, 2}, {0, 3, 1}});
     hand.collapse(2, 3, {0.5, -1, 0});
     const CollapseHistory history = hand.finish();
-    const SurfacePoint hit = SurfaceMap(history, Mapping::projection).map(0, {0.4, 0.3, 0.3});
+    const SurfacePoint hit = SurfaceMap(history).map(0, {0.4, 0.3, 0.3});
     CHECK(hit.step != MapStep::history);
     CHECK(hit.face < 2);
 }
@@ -125,7 +125,7 @@ TEST_CASE("successive projection: points are mapped to their plate if two plates
     const CollapseHistory history = hand.finish();
     const TriangleMesh small = small_mesh(history);
     REQUIRE(small.triangles.size() < welded.size());
-    const SurfaceMap map(history, Mapping::projection, unwelded);
+    const SurfaceMap map(history, unwelded);
     for (Index f = 0; f < small.triangles.size(); ++f) {
         const bool first = history.kept_faces[f] < count;
         for (const Vec3& w : spread(6)) {
@@ -159,7 +159,7 @@ TEST_CASE("successive projection: walks that are too long fall back to the surfa
     const CollapseHistory history = hand.finish();
     const TriangleMesh small = small_mesh(history);
     REQUIRE(small.triangles.size() == 2);
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     std::size_t aborted = 0;
     for (Index f = 0; f < small.triangles.size(); ++f) {
         for (const Vec3& w : spread(12)) {
@@ -196,7 +196,7 @@ TEST_CASE("successive projection: points stay on a plane with a fin on every edg
     const CollapseHistory history = hand.finish();
     const TriangleMesh small = small_mesh(history);
     REQUIRE(small.triangles.size() < faces.size());
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     for (Index f = 0; f < small.triangles.size(); ++f) {
         const Index original = history.kept_faces[f];
         SurfacePoint before = map.map(f, {0.98, 0.01, 0.01});
@@ -221,7 +221,7 @@ TEST_CASE("successive projection: map_near() is exact in flat regions") {
     const CollapseHistory history = collapsed_grid(12);
     const TriangleMesh small = small_mesh(history);
     REQUIRE(small.triangles.size() < 60);
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     for (Index f = 0; f < small.triangles.size(); ++f) {
         SurfacePoint last = map.map(f, {0.98, 0.01, 0.01});
         for (int i = 1; i < 50; ++i) {

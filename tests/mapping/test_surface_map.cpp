@@ -81,7 +81,7 @@ CollapseHistory squeezed_pillow(const Pillow& p, const std::set<Index>& reversed
 TEST_CASE("surface map: without collapses, each point is mapped to itself") {
     HandHistory hand({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 3}});
     const CollapseHistory history = hand.finish();
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     for (Index f = 0; f < 2; ++f) {
         for (const Vec3& w : spread(5)) {
             const SurfacePoint p = map.map(f, w);
@@ -96,7 +96,7 @@ TEST_CASE("surface map: in a plane, projection is exact") {
     const CollapseHistory history = grid_with_two_collapses();
     const TriangleMesh small = small_mesh(history);
     REQUIRE(small.triangles.size() == 4);
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     double area = 0;
     for (Index f = 0; f < small.triangles.size(); ++f) {
         const Vec3 a = small_point(small, f, {1, 0, 0}), b = small_point(small, f, {0, 1, 0}),
@@ -129,46 +129,11 @@ TEST_CASE("surface map: points of faces with a flipped edge are mapped exactly")
     validate(history);
     const TriangleMesh small = replay(history);
     REQUIRE(small.triangles == std::vector<Triangle>{{2, 3, 1}, {0, 1, 3}});
-    for (const Mapping mapping : {Mapping::projection, Mapping::closest}) {
-        const SurfaceMap map(history, mapping);
-        for (Index f = 0; f < 2; ++f) {
-            for (const Vec3& w : spread(7)) {
-                const SurfacePoint p = map.map(f, w);
-                CHECK(distance(original_point(history, p), small_point(small, f, w)) < 1e-15);
-            }
-        }
-    }
-}
-
-TEST_CASE("surface map: lineage follows the rule of the FA-QEM paper") {
-    const CollapseHistory history = grid_with_two_collapses();
-    const TriangleMesh small = small_mesh(history);
-    const SurfaceMap map(history, Mapping::lineage);
-    const std::set<Index> merged = {4, 5, 7};
-    for (Index f = 0; f < small.triangles.size(); ++f) {
-        for (const Vec3& w : spread(6)) {
+    const SurfaceMap map(history);
+    for (Index f = 0; f < 2; ++f) {
+        for (const Vec3& w : spread(7)) {
             const SurfacePoint p = map.map(f, w);
-            const Triangle& t = history.triangles[p.face];
-            std::size_t corner = 0;
-            while (p.barycentric[corner] != 1) REQUIRE(++corner < 3);
-            for (Index g = 0; g < p.face; ++g) {  // the smallest face at the vertex
-                for (Index v : history.triangles[g]) CHECK(v != t[corner]);
-            }
-            // Expected: the closest corner of the simplified face; 10 leads to 9 or 7, and 9 to 4 or 5.
-            const Vec3 p0 = small_point(small, f, w);
-            Index best = small.triangles[f][0];
-            for (Index v : small.triangles[f]) {
-                if (distance(small.positions[v], p0) < distance(small.positions[best], p0)) best = v;
-            }
-            const Index version = history.kept_versions[best];
-            if (version < 9) {
-                CHECK(t[corner] == version);
-                continue;
-            }
-            const bool seven = distance(p0, history.position(7)) < distance(p0, history.position(9));
-            const bool five = distance(p0, history.position(5)) < distance(p0, history.position(4));
-            CHECK(t[corner] == (seven ? 7u : five ? 5u : 4u));
-            CHECK(merged.count(t[corner]) == 1);
+            CHECK(distance(original_point(history, p), small_point(small, f, w)) < 1e-15);
         }
     }
 }
@@ -183,7 +148,7 @@ TEST_CASE("surface map: points are not mapped to the other side of a thin plate"
     const CollapseHistory history = squeezed_pillow(p, reversed);
     const TriangleMesh small = small_mesh(history);
     REQUIRE(small.triangles.size() < p.faces.size());
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     for (Index f = 0; f < small.triangles.size(); ++f) {
         const bool top = history.kept_faces[f] < p.top_faces();
         for (const Vec3& w : spread(6)) {
@@ -225,7 +190,7 @@ TEST_CASE("surface map: projection gives the closest preimage face of the same o
         return Vec3{cross[0] / length, cross[1] / length, cross[2] / length};
     };
     const TriangleMesh small = small_mesh(history);
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     for (Index f = 0; f < small.triangles.size(); ++f) {
         const Triangle& corners = small.triangles[f];
         const Vec3 n0 =
@@ -255,40 +220,9 @@ TEST_CASE("surface map: projection gives the closest preimage face of the same o
     }
 }
 
-TEST_CASE("surface map: closest agrees with brute force, on either side") {
-    const Pillow p = pillow(6, 0.05);
-    const CollapseHistory history = squeezed_pillow(p, {});
-    const TriangleMesh small = small_mesh(history);
-    const SurfaceMap map(history, Mapping::closest);
-    std::size_t other_side = 0;
-    for (Index f = 0; f < small.triangles.size(); ++f) {
-        SurfacePoint last;
-        for (const Vec3& w : spread(5)) {
-            const Vec3 p0 = small_point(small, f, w);
-            double least = 1e300;
-            for (const Triangle& t : p.faces) {
-                // Samples at a distance of 1 / 40, which is sufficient for the tolerance below.
-                for (const Vec3& v : spread(40)) {
-                    least = std::min(
-                        least, distance(p0, mix(v, p.positions[t[0]], p.positions[t[1]], p.positions[t[2]])));
-                }
-            }
-            const SurfacePoint found = map.map(f, w);
-            const double d = distance(original_point(history, found), p0);
-            CHECK(d <= least + 1e-12);
-            CHECK(d >= least - 0.03);
-            CHECK(found.step == MapStep::closest);
-            other_side += (found.face < p.top_faces()) != (history.kept_faces[f] < p.top_faces());
-            if (last.face != no_index) CHECK(map.map_near(f, w, last).face == found.face);
-            last = found;
-        }
-    }
-    CHECK(other_side > 0);
-}
-
 TEST_CASE("surface map: concurrent calls give the same results") {
     const CollapseHistory history = squeezed_pillow(pillow(8, 1e-3), {});
-    const SurfaceMap map(history, Mapping::projection);
+    const SurfaceMap map(history);
     const auto all = [&] {
         std::vector<SurfacePoint> result;
         for (Index f = 0; f < history.kept_faces.size(); ++f) {

@@ -114,15 +114,15 @@ TEST_CASE("every member that affects the result changes the key of the options")
             if (k == 7) prune = of_diagonal(0.1);
         }));
     }
-    for (std::size_t k = 0; k < 13; ++k) {
+    for (std::size_t k = 0; k < 12; ++k) {
         CHECK(changes_key([k](Options& o) {
-            auto& [kind, size, density, normal_map, mapping, samples, normals, angle, format, image_quality,
-                   quality, untouched, correspondence] = o.bake;
+            auto& [kind, size, density, normal_map, samples, normals, angle, format, image_quality, quality,
+                   untouched, correspondence] = o.bake;
             if (k == 0) kind = Bake::keep;
             if (k == 1) size = 64;
             if (k == 2) density = 1;
             if (k == 3) normal_map = NormalMap::on;
-            if (k == 4) mapping = Mapping::closest;
+            if (k == 4) untouched = UntouchedParts::baked;
             if (k == 5) samples = 3;
             if (k == 6) normals = Normals::flat;
             if (k == 7) angle = 30;
@@ -130,7 +130,6 @@ TEST_CASE("every member that affects the result changes the key of the options")
             if (k == 9) quality = 80;
             if (k == 10) correspondence = Recording::on;
             if (k == 11) image_quality = 50;
-            if (k == 12) untouched = UntouchedParts::baked;
         }));
     }
 }
@@ -151,8 +150,8 @@ TEST_CASE("options are set from text, and errors name the option") {
     CHECK(set_complaint(o, "weld-distance", "inf") == "weld-distance must be finite and >= 0");
     CHECK(set_complaint(o, "bake", "vertex") == "accepted");
     CHECK(o.bake.kind == Bake::vertex);
-    CHECK(set_complaint(o, "mapping", "nearest") ==
-          "mapping: unknown value 'nearest' (known: projection, lineage, closest)");
+    CHECK(set_complaint(o, "normal-map", "maybe") ==
+          "normal-map: unknown value 'maybe' (known: auto, on, off)");
     CHECK(set_complaint(o, "ratio", "12.5%") == "accepted");
     CHECK((o.target.kind == Target::Kind::ratio && o.target.value == 0.125));
     CHECK(set_complaint(o, "faces", "18446744073709551615") == "accepted");
@@ -197,6 +196,6 @@ TEST_CASE("presets have the names of the table") {
 
 TEST_CASE("validate rejects values that are not enumerators") {
     Options options;
-    options.bake.mapping = static_cast<Mapping>(3);
+    options.bake.normal_map = static_cast<NormalMap>(3);
     CHECK_THROWS_AS(validate(options), OptionError);
 }

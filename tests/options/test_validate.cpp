@@ -128,7 +128,6 @@ TEST_CASE("baking options must be in their ranges") {
               o.bake = {.kind = Bake::none,
                         .texture_size = 64,
                         .texel_density = 8,
-                        .mapping = Mapping::closest,
                         .samples = 8,
                         .crease_angle = 180,
                         .jpeg_quality = 1};

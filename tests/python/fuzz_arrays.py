@@ -85,7 +85,7 @@ def call_model(random_number, points, triangles, given):
     """Bakes a model of arrays, and reads its arrays."""
     model = faqem.Model.from_arrays(points, triangles)
     chosen = random_number.choice([{"bake": "none"}, {"bake": "vertex"}, {"texture_size": 64}, {"texture_size": 100},
-                                   {"normals": "flat"}, {"samples": 9}, {"mapping": "closest"}])
+                                   {"normals": "flat"}, {"samples": 9}])
     options = {name: value for name, value in given.items() if name not in ("groups", "locks", "weights", "uvs")}
     baked = faqem.simplify(model, **{**chosen, **options})
     for part in (*model.parts, *baked.parts):

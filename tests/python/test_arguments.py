@@ -128,12 +128,9 @@ class Values(unittest.TestCase):
     def test_choices_and_lengths_are_named(self):
         mesh = bumpy_grid(6)
         model = faqem.Model.from_arrays(*mesh)
-        out = faqem.simplify(*mesh, history=True)
         for wrong in (None, ["each"], 5):
             with self.assertRaisesRegex(faqem.OptionError, "^textures: "):
                 faqem.simplify_levels(model, [0.5], textures=wrong)
-            with self.assertRaisesRegex(faqem.OptionError, "^mapping: "):
-                out.map([0], [[1, 0, 0]], mapping=wrong)
         for wrong in (None, "many", [1]):
             with self.assertRaisesRegex(faqem.OptionError, "^pixel_error: "):
                 faqem.save_levels([model], "a.glb", pixel_error=wrong)
@@ -194,7 +191,7 @@ class Keywords(unittest.TestCase):
             ("rato", "ratio", lambda **keyword: faqem.simplify(vertices, **keyword)),
             ("triangels", "triangles", lambda **keyword: faqem.Model.from_arrays(vertices, **keyword)),
             ("colapses", "collapses", lambda **keyword: faqem.replay_simplification(vertices, triangles, **keyword)),
-            ("maping", "mapping", lambda **keyword: out.map([0], [[1, 0, 0]], **keyword)),
+            ("barycentrics", "barycentric", lambda **keyword: out.map([0], **keyword)),
             ("overwrit", "overwrite", lambda **keyword: faqem.History.of([out]).save("a.history", **keyword)),
             ("paht", "path", lambda **keyword: faqem.load(**keyword)),
         ):

@@ -19,7 +19,7 @@ using engine::to_eigen;
 using engine::Vector3;
 
 // Minimum cosine between the normals of a simplified face and of a face of the source on the same side; as for
-// Mapping::projection.
+// SuccessiveProjection.
 constexpr double min_facing_cosine = 0.17;
 
 // The faces of the source around each vertex of the simplified mesh: those with a corner that was collapsed into it.
@@ -93,7 +93,7 @@ private:
 
         template <class Filter>
         SurfacePoint closest(const Vector3& p, const Filter& filter) const {
-            constexpr std::size_t max_rejections = 512;  // as for Mapping::projection
+            constexpr std::size_t max_rejections = 512;  // as for SuccessiveProjection
             const Bvh::Hit hit = tree.closest_if(
                 engine::to_array(p), [&](Index i) { return filter(faces[i]); },
                 std::numeric_limits<double>::infinity(), max_rejections);

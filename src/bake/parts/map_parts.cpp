@@ -19,9 +19,7 @@ bool may_make_images(const Asset& asset, const BakeOptions& bake) {
 
 // Normals need no map, see make_normals().
 bool needs_map(const Asset& asset, const Part& part, const BakeOptions& bake) {
-    if (!part.joints.empty() || !part.morph_targets.empty() || !part.custom_attributes.empty() ||
-        bake.mapping != Mapping::projection)
-        return true;
+    if (!part.joints.empty() || !part.morph_targets.empty() || !part.custom_attributes.empty()) return true;
     return bake.kind != Bake::none && (!makes_atlas(bake.kind) || may_make_images(asset, bake));
 }
 
@@ -42,8 +40,8 @@ std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyRes
         BakePart& part = parts[p];
         if (part.faces() == 0 || part.is_kept) return;
         if (needs_map(source, *part.source, bake)) {
-            part.map = std::make_unique<const SurfaceMap>(make_surface_map(
-                part.simplified->history, bake.mapping, part.source->triangles, block_context));
+            part.map = std::make_unique<const SurfaceMap>(
+                make_surface_map(part.simplified->history, part.source->triangles, block_context));
         }
         if (bake.normals != Normals::none) part.normals = make_normals(part, bake, block_context);
     };

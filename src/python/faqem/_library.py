@@ -72,7 +72,7 @@ _signatures: dict[str, tuple[Any, list[Any]]] = {
     "faqem_result_level_error": (c_double, [_handle]),
     "faqem_result_map": (
         c_int,
-        [_handle, c_int, POINTER(c_uint32), POINTER(c_double), c_size_t, POINTER(c_uint32), POINTER(c_double),
+        [_handle, POINTER(c_uint32), POINTER(c_double), c_size_t, POINTER(c_uint32), POINTER(c_double),
          POINTER(_Error)],
     ),
     "faqem_simplify_levels": (

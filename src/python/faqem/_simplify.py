@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from ._arrays import MeshArrays, checked_array, checked_indices, mesh_pointer, view_array
 from ._library import call, create, destroy_with, library
-from ._options import Options, enum_value, names_keywords
+from ._options import Options, names_keywords
 from .errors import InputError
 
 #: Keywords of simplify() and simplify_levels() that are arrays.
@@ -21,8 +21,6 @@ simplify_keywords = (
     "points", "triangles", *array_keywords,
     "target_reduction", "target_count", "agg", "verbose", "return_collapses", "lossless", "preserve_border",
 )
-
-_mappings = ["projection", "lineage", "closest"]
 
 
 class _Result:
@@ -72,14 +70,11 @@ class Simplified:
         self.error = None if numpy.isnan(error) else error
 
     @names_keywords
-    def map(
-        self, faces: ArrayLike, barycentric: ArrayLike, mapping: str = "projection"
-    ) -> tuple[NDArray[numpy.uint32], NDArray[numpy.float64]]:
+    def map(self, faces: ArrayLike, barycentric: ArrayLike) -> tuple[NDArray[numpy.uint32], NDArray[numpy.float64]]:
         """Maps points of the simplified mesh to the original. Needs history=True.
 
         faces        (n,) indices of triangles of the simplified mesh, of an integer type
         barycentric  (n, 3) weights of their corners, >= 0, sum 1
-        mapping      "projection", "lineage" or "closest"; see docs/baking.md
 
         Returns the input triangles (n,) and the weights of their corners (n, 3). Raises InputError, also for
         indices that are no integers or out of range, and OptionError if there is no history.
@@ -95,9 +90,9 @@ class Simplified:
         def pointer(array: NDArray[Any], kind: Any) -> Any:
             return array.ctypes.data_as(ctypes.POINTER(kind))
 
-        call(library.faqem_result_map, self._handle, enum_value(_mappings, mapping, "mapping"),
-             pointer(indices, ctypes.c_uint32), pointer(weights, ctypes.c_double), len(indices),
-             pointer(source_faces, ctypes.c_uint32), pointer(source_weights, ctypes.c_double))
+        call(library.faqem_result_map, self._handle, pointer(indices, ctypes.c_uint32),
+             pointer(weights, ctypes.c_double), len(indices), pointer(source_faces, ctypes.c_uint32),
+             pointer(source_weights, ctypes.c_double))
         return source_faces, source_weights
 
 

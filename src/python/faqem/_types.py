@@ -56,7 +56,6 @@ class CommonModelOptions(CommonOptions, total=False):
     image_quality: float | None
     jpeg_quality: int | None
     untouched: Literal["auto", "kept", "baked"] | None
-    mapping: Literal["projection", "lineage", "closest"] | None
     samples: int | None
     compress: Literal["source", "none", "meshopt", "draco"] | None
     quantize: Literal["source", "off", "on"] | None

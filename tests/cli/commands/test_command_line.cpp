@@ -39,7 +39,6 @@ TEST_CASE("an invalid command line exits with 2 and an error on stderr") {
                                   "simplify in.glb out.glb --faces 10 --ratio 0.5",
                                   "simplify in.glb out.glb --preset bestest",
                                   "simplify in.glb out.glb --bake nowhere",
-                                  "simplify in.glb out.glb --mapping guess",
                                   "simplify in.glb out.glb --normal-map maybe",
                                   "simplify in.glb out.glb --normals round",
                                   "simplify in.glb out.glb --normals smooth:steep",
@@ -219,9 +218,9 @@ TEST_CASE("no colour escape sequences are written on a terminal") {
     const Folder folder;
     faqem::save(sheet(8), folder / "in.glb");
     for (const char* environment : {"NO_COLOR=1", "CLICOLOR_FORCE=1"}) {
-        const std::string command = "cd '" + folder.path().string() + "' && " + environment +
-                                    " script -qec \"'" + tool_path +
-                                    "' simplify in.glb out.glb --force --bake none\" seen >/dev/null </dev/null";
+        const std::string command =
+            "cd '" + folder.path().string() + "' && " + environment + " script -qec \"'" + tool_path +
+            "' simplify in.glb out.glb --force --bake none\" seen >/dev/null </dev/null";
         REQUIRE(std::system(command.c_str()) == 0);
         const std::string seen = read(folder / "seen");
         CHECK(seen.find("load [") != std::string::npos);  // the progress bar

@@ -3,9 +3,6 @@
 #include "faqem/detail/mapping/local_map.hpp"
 #include "faqem/export.hpp"
 
-#include <memory>
-#include <variant>
-
 #include "faqem/detail/mapping/successive_projection.hpp"
 #include "faqem/detail/mapping/surface_map-inl.hpp"
 
@@ -15,30 +12,26 @@ namespace detail {
 FAQEM_INLINE void LocalMap::prepare(const SurfaceMap& map, Index face, const Vec3& barycentric, double radius,
                                     const SurfacePoint& near) {
     clear();
-    if (const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map))
-        (*projection)->find_accepted_faces(face, barycentric, radius, near, faces_);
+    map.impl_->find_accepted_faces(face, barycentric, radius, near, faces_);
 }
 
 FAQEM_INLINE bool LocalMap::prepare_from(const SurfaceMap& map, Index face, const Vec3& barycentric,
                                          double radius, const LocalMap& larger) {
     clear();
-    if (const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map))
-        larger.faces_.narrow((*projection)->position_on(face, barycentric), radius, faces_);
+    larger.faces_.narrow(map.impl_->position_on(face, barycentric), radius, faces_);
     return !faces_.empty();
 }
 
 FAQEM_INLINE SurfacePoint LocalMap::map_near(const SurfaceMap& map, Index face, const Vec3& barycentric,
                                              const SurfacePoint& near) {
-    const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map);
-    if (faces_.empty() || !projection) return map.map_near(face, barycentric, near);
-    return (*projection)->map_near(face, barycentric, near, faces_, recent_);
+    if (faces_.empty()) return map.map_near(face, barycentric, near);
+    return map.impl_->map_near(face, barycentric, near, faces_, recent_);
 }
 
 FAQEM_INLINE std::optional<SurfacePoint> LocalMap::map_to_same(const SurfaceMap& map, Index face,
                                                                const Vec3& barycentric, MapStep step) {
-    const auto* projection = std::get_if<std::unique_ptr<const SuccessiveProjection>>(&map.impl_->map);
-    if (faces_.empty() || !projection) return std::nullopt;
-    return (*projection)->map_to_same(face, barycentric, step, faces_, recent_);
+    if (faces_.empty()) return std::nullopt;
+    return map.impl_->map_to_same(face, barycentric, step, faces_, recent_);
 }
 
 }  // namespace detail

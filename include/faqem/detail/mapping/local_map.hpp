@@ -13,7 +13,7 @@ FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 /// Finds the original faces near a small region of one simplified face once, so that the points of the region need no
-/// search of their own. Only Mapping::projection gains from it.
+/// search of their own.
 class FAQEM_EXPORT LocalMap {
 public:
     /// Prepares the map for a ball.

@@ -141,14 +141,6 @@ inline void fill_kept_faces(const CollapseHistory& history, const std::vector<Tr
     }
 }
 
-FAQEM_INLINE ReplayTables replay_vertices(const CollapseHistory& history) {
-    ReplayTables result;
-    result.positions = version_positions(history);
-    const auto nothing = [](std::size_t, std::uint64_t, const Triangle&) {};
-    fill_kept_faces(history, replay_forward(history, nothing), result);
-    return result;
-}
-
 // ReplayTables::entry_begin
 inline std::vector<std::uint64_t> entries_of_patches(const CollapseHistory& history) {
     const auto entries = [&](std::size_t k) {

@@ -67,12 +67,6 @@ struct ReplayTables {
     }
 };
 
-/// Computes positions, kept_corners and kept_positions only, which are sufficient for LineageMap and
-/// ClosestPointMap.
-/// \param history  valid
-/// O(size of the history)
-ReplayTables replay_vertices(const CollapseHistory& history);
-
 /// Computes all tables except those that describe_patches() adds.
 /// \param history  valid
 /// O(size of the history) time. Memory: 37 bytes per entry, including describe_patches(); if a patch has no

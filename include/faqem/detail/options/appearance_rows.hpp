@@ -106,10 +106,6 @@ inline constexpr OptionRow appearance_rows[] = {
          .help =
              "Meshes of which the simplification changed nothing: auto (kept unless another option changes "
              "their images or normals), kept, baked"}),
-    option_row<&Options::bake, &BakeOptions::mapping>({.name = "mapping",
-                                                       .choices = "projection|lineage|closest",
-                                                       .help = "Map to the original",
-                                                       .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::samples>(
         {.name = "samples", .range = {.min = 1, .max = 8}, .help = "Samples per texel along each axis"}),
     option_row<&Options::bake, &BakeOptions::correspondence>(

@@ -112,11 +112,10 @@ TEST_CASE("simplify accepts every documented value of its options") {
           "--w-area 1 --w-boundary 2 --w-normal 0.5 --w-uv 10 --w-plane-area 0"})
         accepts(arguments + " --bake none");
     for (const std::string arguments :
-         {"--bake vertex", "--bake keep", "--bake none", "--bake per-triangle --mapping lineage",
-          "--mapping projection", "--mapping closest", "--normal-map auto", "--normal-map on",
-          "--normal-map off", "--normals transfer", "--normals smooth", "--normals smooth:30",
-          "--normals flat", "--image-format png", "--image-format jpeg", "--image-format jpeg:50",
-          "--image-format source", "--correspondence map.bin"})
+         {"--bake vertex", "--bake keep", "--bake none", "--bake per-triangle", "--normal-map auto",
+          "--normal-map on", "--normal-map off", "--normals transfer", "--normals smooth",
+          "--normals smooth:30", "--normals flat", "--image-format png", "--image-format jpeg",
+          "--image-format jpeg:50", "--image-format source", "--correspondence map.bin"})
         accepts(arguments);
     run(folder, "simplify in.glb none.glb --bake none --quiet");
     CHECK(faqem::load(folder / "none.glb").images.empty());
