@@ -82,14 +82,12 @@ struct PositionRounding {
 
 /// A connected component of the input that has no face in the result, although it was visible.
 struct RemovedComponent {
-    /// Components with at most this share of the area and of all silhouettes are not listed.
-    static constexpr double min_share = 0.02;
+    /// Components with at most this share of the area are not listed.
+    static constexpr double min_share = 0.005;
 
-    std::string part;         ///< of an asset: name of its part, as in warnings; empty for a mesh
-    std::uint64_t faces = 0;  ///< in the input, over all instances
-    double area_share = 0;    ///< share of the area of the input, in [0, 1]
-    /// Largest share of the input's silhouette, seen along one of the coordinate axes, in [0, 1].
-    double silhouette_share = 0;
+    std::string part;                 ///< of an asset: name of its part, as in warnings; empty for a mesh
+    std::uint64_t faces = 0;          ///< in the input, over all instances
+    double area_share = 0;            ///< share of the area of the input, in [0, 1]
     Vec3 box_min = {}, box_max = {};  ///< axis-aligned bounding box, model units; for an asset, scene units
 };
 

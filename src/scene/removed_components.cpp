@@ -39,7 +39,7 @@ void report_removed_components(const Asset& source, SimplifiedParts& result) {
             faces.push_back({of_part[instance.part].component[f], {place(t[0]), place(t[1]), place(t[2])}});
         }
     }
-    for (FoundComponent& found : removed_components(std::move(faces), is_left)) {
+    for (FoundComponent& found : removed_components(faces, is_left)) {
         const auto after = std::upper_bound(first.begin(), first.end(), found.component);
         found.removed.part = part_title(source, static_cast<std::size_t>(after - first.begin()) - 1);
         report.removed_components.push_back(std::move(found.removed));

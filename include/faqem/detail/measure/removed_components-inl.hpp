@@ -4,9 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -22,67 +20,25 @@ namespace detail {
 struct ComponentMeasures {
     std::uint64_t faces = 0;
     double area = 0;
-    engine::Vector3 cells =
-        engine::Vector3::Zero();  ///< of ViewGrids: number of cells with a point of the component
     Eigen::AlignedBox3d box;
 };
 
-/// Square grids over the unit cube, one for each view along an axis.
-struct ViewGrids {
-    int side;                                ///< number of cells
-    std::array<std::vector<Index>, 3> last;  ///< by cell: the last component with a point in it
-};
-
-/// Adds points of a face, at most one cell apart, to the grids. Components are added one after the other.
-/// \param all  counts the cells with a point of any component
-inline void add_face(ViewGrids& grids, const PlacedFace& face, ComponentMeasures& own,
-                     ComponentMeasures& all) {
-    const engine::Vector3 a = grids.side * engine::to_eigen(face.corners[0]);
-    const engine::Vector3 u = grids.side * engine::to_eigen(face.corners[1]) - a;
-    const engine::Vector3 v = grids.side * engine::to_eigen(face.corners[2]) - a;
-    const int n =
-        1 + static_cast<int>(u.cwiseAbs().cwiseMax(v.cwiseAbs()).cwiseMax((u - v).cwiseAbs()).maxCoeff());
-    for (int i = 0; i <= n; ++i) {
-        for (int j = 0; i + j <= n; ++j) {
-            const Eigen::Array3i cell =
-                (a + (i * u + j * v) / n).array().cast<int>().max(0).min(grids.side - 1);
-            for (int k = 0; k < 3; ++k) {
-                const int index = cell[(k + 1) % 3] * grids.side + cell[(k + 2) % 3];
-                Index& last = grids.last[static_cast<std::size_t>(k)][static_cast<std::size_t>(index)];
-                if (last == no_index) ++all.cells[k];
-                if (std::exchange(last, face.component) != face.component) ++own.cells[k];
-            }
-        }
-    }
-}
-
 /// Measures components. Areas are relative to the square of the longest side of the model.
-/// \param all  receives the sums
-inline std::vector<ComponentMeasures> component_sizes(std::vector<PlacedFace> faces, std::size_t count,
-                                                      ComponentMeasures& all) {
-    std::sort(faces.begin(), faces.end());
+inline std::vector<ComponentMeasures> component_sizes(std::span<const PlacedFace> faces, std::size_t count) {
     std::vector<ComponentMeasures> sizes(count);
     // Positions are divided by 4, so that differences are finite.
+    Eigen::AlignedBox3d all;
     for (const PlacedFace& face : faces)
         for (const Vec3& p : face.corners) sizes[face.component].box.extend(0.25 * engine::to_eigen(p));
-    for (const ComponentMeasures& size : sizes) all.box.extend(size.box);
-    const double scale = 1 / std::max(all.box.sizes().maxCoeff(), std::numeric_limits<double>::min());
-    double squares = 0;
-    for (PlacedFace& face : faces) {
-        for (Vec3& p : face.corners)
-            p = engine::to_array(scale * (0.25 * engine::to_eigen(p) - all.box.min()));
-        const engine::Vector3 a = engine::to_eigen(face.corners[0]);
-        const engine::Vector3 u = engine::to_eigen(face.corners[1]) - a,
-                              v = engine::to_eigen(face.corners[2]) - a;
+    for (const ComponentMeasures& size : sizes) all.extend(size.box);
+    const double scale = 1 / std::max(all.sizes().maxCoeff(), std::numeric_limits<double>::min());
+    for (const PlacedFace& face : faces) {
+        const auto corner = [&](std::size_t i) {
+            return engine::Vector3(scale * (0.25 * engine::to_eigen(face.corners[i]) - all.min()));
+        };
         ++sizes[face.component].faces;
-        sizes[face.component].area += 0.5 * u.cross(v).norm();
-        squares += std::max(u.squaredNorm(), v.squaredNorm());
+        sizes[face.component].area += 0.5 * engine::area_vector(corner(0), corner(1), corner(2)).norm();
     }
-    for (const ComponentMeasures& size : sizes) all.area += size.area;
-    // If many faces are large, cells are larger, so that large faces need at most 10^8 points.
-    ViewGrids grids{static_cast<int>(std::min(256.0, 1 + std::sqrt(2e8 / squares))), {}};
-    grids.last.fill(std::vector<Index>(static_cast<std::size_t>(grids.side * grids.side), no_index));
-    for (const PlacedFace& face : faces) add_face(grids, face, sizes[face.component], all);
     return sizes;
 }
 
@@ -106,30 +62,22 @@ FAQEM_INLINE FaceComponents face_components(const PositionView& positions, Trian
     return found;
 }
 
-FAQEM_INLINE std::vector<FoundComponent> removed_components(std::vector<PlacedFace> faces,
+FAQEM_INLINE std::vector<FoundComponent> removed_components(std::span<const PlacedFace> faces,
                                                             std::span<const std::uint8_t> is_left) {
     std::vector<FoundComponent> removed;
     if (faces.empty() || std::find(is_left.begin(), is_left.end(), 0) == is_left.end()) return removed;
-    ComponentMeasures all;
-    const std::vector<ComponentMeasures> sizes = component_sizes(std::move(faces), is_left.size(), all);
+    const std::vector<ComponentMeasures> sizes = component_sizes(faces, is_left.size());
+    double all = 0;
+    for (const ComponentMeasures& size : sizes) all += size.area;
     for (Index c = 0; c < is_left.size(); ++c) {
         const ComponentMeasures& size = sizes[c];
-        if (is_left[c] || size.faces == 0) continue;
-        double silhouette = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            // The silhouette of a flat model seen from the side is a line, in which parts hide each other.
-            if (all.cells[axis] < 0.05 * all.cells.maxCoeff()) continue;
-            silhouette = std::max(silhouette, size.cells[axis] / all.cells[axis]);
-        }
-        const double area = all.area > 0 ? size.area / all.area : 0;
-        if (std::max(area, silhouette) > RemovedComponent::min_share)
-            removed.push_back({c,
-                               {"", size.faces, area, silhouette, engine::to_array(4 * size.box.min()),
-                                engine::to_array(4 * size.box.max())}});
+        if (is_left[c] || !(size.area > RemovedComponent::min_share * all)) continue;
+        removed.push_back({c,
+                           {"", size.faces, size.area / all, engine::to_array(4 * size.box.min()),
+                            engine::to_array(4 * size.box.max())}});
     }
     std::stable_sort(removed.begin(), removed.end(), [](const FoundComponent& a, const FoundComponent& b) {
-        return std::max(a.removed.area_share, a.removed.silhouette_share) >
-               std::max(b.removed.area_share, b.removed.silhouette_share);
+        return a.removed.area_share > b.removed.area_share;
     });
     return removed;
 }
@@ -147,27 +95,24 @@ FAQEM_INLINE void report_removed_components(const MeshView& mesh, SimplifyResult
         faces.push_back(
             {components.component[f], {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}});
     }
-    for (FoundComponent& found : removed_components(std::move(faces), is_left))
+    for (FoundComponent& found : removed_components(faces, is_left))
         report.removed_components.push_back(std::move(found.removed));
     warn_of_removed_components(report);
 }
 
 FAQEM_INLINE void warn_of_removed_components(Report& report) {
     if (report.removed_components.empty()) return;
-    const auto percent = [](double share) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%d%%", static_cast<int>(std::lround(100 * std::min(share, 1.0))));
-        return std::string(text);
-    };
     const RemovedComponent& largest = report.removed_components.front();
     const std::size_t count = report.removed_components.size();
+    const long tenths = std::lround(1000 * largest.area_share);  // of a percent
+    const std::string percent =
+        std::to_string(tenths / 10) + (tenths < 100 ? "." + std::to_string(tenths % 10) : "") + "%";
     report.warnings.push_back(
         (count == 1 ? std::string("a visible component was removed: ")
                     : std::to_string(count) + " visible components were removed, the largest with ") +
         std::to_string(largest.faces) + (largest.faces == 1 ? " face" : " faces") +
-        (largest.part.empty() ? "" : " in " + largest.part) + ", " + percent(largest.area_share) +
-        " of the area and " + percent(largest.silhouette_share) +
-        " of the silhouette; a higher target keeps more");
+        (largest.part.empty() ? "" : " in " + largest.part) + ", " + percent +
+        " of the area; a higher target keeps more");
 }
 
 }  // namespace detail

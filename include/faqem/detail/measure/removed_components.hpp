@@ -3,7 +3,6 @@
 /// Finds the connected components that a simplification has removed although they were visible.
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,7 +19,6 @@ namespace detail {
 struct PlacedFace {
     Index component;              ///< number of its component; instances may have faces of the same one
     std::array<Vec3, 3> corners;  ///< finite
-    auto operator<=>(const PlacedFace&) const = default;
 };
 
 /// Connected components, with vertices at equal positions joined.
@@ -42,15 +40,12 @@ struct FoundComponent {
 /// Complexity: O(vertices log vertices + faces)
 FAQEM_EXPORT FaceComponents face_components(const PositionView& positions, TriangleView triangles);
 
-/// Finds the components without a face in the result that had more than RemovedComponent::min_share of the area,
-/// or of the silhouette seen along one of the coordinate axes. Views in which the model covers less than 5% of the
-/// cells of another view do not count. A silhouette is the cells with points of the faces, of at most 256 along the
-/// longest side of the bounding box, so that shares of small components are rather too large.
+/// Finds the components without a face in the result that had more than RemovedComponent::min_share of the area.
 /// \param faces    of the source, over all instances
 /// \param is_left  one per component: nonzero if the result has a face of it
-/// \return in descending order of the larger share
-/// Complexity: O(faces log faces), and at most 10^8 points of large faces
-FAQEM_EXPORT std::vector<FoundComponent> removed_components(std::vector<PlacedFace> faces,
+/// \return in descending order of the share
+/// Complexity: O(faces)
+FAQEM_EXPORT std::vector<FoundComponent> removed_components(std::span<const PlacedFace> faces,
                                                             std::span<const std::uint8_t> is_left);
 
 /// Adds the components without a face in the result to its report, with a warning. Does nothing unless the report

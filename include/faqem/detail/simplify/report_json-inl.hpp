@@ -35,7 +35,6 @@ inline nlohmann::ordered_json removed_components_json(const Report& report) {
         json.push_back({{"part", removed.part},
                         {"faces", removed.faces},
                         {"area_share", removed.area_share},
-                        {"silhouette_share", removed.silhouette_share},
                         {"box_min", removed.box_min},
                         {"box_max", removed.box_max}});
     }
