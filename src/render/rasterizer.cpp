@@ -6,8 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "render/occlusion.hpp"
-
 namespace faqem::render {
 
 namespace {
@@ -56,9 +54,10 @@ struct RenderTarget {
     const Camera& camera;
     Shading shading;
     Edges edges;
-    SurfelImage surfels;           ///< depth and normals
-    std::vector<Vector4f> color;   ///< linear RGBA, premultiplied
-    std::vector<Index> materials;  ///< that of the nearest surface
+    std::uint32_t size;                ///< width and height in samples
+    std::vector<float> inverse_depth;  ///< of the nearest surface that is not blended; 0 without one
+    std::vector<Vector4f> color;       ///< linear RGBA, premultiplied
+    std::vector<Index> materials;      ///< that of the nearest surface
 };
 
 /// Converts screen-space barycentric coordinates to perspective-correct ones.
@@ -192,20 +191,16 @@ Vector3f lighting(const Camera& camera, const Vector3f& albedo, const Vector3& n
 
 /// Colour of a face at the barycentric coordinates w, with the alpha of its material; empty if the alpha mask
 /// discards the pixel.
-/// \param normal  receives the shading normal
-std::optional<Vector4f> shade(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w,
-                              Vector3& normal) {
+std::optional<Vector4f> shade(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w) {
     Vector4f color = base_color(target, face, w);
     const Material& material = *face.material;
     if (material.alpha_mode == AlphaMode::mask && !(color[3] >= material.alpha_cutoff)) return std::nullopt;
     if (material.alpha_mode != AlphaMode::blend) color[3] = 1;
-    normal = face.normal;
-    if (target.shading != Shading::unlit && !material.unlit) {
-        normal = shading_normal(target, face, w);
+    if (target.shading == Shading::lit && !material.unlit) {
         const Vector3 world = interpolate(face, w, [](const Corner& c) -> const Vector3& { return c.world; });
         const Vector3f glow(material.emissive.data());
-        Vector3f rgb =
-            lighting(target.camera, color.head<3>(), normal, (target.camera.eye - world).normalized());
+        Vector3f rgb = lighting(target.camera, color.head<3>(), shading_normal(target, face, w),
+                                (target.camera.eye - world).normalized());
         if (glow.maxCoeff() > 0) {
             const auto texel = sample_texture(face, face.emissive, material.emissive_texture,
                                               target.scene.color_textures, w);
@@ -233,10 +228,8 @@ void draw_pixel(RenderTarget& target, const ScreenTriangle& face, std::size_t pi
     for (std::size_t k = 0; k < 3; ++k) {
         inverse_depth += screen_weights[static_cast<Eigen::Index>(k)] * face.corners[k].inverse_depth;
     }
-    Surfel& surfel = target.surfels.pixels[pixel];
-    if (!(inverse_depth > surfel.inverse_depth)) return;
-    Vector3 normal;
-    auto color = shade(target, face, perspective_weights(face, screen_weights), normal);
+    if (!(inverse_depth > target.inverse_depth[pixel])) return;
+    auto color = shade(target, face, perspective_weights(face, screen_weights));
     if (!color) return;
     if (target.edges == Edges::drawn && edge_distance(face, screen_weights) < edge_width) {
         *color = 0.6f * edge_color + 0.4f * *color;
@@ -247,13 +240,12 @@ void draw_pixel(RenderTarget& target, const ScreenTriangle& face, std::size_t pi
     target.color[pixel] = premultiplied + (1 - alpha) * target.color[pixel];
     target.materials[pixel] = face.material_index;
     if (face.material->alpha_mode == AlphaMode::blend) return;  // blended faces do not write depth
-    surfel.inverse_depth = static_cast<float>(inverse_depth);
-    surfel.normal = normal.cast<float>();
+    target.inverse_depth[pixel] = static_cast<float>(inverse_depth);
 }
 
 void draw_face(RenderTarget& target, const ScreenTriangle& face) {
     const Vector2d &a = face.corners[0].screen, &b = face.corners[1].screen, &c = face.corners[2].screen;
-    const auto size = static_cast<double>(target.surfels.size);
+    const auto size = static_cast<double>(target.size);
     const auto range = [size](double low, double high) {
         return std::pair(static_cast<std::uint32_t>(std::clamp(std::floor(low), 0.0, size)),
                          static_cast<std::uint32_t>(std::clamp(std::ceil(high), 0.0, size)));
@@ -267,7 +259,7 @@ void draw_face(RenderTarget& target, const ScreenTriangle& face) {
             const Vector3 w =
                 Vector3(cross(b - p, c - p), cross(c - p, a - p), cross(a - p, b - p)) / face.screen_area;
             if (w.minCoeff() >= 0) {
-                draw_pixel(target, face, std::size_t{y} * target.surfels.size + x, w);
+                draw_pixel(target, face, std::size_t{y} * target.size + x, w);
             }
         }
     }
@@ -282,7 +274,7 @@ std::optional<ScreenTriangle> project_triangle(const RenderTarget& target,
     face.material = material < materials.size() ? &materials[material] : &default_material;
     face.material_index = std::min(material, static_cast<Index>(materials.size()));
     const Camera& camera = target.camera;
-    const double half = target.surfels.size / 2.0;
+    const double half = target.size / 2.0;
     for (std::size_t k = 0; k < 3; ++k) {
         Corner& corner = face.corners[k];
         corner.vertex = face.part->triangles[f][k];
@@ -365,17 +357,16 @@ Frame downsample(const std::vector<Vector4f>& color, const std::vector<Index>& m
 
 Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shading shading, Edges edges) {
     const std::uint32_t fine = size * samples_per_axis;
-    RenderTarget target{scene, camera, shading, edges, {}, {}, {}};
-    target.surfels.size = fine;
-    target.surfels.tan_half_fov = camera.tan_half_fov;
-    target.surfels.pixels.resize(std::size_t{fine} * fine);
-    target.color.assign(std::size_t{fine} * fine, Vector4f::Zero());
-    target.materials.assign(std::size_t{fine} * fine, no_index);
+    const std::size_t samples = std::size_t{fine} * fine;
+    RenderTarget target{scene,
+                        camera,
+                        shading,
+                        edges,
+                        fine,
+                        std::vector<float>(samples, 0),
+                        std::vector<Vector4f>(samples, Vector4f::Zero()),
+                        std::vector<Index>(samples, no_index)};
     draw_scene(target);
-    if (shading == Shading::lit) {
-        const std::vector<float> accessibility = ambient_accessibility(target.surfels, camera);
-        for (std::size_t i = 0; i < accessibility.size(); ++i) target.color[i].head<3>() *= accessibility[i];
-    }
     return downsample(target.color, target.materials, size);
 }
 

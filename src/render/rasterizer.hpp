@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// A simple software rasterizer: depth buffer, perspective-correct attributes, textures, two lights and
-/// ambient occlusion.
+/// A simple software rasterizer: depth buffer, perspective-correct attributes, textures and two lights.
 
 #include <cstdint>
 #include <string>
@@ -58,8 +57,7 @@ bool bounding_box(const Scene& scene, Vector3& low, Vector3& high);
 /// How surfaces are drawn.
 enum class Shading {
     lit,
-    lit_without_occlusion,  ///< all ambient light reaches each point: takes a third of the time
-    unlit,                  ///< the base colour
+    unlit,  ///< the base colour
 };
 
 /// Whether the edges of the triangles are drawn.

@@ -65,8 +65,7 @@ ImageErrorMeter::ImageErrorMeter(const Asset& model, std::span<const PendingImag
     scene_.normal_maps = std::move(normals);
     cameras_ = render::cameras_around(scene_, "", picture_views);
     unlit_ = pictures(scene_, cameras_, render::Shading::unlit, threads_);
-    if (has_any(scene_.normal_maps))
-        lit_ = pictures(scene_, cameras_, render::Shading::lit_without_occlusion, threads_);
+    if (has_any(scene_.normal_maps)) lit_ = pictures(scene_, cameras_, render::Shading::lit, threads_);
 
     std::vector<std::uint64_t> pixels(model.materials.size() + 1, 0);  // by material
     for (const render::Frame& frame : unlit_) {
@@ -119,7 +118,7 @@ std::vector<std::optional<PictureError>> ImageErrorMeter::operator()(std::vector
             std::swap(all[images_[i]], replaced.back().second);
         }
         if (replaced.empty()) return;
-        const bool is_lit = shading == render::Shading::lit_without_occlusion;
+        const bool is_lit = shading == render::Shading::lit;
         const std::vector<double> errors =
             errors_by_material(is_lit ? lit_ : unlit_, pictures(scene_, cameras_, shading, threads_));
         for (auto& [i, perfect] : replaced) {
@@ -136,8 +135,8 @@ std::vector<std::optional<PictureError>> ImageErrorMeter::operator()(std::vector
             [](double sum) {
                 return PictureError{sum, sum};
             });
-    measure(scene_.normal_maps, &Material::normal_texture, render::Shading::lit_without_occlusion,
-            ColorSpace::linear, [](double sum) {
+    measure(scene_.normal_maps, &Material::normal_texture, render::Shading::lit, ColorSpace::linear,
+            [](double sum) {
                 return PictureError{0, sum};
             });
     return result;

@@ -76,7 +76,7 @@ PictureMeter::PictureMeter(Asset source, const RunContext& context)
     source_ = render::make_scene(std::move(source));
     cameras_ = render::cameras_around(source_, "", picture_views);
     unlit_ = pictures(source_, cameras_, render::Shading::unlit, threads_);
-    if (has_normal_map_) lit_ = pictures(source_, cameras_, render::Shading::lit_without_occlusion, threads_);
+    if (has_normal_map_) lit_ = pictures(source_, cameras_, render::Shading::lit, threads_);
 }
 
 PictureError PictureMeter::operator()(Asset model) const {
@@ -103,10 +103,10 @@ PictureError PictureMeter::with_source_images(Asset model) {
 }
 
 double PictureMeter::lit_with_source_images(Asset model) {
-    if (lit_.empty()) lit_ = pictures(source_, cameras_, render::Shading::lit_without_occlusion, threads_);
+    if (lit_.empty()) lit_ = pictures(source_, cameras_, render::Shading::lit, threads_);
     double result = 0;
     use_source_images(std::move(model), [&](const render::Scene& scene) {
-        result = difference(scene, render::Shading::lit_without_occlusion, lit_);
+        result = difference(scene, render::Shading::lit, lit_);
     });
     return result;
 }
@@ -125,7 +125,7 @@ double PictureMeter::difference(const render::Scene& scene, render::Shading shad
 
 PictureError PictureMeter::compare(const render::Scene& scene) const {
     const double unlit = difference(scene, render::Shading::unlit, unlit_);
-    return {unlit, has_normal_map_ ? difference(scene, render::Shading::lit_without_occlusion, lit_) : unlit};
+    return {unlit, has_normal_map_ ? difference(scene, render::Shading::lit, lit_) : unlit};
 }
 
 }  // namespace faqem::detail
