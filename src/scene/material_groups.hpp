@@ -60,7 +60,7 @@ FAQEM_EXPORT bool has_plain_materials(const Asset& asset, const BakeOptions& bak
 /// agree too. They must agree also if has_plain_materials().
 /// \param skipped_parts  as in used_materials()
 /// Complexity: O(faces + materials^2).
-FAQEM_EXPORT MaterialGroups group_materials(const Asset& asset, const BakeOptions& bake,
-                                            std::span<const std::uint8_t> skipped_parts = {});
+MaterialGroups group_materials(const Asset& asset, const BakeOptions& bake,
+                               std::span<const std::uint8_t> skipped_parts = {});
 
 }  // namespace faqem::detail

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 #include "faqem/report.hpp"
 
@@ -41,7 +40,6 @@ Compression result_compression(const Asset& source, const Options& options);
 /// Sets the members of a result that save() rounds vertices by, and Report::position_rounding.
 /// \param result  has a part for each of the source
 /// Complexity: O(faces log faces + vertices of the result)
-FAQEM_EXPORT void set_quantization(const Asset& source, const Options& options, Asset& result,
-                                   Report& report);
+void set_quantization(const Asset& source, const Options& options, Asset& result, Report& report);
 
 }  // namespace faqem::detail

@@ -8,7 +8,6 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -35,7 +34,7 @@ struct VertexVisibility {
 /// \throws InputError if all instances together have 2^31 faces or more, or 2^32 - 1 vertices or more
 /// \throws whatever `context` throws
 /// Complexity: O(n log n) time and about 250 n bytes for n faces of all instances together.
-FAQEM_EXPORT VertexVisibility vertex_visibility(const Asset& scene, const RunContext& context = {});
+VertexVisibility vertex_visibility(const Asset& scene, const RunContext& context = {});
 
 /// Warning that the visibility was computed in the default pose; empty if the scene is static.
 std::string visibility_warning(const Asset& scene);

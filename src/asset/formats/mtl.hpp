@@ -11,7 +11,6 @@
 #include "asset/image/combine.hpp"
 #include "asset/scene/messages.hpp"
 #include "faqem/asset.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -55,9 +54,8 @@ struct MtlMaterial {
 /// \param ignored   receives the statements and options without an equivalent
 /// \return the materials in the order of the file
 /// \throws InputError  with the line, if a number is invalid
-FAQEM_EXPORT std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
-                                               std::vector<std::string>& warnings,
-                                               IgnoredStatements& ignored);
+std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std::string& name,
+                                  std::vector<std::string>& warnings, IgnoredStatements& ignored);
 
 /// Returns the texture statements of a library without their keywords: map_* of any kind, bump, disp, decal,
 /// refl and norm, in any case, also those that read_mtl() ignores. A statement has options and a file name.

@@ -43,7 +43,7 @@ std::uint64_t array_size(const Json& object, const char* key);
 FAQEM_EXPORT Index index_member(const Json& object, const char* key);
 
 /// The unsigned number stored under `key`, or `fallback`. \pre the document was validated
-FAQEM_EXPORT std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t fallback);
+std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t fallback);
 
 /// The string stored under `key`, or an empty string.
 std::string string_member(const Json& object, const char* key);

@@ -28,28 +28,28 @@ struct ScalarImage {
 };
 
 /// Extracts the values of a scalar texture.
-FAQEM_EXPORT ScalarImage scalar_image(const Pixels& pixels, ScalarChannel channel);
+ScalarImage scalar_image(const Pixels& pixels, ScalarChannel channel);
 
 /// Whether red, green and blue of every pixel are equal.
-FAQEM_EXPORT bool is_grey(const Pixels& pixels);
+bool is_grey(const Pixels& pixels);
 
 /// Whether the pixels are directions (n + 1) / 2 rather than heights or colours: not grey, and at least half of
 /// them have a length within 0.25 of 1 and do not point inwards.
-FAQEM_EXPORT bool is_normal_map(const Pixels& pixels);
+bool is_normal_map(const Pixels& pixels);
 
 /// Replaces the alpha. The smaller image is scaled bilinearly to the larger width and height.
 /// \param color  at least one pixel
 /// \param alpha  at least one value
-FAQEM_EXPORT Pixels with_alpha(const Pixels& color, const ScalarImage& alpha);
+Pixels with_alpha(const Pixels& color, const ScalarImage& alpha);
 
 /// Packs roughness (green) and metal (blue) as in glTF; red is 255, as is a channel without an image. Sizes as in
 /// with_alpha().
 /// \pre at least one of the images is not null
-FAQEM_EXPORT Pixels roughness_metallic(const ScalarImage* roughness, const ScalarImage* metallic);
+Pixels roughness_metallic(const ScalarImage* roughness, const ScalarImage* metallic);
 
 /// Computes the tangent-space normal map of a height map that repeats, with y up as in glTF, from central differences:
 /// the normal is (-depth dh/du, -depth dh/dv, 1), for h from 0 to 1 and texture coordinates u to the right and v up.
 /// \param depth  height of white above black, in the unit of the texture coordinates
-FAQEM_EXPORT Pixels normals_of_heights(const ScalarImage& heights, double depth);
+Pixels normals_of_heights(const ScalarImage& heights, double depth);
 
 }  // namespace faqem::detail

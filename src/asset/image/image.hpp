@@ -12,7 +12,7 @@ namespace faqem::detail {
 
 /// Detects the media type from the magic bytes: image/png, image/jpeg, image/webp, image/ktx2, image/avif,
 /// image/vnd-ms.dds, image/gif, image/bmp or image/tiff; empty if the format is unknown.
-FAQEM_EXPORT std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
+std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
 
 /// Media type of TGA, which has no magic bytes: Image::mime_type says what it is.
 inline constexpr const char* tga_media_type = "image/x-tga";
@@ -21,7 +21,7 @@ inline constexpr const char* tga_media_type = "image/x-tga";
 FAQEM_EXPORT std::string media_type(const Image& image);
 
 /// Whether decode() uses the plugin: for TGA, BMP, TIFF and GIF. glTF cannot hold such images.
-FAQEM_EXPORT bool needs_plugin(const Image& image);
+bool needs_plugin(const Image& image);
 
 /// Whether an image is KTX2 or AVIF, which glTF files have by an extension: it is not decoded, but stays as it is.
 FAQEM_EXPORT bool is_passed_through(const Image& image);

@@ -45,7 +45,7 @@ FAQEM_EXPORT std::filesystem::path resolve_inside(const std::filesystem::path& f
 /// \param folder     folder of the asset; empty: the current directory
 /// \param reference  relative to `folder`, absolute, or in glTF with the scheme `file:`
 /// \param kind       syntax of the reference
-FAQEM_EXPORT std::filesystem::path referenced_path(const std::filesystem::path& folder,
-                                                   std::string_view reference, ReferenceSyntax kind);
+std::filesystem::path referenced_path(const std::filesystem::path& folder, std::string_view reference,
+                                      ReferenceSyntax kind);
 
 }  // namespace faqem::detail

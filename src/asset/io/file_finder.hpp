@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "faqem/export.hpp"
-
 namespace faqem::detail {
 
 /// A file that a reference was found to mean.
@@ -20,7 +18,7 @@ struct FoundFile {
 
 /// Resolves references of one model with ReferenceSyntax::file_name. Lists each folder once, so that files which
 /// appear later may not be found.
-class FAQEM_EXPORT FileFinder {
+class FileFinder {
 public:
     /// \param folder  of the model; empty: the current directory
     explicit FileFinder(std::filesystem::path folder);

@@ -14,15 +14,14 @@ namespace faqem::detail {
 FAQEM_EXPORT std::string lower_case_extension(const std::filesystem::path& file);
 
 /// File name of the buffer of STEM.gltf: STEM.bin.
-FAQEM_EXPORT std::string buffer_file_name(const std::string& stem);
+std::string buffer_file_name(const std::string& stem);
 
 /// File name of the material library of STEM.obj: STEM.mtl.
-FAQEM_EXPORT std::string library_file_name(const std::string& stem);
+std::string library_file_name(const std::string& stem);
 
 /// File name of an image beside a model: STEM_0.png ...
 /// \param number     of the image, from 0
 /// \param extension  with its dot
-FAQEM_EXPORT std::string image_file_name(const std::string& stem, std::size_t number,
-                                         const std::string& extension);
+std::string image_file_name(const std::string& stem, std::size_t number, const std::string& extension);
 
 }  // namespace faqem::detail

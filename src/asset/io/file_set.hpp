@@ -78,6 +78,6 @@ FAQEM_EXPORT void write_file(const std::filesystem::path& file, std::span<const 
                              Overwrite overwrite);
 
 /// Writes a set of files, or adds them to that of CollectWrites: see FileSet.
-FAQEM_EXPORT void write_files(std::span<const FileContent> files, Overwrite overwrite);
+void write_files(std::span<const FileContent> files, Overwrite overwrite);
 
 }  // namespace faqem::detail

@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -19,7 +18,7 @@ double max_or_nan(double a, double b);
 
 /// A bound of the absolute coordinates of transformed points; NaN or infinity if they may be outside the range of double.
 /// \param largest  largest absolute coordinate of the points
-FAQEM_EXPORT double transformed_bound(const std::array<double, 16>& m, double largest);
+double transformed_bound(const std::array<double, 16>& m, double largest);
 
 /// Transforms normals by the inverse transpose of the linear part, and normalises them. Those of mirroring transforms
 /// point to the same side as the face normals of faces whose winding is reversed. Defined for singular transforms too.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -22,6 +21,6 @@ struct DividedAsset {
 /// the same parts. Parts without objects are copied.
 /// \return none if no part has objects
 /// Complexity: O(size of the asset).
-FAQEM_EXPORT std::optional<DividedAsset> divided_into_objects(const Asset& asset);
+std::optional<DividedAsset> divided_into_objects(const Asset& asset);
 
 }  // namespace faqem::detail

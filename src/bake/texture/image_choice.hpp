@@ -11,7 +11,6 @@
 #include "asset/scene/material_textures.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -60,8 +59,7 @@ double quality_change(const PicturePsnr& pictures, TextureContent content);
 /// \param shown     its sides are those of `original`, divided by the same power of two
 /// \param known     by texel of `original`: nonzero for those that count
 /// Complexity: O(texels of `original`).
-FAQEM_EXPORT ImageLoss image_loss(const Pixels& original, const Pixels& shown,
-                                  std::span<const std::uint8_t> known);
+ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known);
 
 /// Whether a loss is acceptable. NaN is not.
 bool is_within(const ImageLoss& loss, const ImageQuality& quality);

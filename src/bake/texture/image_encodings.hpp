@@ -7,7 +7,6 @@
 
 #include "bake/texture/pending_images.hpp"
 #include "faqem/asset.hpp"
-#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -37,15 +36,14 @@ struct ImageEncoding {
 /// The encodings that the options allow for an image, at least one, by ascending fineness.
 /// \param pending  its pixels are not used beyond their size and the number of their colours
 /// Complexity: O(texels).
-FAQEM_EXPORT std::vector<ImageEncoding> image_encodings(const PendingImage& pending, const BakeOptions& bake);
+std::vector<ImageEncoding> image_encodings(const PendingImage& pending, const BakeOptions& bake);
 
 /// An image with one of its image_encodings().
 /// Complexity: that of one encoding.
-FAQEM_EXPORT Image encode_as(const PendingImage& pending, const BakeOptions& bake,
-                             const ImageEncoding& encoding);
+Image encode_as(const PendingImage& pending, const BakeOptions& bake, const ImageEncoding& encoding);
 
 /// Mean squared difference of the values of an encoded image and its pixels at the known texels, in [0, 1].
 /// Complexity: that of decoding.
-FAQEM_EXPORT double mean_square_error(const PendingImage& pending, const Image& encoded);
+double mean_square_error(const PendingImage& pending, const Image& encoded);
 
 }  // namespace faqem::detail
