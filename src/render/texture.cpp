@@ -1,11 +1,11 @@
 #include "render/texture.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "asset/image/srgb.hpp"
+#include "asset/image/texel_reading.hpp"
 
 namespace faqem::render {
 
@@ -13,17 +13,6 @@ namespace {
 
 // Coarser levels would mix unrelated charts of an atlas, whose gutters are a few texels wide.
 constexpr std::size_t max_levels = 4;
-
-const std::array<float, 256>& srgb_to_linear_table() {
-    static const auto table = [] {
-        std::array<float, 256> t{};
-        for (std::size_t i = 0; i < t.size(); ++i) {
-            t[i] = static_cast<float>(detail::linear_from_srgb(static_cast<double>(i) / 255));
-        }
-        return t;
-    }();
-    return table;
-}
 
 std::uint8_t to_byte(double x) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(x, 0.0, 1.0) * 255));
@@ -34,7 +23,7 @@ Eigen::Vector4f texel(const Texture& texture, const Texture::Level& level, std::
     if (texture.color_space == ColorSpace::linear) {
         return Eigen::Vector4f(p[0], p[1], p[2], p[3]) / 255.0f;
     }
-    const auto& decode = srgb_to_linear_table();
+    const auto& decode = detail::linear_from_srgb_byte();
     return {decode[p[0]], decode[p[1]], decode[p[2]], static_cast<float>(p[3]) / 255.0f};
 }
 
@@ -61,16 +50,6 @@ Texture::Level downsampled(const Texture& texture, const Texture::Level& from) {
     return to;
 }
 
-std::uint32_t wrap_index(std::int64_t i, std::uint32_t size, Wrap wrap) {
-    const auto n = static_cast<std::int64_t>(size);
-    if (i >= 0 && i < n) return static_cast<std::uint32_t>(i);
-    if (wrap == Wrap::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, n - 1));
-    const std::int64_t period = wrap == Wrap::mirror ? 2 * n : n;
-    std::int64_t r = i % period;
-    if (r < 0) r += period;
-    return static_cast<std::uint32_t>(r < n ? r : 2 * n - 1 - r);
-}
-
 Eigen::Vector4f bilinear(const Texture& texture, const Texture::Level& level, const TextureRef& texture_ref,
                          const Eigen::Vector2d& uv) {
     // Coordinates beyond the precision of double are meaningless; 0 avoids integer overflow.
@@ -80,9 +59,11 @@ Eigen::Vector4f bilinear(const Texture& texture, const Texture::Level& level, co
     };
     double x = texel_coordinate(uv.x(), level.width), y = texel_coordinate(uv.y(), level.height);
     if (texture_ref.filter == Filter::nearest) {
-        return texel(texture, level,
-                     wrap_index(static_cast<std::int64_t>(std::floor(x)), level.width, texture_ref.wrap_u),
-                     wrap_index(static_cast<std::int64_t>(std::floor(y)), level.height, texture_ref.wrap_v));
+        return texel(
+            texture, level,
+            detail::wrapped_texel(static_cast<std::int64_t>(std::floor(x)), level.width, texture_ref.wrap_u),
+            detail::wrapped_texel(static_cast<std::int64_t>(std::floor(y)), level.height,
+                                  texture_ref.wrap_v));
     }
     x -= 0.5;
     y -= 0.5;
@@ -90,8 +71,8 @@ Eigen::Vector4f bilinear(const Texture& texture, const Texture::Level& level, co
     const auto s = static_cast<float>(x - static_cast<double>(x0)),
                t = static_cast<float>(y - static_cast<double>(y0));
     const auto at = [&](int i, int j) {
-        return texel(texture, level, wrap_index(x0 + i, level.width, texture_ref.wrap_u),
-                     wrap_index(y0 + j, level.height, texture_ref.wrap_v));
+        return texel(texture, level, detail::wrapped_texel(x0 + i, level.width, texture_ref.wrap_u),
+                     detail::wrapped_texel(y0 + j, level.height, texture_ref.wrap_v));
     };
     const Eigen::Vector4f top = (1 - s) * at(0, 0) + s * at(1, 0), bottom = (1 - s) * at(0, 1) + s * at(1, 1);
     return (1 - t) * top + t * bottom;

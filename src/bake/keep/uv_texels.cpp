@@ -5,20 +5,14 @@
 #include <limits>
 #include <utility>
 
+#include "asset/image/texel_reading.hpp"
+
 namespace faqem::detail {
 namespace {
 
 // If all triangles together show this many times the texels of the image, it is a pattern that is repeated on the
 // surface, and all of it is taken to be shown.
 constexpr double max_repetitions = 4;
-
-// The texel that a coordinate outside the image shows.
-std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
-    if (wrap == Wrap::clamp) return std::clamp<std::int64_t>(i, 0, size - 1);
-    const std::int64_t period = wrap == Wrap::mirror ? 2 * size : size;
-    const std::int64_t within = ((i % period) + period) % period;
-    return within < size ? within : period - 1 - within;
-}
 
 struct Texel {
     double x, y;
@@ -63,9 +57,10 @@ void UvTexels::add(const std::array<Vec2f, 3>& uv, Wrap wrap_u, Wrap wrap_v) {
         const auto row = static_cast<double>(y);
         const auto [left, right] = range_between(t, row - 0.5, row + 1.5);
         if (!(left <= right)) continue;
-        std::uint8_t* const to = &shown_[static_cast<std::size_t>(wrapped(y, height_, wrap_v)) * width_];
+        std::uint8_t* const to =
+            &shown_[static_cast<std::size_t>(wrapped_texel(y, height_, wrap_v)) * width_];
         for (std::int64_t x = index(left - 0.5); x <= index(right + 0.5); ++x)
-            to[wrapped(x, width_, wrap_u)] = 1;
+            to[wrapped_texel(x, width_, wrap_u)] = 1;
     }
 }
 

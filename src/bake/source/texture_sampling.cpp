@@ -6,19 +6,10 @@
 #include <utility>
 
 #include "asset/image/srgb.hpp"
+#include "asset/image/texel_reading.hpp"
 
 namespace faqem::detail {
 namespace {
-
-const std::array<float, 256>& srgb_table() {
-    static const auto table = [] {
-        std::array<float, 256> t{};
-        for (std::size_t i = 0; i < t.size(); ++i)
-            t[i] = static_cast<float>(linear_from_srgb(double(i) / 255));
-        return t;
-    }();
-    return table;
-}
 
 // sRGB bytes of intervals of linear light. An interval has the doubles with the same exponent and first bits of the
 // mantissa.
@@ -60,19 +51,6 @@ private:
     std::array<std::int16_t, 13 * 512> bytes_;  // of the interval; -1 - b if it has b and b + 1
     std::array<double, 255> ends_;              // of the values with each byte
 };
-
-std::uint32_t wrapped_outside(std::int64_t i, std::int64_t n, Wrap wrap) {
-    if (wrap == Wrap::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, n - 1));
-    const std::int64_t period = wrap == Wrap::mirror ? 2 * n : n;
-    std::int64_t r = i % period;
-    if (r < 0) r += period;
-    return static_cast<std::uint32_t>(r < n ? r : period - 1 - r);
-}
-
-// The column or row of n that a coordinate reads.
-inline std::uint32_t wrapped(std::int64_t i, std::int64_t n, Wrap wrap) {
-    return i >= 0 && i < n ? static_cast<std::uint32_t>(i) : wrapped_outside(i, n, wrap);
-}
 
 // RGBA as in LinearColor, in a vector register. Eigen's arrays are made in memory, from which a register cannot be
 // loaded as long as the four values are not stored.
@@ -146,7 +124,7 @@ auto MipImage::with_reader(std::size_t level, const Visit& visit) const {
     }
     constexpr float unit = 1.0f / 255;
     const std::uint8_t* texels = pixels_.rgba.data();
-    const float* linear = srgb_table().data();
+    const float* linear = linear_from_srgb_byte().data();
     switch (encoding_) {
         case TexelEncoding::data:
             return visit(
@@ -209,14 +187,14 @@ auto MipImage::sample_level(std::size_t level, double u, double v, const Texture
     const std::uint32_t columns = width(level), rows = height(level);
     const double x = u * columns, y = v * rows;
     if (texture_ref.filter == Filter::nearest) {
-        const std::uint32_t i = wrapped(floor_of(x), columns, texture_ref.wrap_u),
-                            j = wrapped(floor_of(y), rows, texture_ref.wrap_v);
+        const std::uint32_t i = wrapped_texel(floor_of(x), columns, texture_ref.wrap_u),
+                            j = wrapped_texel(floor_of(y), rows, texture_ref.wrap_v);
         return with_reader(level, [&](const auto& read) { return read(i, j); });
     }
     const std::int64_t i = floor_of(x - 0.5), j = floor_of(y - 0.5);
     const Corners corners{
-        {wrapped(i, columns, texture_ref.wrap_u), wrapped(i + 1, columns, texture_ref.wrap_u)},
-        {wrapped(j, rows, texture_ref.wrap_v), wrapped(j + 1, rows, texture_ref.wrap_v)},
+        {wrapped_texel(i, columns, texture_ref.wrap_u), wrapped_texel(i + 1, columns, texture_ref.wrap_u)},
+        {wrapped_texel(j, rows, texture_ref.wrap_v), wrapped_texel(j + 1, rows, texture_ref.wrap_v)},
         static_cast<float>(x - 0.5 - static_cast<double>(i)),
         static_cast<float>(y - 0.5 - static_cast<double>(j))};
     return with_reader(level, [&](const auto& read) { return corners.interpolate(read); });
@@ -236,12 +214,12 @@ LinearColor MipImage::sample(const TextureRef& texture_ref, double u, double v, 
 
 Vec3f MipImage::stored_color(const TextureRef& texture_ref, double u, double v) const {
     const auto index = [](double at, std::uint32_t n, Wrap wrap) {
-        return wrapped(floor_of(valid_or_zero(at) * n), n, wrap);
+        return wrapped_texel(floor_of(valid_or_zero(at) * n), n, wrap);
     };
     const std::size_t x = index(u, pixels_.width, texture_ref.wrap_u);
     const std::size_t y = index(v, pixels_.height, texture_ref.wrap_v);
     const std::uint8_t* p = &pixels_.rgba[(y * pixels_.width + x) * 4];
-    const auto& linear = srgb_table();
+    const auto& linear = linear_from_srgb_byte();
     return {linear[p[0]], linear[p[1]], linear[p[2]]};
 }
 
