@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "asset/gltf/accessor.hpp"
-#include "asset/gltf/source_document.hpp"
+#include "asset/scene/source_traits.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 
 namespace faqem::detail {
@@ -56,20 +54,11 @@ MotionRounding motion_rounding(const Asset& asset, const Part& part) {
     MotionRounding rounding;
     // Displacements are differences of positions, and as inexact as these.
     const double of_positions = 2.5e-7 * largest(part.positions);
-    for (const MorphTarget& target : part.morph_targets)
-        rounding.shift.push_back(1e-6 * largest(target.positions) + of_positions);
-    if (!asset.source || part.source >= member(asset.source->document, "meshes").size()) return rounding;
-    const Json& document = asset.source->document;
-    const auto step = [&](const Json& attributes, const char* name) {
-        const Index accessor = index_member(attributes, name);
-        return accessor == no_index ? 0 : 1.01 * integer_step(document["accessors"][accessor]);
-    };
-    for (const Json& primitive : member(document["meshes"][part.source], "primitives")) {
-        rounding.weight = std::max(rounding.weight, step(member(primitive, "attributes"), "WEIGHTS_0"));
-        const Json& targets = member(primitive, "targets");
-        for (std::size_t t = 0; t < targets.size() && t < rounding.shift.size(); ++t)
-            rounding.shift[t] = std::max(rounding.shift[t], step(targets[t], "POSITION"));
-    }
+    const MotionSteps steps = motion_steps(asset, part);
+    rounding.weight = std::max(rounding.weight, 1.01 * steps.weight);
+    for (std::size_t t = 0; t < part.morph_targets.size(); ++t)
+        rounding.shift.push_back(
+            std::max(1e-6 * largest(part.morph_targets[t].positions) + of_positions, 1.01 * steps.shift[t]));
     return rounding;
 }
 

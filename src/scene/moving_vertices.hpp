@@ -14,7 +14,7 @@ struct MotionRounding {
     std::vector<double> shift;  ///< by morph target: of a component of a displacement, model units
 };
 
-/// The rounding of the joint weights and the displacements of a part: that of the accessors in its source document,
+/// The rounding of the joint weights and the displacements of a part: that of the integers in its file (motion_steps()),
 /// or of floats. Complexity: O(vertices)
 MotionRounding motion_rounding(const Asset& asset, const Part& part);
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "asset/gltf/seen_instances.hpp"
 #include "asset/scene/messages.hpp"
+#include "asset/scene/source_traits.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "asset/gltf/source_document.hpp"
 #include "asset/scene/measured_instances.hpp"
+#include "asset/scene/source_traits.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/detail/geometry/vertex_faces.hpp"

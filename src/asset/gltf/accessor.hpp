@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "asset/gltf/source_document.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -33,7 +32,7 @@ std::uint32_t element_size(std::uint64_t component_type, const std::string& type
 
 /// Distance of the values that neighbouring integers of an accessor stand for; 0 for floats and 32-bit integers.
 /// \param accessor  its description in the document
-FAQEM_EXPORT double integer_step(const Json& accessor);
+double integer_step(const Json& accessor);
 
 /// Reads the elements of an accessor as contiguous bytes, with sparse substitution applied. Elements are zero
 /// if the accessor has no buffer view.

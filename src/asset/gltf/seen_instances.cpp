@@ -1,5 +1,3 @@
-#include "asset/gltf/seen_instances.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
 #include "asset/scene/affine.hpp"
+#include "asset/scene/source_traits.hpp"
 
 namespace faqem::detail {
 namespace {

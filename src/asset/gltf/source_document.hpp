@@ -8,7 +8,6 @@
 
 #include "asset/gltf/json.hpp"
 #include "faqem/asset.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem {
 
@@ -22,12 +21,5 @@ struct SourceDocument {
     std::vector<Material> materials;  ///< one per material as read; TextureRef::image is an index in `images`
     std::string unused;  ///< unused_objects() of the file: what save() leaves out, with a warning
 };
-
-namespace detail {
-
-/// True if the scene has animations, or parts with skins or morph targets. O(parts)
-FAQEM_EXPORT bool is_dynamic(const Asset& asset);
-
-}  // namespace detail
 
 }  // namespace faqem

@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "asset/gltf/source_document.hpp"
-#include "asset/gltf/uv_dependents.hpp"
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "asset/scene/source_traits.hpp"
 #include "bake/keep/uv_texels.hpp"
 #include "bake/source/texture_sampling.hpp"
 #include "bake/texture/image_choice.hpp"
@@ -92,16 +91,15 @@ std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> p
 }
 
 // Whether an animation moves a texture with an image, so that other texels are shown than those of the UVs.
-bool is_moved(const Asset& source, const Asset& result, Index image) {
-    if (!source.source) return false;
-    const std::vector<std::uint8_t> moving = materials_with_moving_textures(source.source->document);
-    return std::any_of(result.materials.begin(), result.materials.end(), [&](const Material& material) {
-        if (!(material.source < moving.size()) || !moving[material.source] || material.rebaked) return false;
-        bool has_image = false;
-        for_each_texture(material,
-                         [&](const TextureRef& texture) { has_image = has_image || texture.image == image; });
-        return has_image;
-    });
+bool is_moved(const Asset& asset, Index image) {
+    const std::vector<std::uint8_t> moving = materials_with_moving_textures(asset);
+    bool is_used = false;
+    for (std::size_t m = 0; m < moving.size(); ++m) {
+        if (!moving[m] || asset.materials[m].rebaked) continue;
+        for_each_texture(asset.materials[m],
+                         [&](const TextureRef& texture) { is_used = is_used || texture.image == image; });
+    }
+    return is_used;
 }
 
 // Whether the variant of a part shows an image. Which faces show it is not known then.
@@ -181,7 +179,7 @@ PendingImage kept_image(const Asset& source, const Asset& result, std::span<cons
     if (!exceeds(pending.pixels, use, texture_size)) pending.original = image;
     while (exceeds(pending.pixels, use, texture_size)) pending.pixels = halved(pending.pixels);
     pending.known = std::make_shared<const std::vector<std::uint8_t>>(
-        is_moved(source, result, index) || is_in_variant(result, parts, index)
+        is_moved(result, index) || is_in_variant(result, parts, index)
             ? std::vector<std::uint8_t>(std::size_t{pending.pixels.width} * pending.pixels.height, 1)
             : texels_of_parts(result, parts, index, pending.pixels));
     return pending;

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "asset/gltf/uv_dependents.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
+#include "asset/scene/source_traits.hpp"
 #include "scene/material_groups.hpp"
 
 namespace faqem::detail {

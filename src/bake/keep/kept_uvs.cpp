@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "asset/gltf/uv_dependents.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
+#include "asset/scene/source_traits.hpp"
 #include "bake/keep/picture_loss.hpp"
 #include "bake/page/normal_map.hpp"
 #include "bake/page/page_mesh.hpp"

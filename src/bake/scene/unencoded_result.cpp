@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "asset/gltf/uv_dependents.hpp"
 #include "asset/image/image.hpp"
 #include "asset/image/image_size.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "asset/scene/source_traits.hpp"
 #include "bake/source/extension_layers.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "scene/material_groups.hpp"

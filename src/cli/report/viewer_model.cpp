@@ -1,6 +1,6 @@
 #include "cli/report/viewer_model.hpp"
 
-#include "asset/gltf/gltf.hpp"
+#include "asset/file_format.hpp"
 #include "cli/report/heat_ramp.hpp"
 
 namespace faqem::cli {
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSur
         normalize_positions(part.positions, frame);
         part.position_spacing = 0;
     }
-    const detail::EncodedModel encoded = detail::encode_gltf(asset, "viewer.glb");
+    const detail::EncodedModel encoded = detail::encode_model(asset, "viewer.glb");
     const std::span<const std::uint8_t> bytes = encoded.files.back().bytes;
     return {bytes.begin(), bytes.end()};
 }

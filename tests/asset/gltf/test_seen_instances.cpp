@@ -1,4 +1,4 @@
-#include "asset/gltf/seen_instances.hpp"
+#include "asset/scene/source_traits.hpp"
 
 #include <cmath>
 
