@@ -2,6 +2,7 @@
 /// \file
 /// The table of the formats of model files. CONTRIBUTING.md tells how to add one.
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -44,7 +45,13 @@ struct FileFormat {
     SideFile side_file = {};
     bool has_image_files = false;  ///< images are written to files beside the model
 
-    bool is_gltf = false;           ///< its JSON tells how much memory decoding needs
+    bool is_gltf = false;
+    /// Upper estimates, in bytes, of the memory that loading a model needs in addition to three times the bytes of its
+    /// files: for its document, which may end when it exceeds what is allowed; and for what is decoded, which parses the
+    /// document. Null: the sizes of the files tell enough.
+    std::uint64_t (*document_memory)(const std::filesystem::path& model, std::uint64_t allowed) = nullptr;
+    std::uint64_t (*decoding_memory)(const std::filesystem::path& model,
+                                     std::uint64_t stored_bytes) = nullptr;
     double min_bytes_per_face = 0;  ///< of a file with more than 65,536 vertices, with half a vertex per face
 
     /// What Bake::automatic means for a source with appearance, and for one with neither materials nor colours.

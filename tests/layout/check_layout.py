@@ -4,6 +4,7 @@ Usage: check_layout.py SOURCE
 
 docs/architecture.md describes the order. The checks:
   * a file includes only files of its own folder, or of folders that come before it in ORDER;
+  * the readers and writers of the formats are included in src/asset only (OF_PART);
   * a private include names its folder;
   * public headers include neither the engine nor libraries, except for the bodies at the end of a header;
   * the engine includes no public header but plain data, and no library but Eigen;
@@ -59,6 +60,8 @@ ORDER = [
     ["src/cli/report"],
     ["src/cli/commands"],
 ]
+# Folders whose files, and those below, only a part of the tree includes.
+OF_PART = {"src/asset/gltf": "src/asset", "src/asset/formats": "src/asset"}
 # Public headers that the engine may include: plain data.
 PLAIN = {"export.hpp", "mesh.hpp", "option_types.hpp", "options.hpp", "report.hpp", "history.hpp", "progress.hpp", "error.hpp"}
 LIBRARIES = re.compile(r"Eigen|OpenMesh|tiny_gltf|OpenImageIO|png\.h|jpeglib|webp/|libdeflate|nlohmann|CLI")
@@ -140,6 +143,9 @@ def main():
                     problems.append(f"{name} includes {included} without its folder")
                 continue
             below = target.parent.relative_to(source).as_posix()
+            for private, part in OF_PART.items():
+                if f"{below}/".startswith(f"{private}/") and not f"{folder}/".startswith(f"{part}/"):
+                    problems.append(f"{name} includes {included}: only {part} may")
             if folder == "include/faqem" and not is_body and below != folder and path.name != "openmesh.hpp":
                 problems.append(f"{name} includes {included}: public headers include public headers only")
             if folder.startswith("include/faqem/engine") and below == "include/faqem" and target.name not in PLAIN:

@@ -3,6 +3,7 @@
 /// GLB header and chunks, and the nesting depth of the JSON text. Both are checked before a parser is called.
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,10 @@ inline constexpr int max_json_depth = 64;
 /// \throws UnsupportedError  if the GLB version is not 2
 GltfContainer split_gltf(std::span<const std::uint8_t> bytes, const std::string& file,
                          std::vector<std::string>& warnings);
+
+/// Reads the JSON text of a file alone, without checks.
+/// \return empty if the file cannot be read, or if the text has 4 GiB or more, which load() does not support
+std::string read_json_text(const std::filesystem::path& file);
 
 /// Checks the nesting depth of a JSON text without recursion. Brackets inside strings are not counted.
 /// \param file  path for messages

@@ -31,11 +31,27 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
 /// \param model  path of a regular file, which may be damaged: the references before the damage
 void list_gltf_references(const std::filesystem::path& model, ReferenceList& files);
 
+/// An upper estimate, in bytes, of the memory for the JSON of a file while it is loaded and saved, from the numbers of its
+/// values: each number of one byte becomes an object. Needs no memory itself.
+/// \param model    a regular file. Of a file that is damaged or no glTF, the part before the error is counted
+/// \param allowed  bytes; the estimate ends when it exceeds them
+std::uint64_t gltf_document_memory(const std::filesystem::path& model, std::uint64_t allowed);
+
+/// An upper estimate, in bytes, of the memory for the meshes, decompressed buffers and repeated files of a model, in
+/// addition to that for its JSON and for the bytes of its files. A small file can need much: each use of an accessor by
+/// a mesh, and of a file or view by an image, is a copy of its own. The JSON is parsed and validated, as by read_gltf();
+/// buffers and images are not read.
+/// \param model         a regular file
+/// \param stored_bytes  of all files of the model
+/// \return 0 if read_gltf() reports an error before it decodes anything
+/// \pre there is memory for the JSON (gltf_document_memory())
+std::uint64_t gltf_decoding_memory(const std::filesystem::path& model, std::uint64_t stored_bytes);
+
 /// Encodes an asset as GLB or, if the name ends in .gltf, as JSON with NAME.bin and NAME_0.png ...
 /// The output is deterministic.
 /// \param file  its name
 /// \throws WriteError  if the GLB exceeds 4 GiB, or a position exceeds the range of float
-FAQEM_EXPORT EncodedModel encode_gltf(const Asset& asset, const std::filesystem::path& file);
+EncodedModel encode_gltf(const Asset& asset, const std::filesystem::path& file);
 
 /// Lists the instances in the default scene: the first scene if no default is set, all root nodes if there is no
 /// scene. Those of EXT_mesh_gpu_instancing follow each other. Parts without a source mesh follow, with the identity

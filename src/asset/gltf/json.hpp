@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -34,13 +33,13 @@ inline constexpr ImageExtension image_extensions[] = {{"EXT_texture_webp", "imag
                                                       {"EXT_texture_avif", "image/avif"}};
 
 /// object[key], or null if `object` is not an object or has no such key.
-FAQEM_EXPORT const Json& member(const Json& object, const char* key);
+const Json& member(const Json& object, const char* key);
 
 /// Number of elements of the array object[key]; 0 if there is none.
 std::uint64_t array_size(const Json& object, const char* key);
 
 /// The index stored under `key`, or no_index if absent. \pre the document was validated
-FAQEM_EXPORT Index index_member(const Json& object, const char* key);
+Index index_member(const Json& object, const char* key);
 
 /// The unsigned number stored under `key`, or `fallback`. \pre the document was validated
 std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t fallback);

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "asset/gltf/json.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -67,6 +66,6 @@ private:
 
 /// Reads the JSON of a .gltf or .glb file.
 /// \param model  a regular file. Of a file that is damaged or no glTF, the part before the error is read
-FAQEM_EXPORT void scan_gltf(const std::filesystem::path& model, JsonScan& events);
+void scan_gltf(const std::filesystem::path& model, JsonScan& events);
 
 }  // namespace faqem::detail

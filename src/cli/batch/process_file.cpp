@@ -120,9 +120,12 @@ Result try_process(const BatchFile& file, const BatchContext& work, Sharing shar
     if (is_own) overwrite = Overwrite::yes;
     check_output(file.out, overwrite);
     const std::uint64_t process_limit = std::max(work.memory.limit(), min_process_memory);
-    const std::uint64_t loading = estimated_model_memory(file.in, process_limit);
-    require_memory(file.in, loading, process_limit);
     std::optional<MemoryReservation> reservation;
+    if (sharing == Sharing::allowed)
+        reservation.emplace(work.memory, estimated_document_memory(file.in, process_limit));
+    const std::uint64_t loading = estimated_model_memory(file.in, process_limit);
+    reservation.reset();  // a model that holds memory while it waits for more might wait forever
+    require_memory(file.in, loading, process_limit);
     if (sharing == Sharing::allowed) {
         reservation.emplace(
             work.memory,

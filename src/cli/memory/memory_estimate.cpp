@@ -12,8 +12,6 @@
 #include "asset/model_files.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "bake/source/page_groups.hpp"
-#include "cli/memory/gltf_json_memory.hpp"
-#include "cli/memory/gltf_memory.hpp"
 #include "faqem/options.hpp"
 #include "result/best_picture.hpp"
 #include "scene/resolved_options.hpp"
@@ -109,6 +107,13 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'
 
 }  // namespace
 
+std::uint64_t estimated_document_memory(const std::filesystem::path& model, std::uint64_t allowed) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(model, ignored)) return 0;
+    const detail::FileFormat* format = detail::format_of_file(model);
+    return format && format->document_memory ? format->document_memory(model, allowed) : 0;
+}
+
 std::uint64_t estimated_model_memory(const std::filesystem::path& model, std::uint64_t allowed) {
     std::error_code ignored;
     // The size of a pipe is unknown, and it must not be opened here.
@@ -121,10 +126,10 @@ std::uint64_t estimated_model_memory(const std::filesystem::path& model, std::ui
     // Factor 5: the bytes, the arrays decoded from them, and the copies made while the arrays grow. The arrays
     // of glTF are counted below.
     const std::uint64_t stored_bytes = detail::total_file_size(files);
-    if (!format || !format->is_gltf) return 5 * stored_bytes;
+    if (!format || !format->decoding_memory) return 5 * stored_bytes;
     std::uint64_t bytes = 3 * stored_bytes;
-    if (bytes <= allowed) bytes += estimated_json_memory(model, allowed - bytes);
-    if (bytes <= allowed) bytes += estimated_decoding_memory(model, stored_bytes, allowed - bytes);
+    if (bytes <= allowed) bytes += format->document_memory(model, allowed - bytes);
+    if (bytes <= allowed) bytes += format->decoding_memory(model, stored_bytes);
     return bytes;
 }
 

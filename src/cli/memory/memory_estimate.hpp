@@ -13,6 +13,10 @@
 
 namespace faqem::cli {
 
+/// Returns an upper estimate, in bytes, of the memory that estimated_model_memory() needs itself: for the JSON of glTF.
+/// \param allowed  as there
+std::uint64_t estimated_document_memory(const std::filesystem::path& model, std::uint64_t allowed);
+
 /// Returns an upper estimate, in bytes, of the memory needed to load a model: from the file sizes, and from the
 /// JSON of glTF, which tells the sizes of everything that will be decoded. Files that an OBJ file refers to are
 /// not counted, because finding them takes as long as reading the file. 0 if the model is no regular file.

@@ -75,6 +75,26 @@ TEST_CASE("files that exceed the memory limit are rejected before they are read 
     CHECK(estimated_loading_memory(folder / "pipe.glb") == before);
 }
 
+TEST_CASE("small files that need much memory are rejected before they are decoded") {
+    const Folder folder;
+    write(folder / "a.bin", std::string(360000, '\0'));
+    auto document = nlohmann::json::parse(R"({"asset":{"version":"2.0"},
+        "buffers":[{"uri":"a.bin","byteLength":360000}], "bufferViews":[{"buffer":0,"byteLength":360000}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":30000,"type":"VEC3"}]})");
+    const nlohmann::json mesh = {{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}};
+    document["meshes"] = std::vector(2000, mesh);
+    write(folder / "meshes.gltf", document.dump());
+    document["meshes"] = {mesh};
+    document["meshes"][0]["weights"] = std::vector<int>(4'000'000, 0);
+    write(folder / "json.gltf", document.dump());
+    for (const std::string name : {"meshes", "json"}) {
+        const Outcome outcome =
+            run(folder, "simplify " + name + ".gltf out.glb --bake none --max-memory 500MB");
+        CHECK(outcome.code == exit_no_memory);
+        CHECK_THAT(outcome.err, ContainsSubstring("faqem: " + name + ".gltf: may need "));
+    }
+}
+
 #ifndef FAQEM_SANITIZED
 
 TEST_CASE("the estimated peak memory is between one and three times the measured peak") {

@@ -230,15 +230,6 @@ void move_buffers_and_images(LoadedGltf& loaded) {
     loaded.model.images.clear();
 }
 
-Json parse_json(std::string_view text, const std::string& file) {
-    check_json_depth(text, file);
-    try {
-        return Json::parse(text.begin(), text.end());
-    } catch (const Json::exception& error) {
-        throw InputError(file, "JSON", error.what());
-    }
-}
-
 /// Removes members that are null, except in extras: the checks take them for absent, and so must all that follows, which
 /// may ask whether there is a member. The recursion is limited by check_json_depth().
 void remove_null_members(Json& value) {
@@ -257,15 +248,25 @@ void remove_null_members(Json& value) {
 
 }  // namespace
 
+Json parse_gltf(std::string_view json, const std::string& file) {
+    check_json_depth(json, file);
+    Json document;
+    try {
+        document = Json::parse(json.begin(), json.end());
+    } catch (const Json::exception& error) {
+        throw InputError(file, "JSON", error.what());
+    }
+    remove_null_members(document);
+    validate_gltf(document, file);
+    return document;
+}
+
 LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) {
     LoadedGltf loaded;
     loaded.file = file.string();
     loaded.source = std::make_shared<SourceDocument>();
     const GltfContainer container = split_gltf(bytes, loaded.file, loaded.warnings);
-    loaded.source->document = parse_json(container.json, loaded.file);
-    remove_null_members(loaded.source->document);
-    const Json& document = loaded.source->document;
-    validate_gltf(document, loaded.file);
+    const Json& document = loaded.source->document = parse_gltf(container.json, loaded.file);
     CallbackContext context{document, container, file, loaded.warnings};
     loaded.model = parse_with_tinygltf(document, context);
     move_buffers_and_images(loaded);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "asset/gltf/source_document.hpp"
@@ -23,6 +24,11 @@ struct LoadedGltf {
     tinygltf::Model model;                   ///< the parsed document, without buffers and images
     std::vector<std::string> warnings;
 };
+
+/// Parses and validates the JSON of a file. Members that are null are left out, as if they were absent.
+/// \param file  path for messages
+/// \throws InputError, UnsupportedError  as read_gltf()
+Json parse_gltf(std::string_view json, const std::string& file);
 
 /// Loads and validates a glTF file, with its buffers and images, and decompresses it.
 /// \param bytes  the whole file, borrowed

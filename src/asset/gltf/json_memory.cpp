@@ -1,11 +1,9 @@
-#include "cli/memory/gltf_json_memory.hpp"
-
 #include <string>
 
+#include "asset/gltf/gltf.hpp"
 #include "asset/gltf/json_scan.hpp"
 
-namespace faqem::cli {
-
+namespace faqem::detail {
 namespace {
 
 // Upper estimates, measured with documents that have millions of such values. A value becomes an object in
@@ -18,7 +16,7 @@ constexpr double extra_value_bytes = 130, extra_object_bytes = 300, extra_member
 constexpr double extra_bytes_per_character = 4;
 
 /// Adds up the memory of all values.
-class JsonMemoryScan : public detail::JsonScan {
+class JsonMemoryScan : public JsonScan {
 public:
     explicit JsonMemoryScan(double allowed) : allowed_(allowed) {}
 
@@ -69,10 +67,10 @@ private:
 
 }  // namespace
 
-std::uint64_t estimated_json_memory(const std::filesystem::path& model, std::uint64_t allowed) {
+std::uint64_t gltf_document_memory(const std::filesystem::path& model, std::uint64_t allowed) {
     JsonMemoryScan scan(static_cast<double>(allowed));
-    detail::scan_gltf(model, scan);
+    scan_gltf(model, scan);
     return static_cast<std::uint64_t>(scan.bytes());
 }
 
-}  // namespace faqem::cli
+}  // namespace faqem::detail
