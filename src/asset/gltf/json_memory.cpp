@@ -6,8 +6,9 @@
 namespace faqem::detail {
 namespace {
 
-// Upper estimates, measured with documents that have millions of such values. A value becomes an object in
-// the source document, in a copy of it, and in the document and the model of tinygltf.
+// Upper estimates, measured with documents that have millions of such values. A value becomes an object in the source
+// document and in the copy that is saved; in meshes, materials, textures and samplers also in the document and the model
+// of tinygltf.
 constexpr double value_bytes = 320, string_bytes = 200, object_bytes = 1000, member_bytes = 300;
 constexpr double bytes_per_character = 8;
 constexpr double material_bytes = 5000, node_bytes = 1800;

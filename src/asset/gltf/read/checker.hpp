@@ -11,7 +11,7 @@
 
 namespace faqem::detail {
 
-/// Maximum size of an image file: tinygltf stores it in an int.
+/// Maximum size of an image file.
 inline constexpr std::uint64_t max_image_bytes = INT32_MAX;
 
 /// A document under validation.

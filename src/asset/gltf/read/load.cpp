@@ -1,6 +1,5 @@
 #include "asset/gltf/read/load.hpp"
 
-#include <charconv>
 #include <exception>
 #include <limits>
 #include <string_view>
@@ -21,14 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t max_resource_bytes = std::uint64_t{1} << 34;
-constexpr std::string_view buffer_token = "faqem-buffer-";
-constexpr std::string_view image_token = "faqem-image-";
 
-/// Data of the tinygltf callbacks.
-struct CallbackContext {
+/// What the buffers and images of a document are read from.
+struct FileContext {
     const Json& document;
     const GltfContainer& container;
-    fs::path file;
+    const fs::path& file;
     std::vector<std::string>& warnings;
 };
 
@@ -52,7 +49,7 @@ std::vector<std::uint8_t> decode_data_uri(const std::string& uri, const std::str
 /// Reads the file or data URI that a buffer or image refers to.
 /// \throws ReadError   if the file does not exist or cannot be read
 /// \throws InputError  if the reference is not allowed or the data URI is invalid
-std::vector<std::uint8_t> read_uri(const CallbackContext& context, const std::string& uri,
+std::vector<std::uint8_t> read_uri(const FileContext& context, const std::string& uri,
                                    const std::string& where, std::uint64_t max_bytes) {
     const std::string file = context.file.string();
     if (is_data_uri(uri)) return decode_data_uri(uri, file, where);
@@ -65,7 +62,7 @@ std::vector<std::uint8_t> read_uri(const CallbackContext& context, const std::st
     }
 }
 
-std::vector<std::uint8_t> load_buffer(const CallbackContext& context, std::uint64_t index) {
+std::vector<std::uint8_t> load_buffer(const FileContext& context, std::uint64_t index) {
     const Json& buffer = context.document["buffers"][index];
     if (is_fallback_buffer(buffer)) return {0};
     const std::string where = child_path("/buffers", index), file = context.file.string();
@@ -92,8 +89,8 @@ std::vector<std::uint8_t> load_buffer(const CallbackContext& context, std::uint6
     return bytes;
 }
 
-/// Reads an image file. A missing image becomes a single zero byte, since tinygltf rejects empty images.
-std::vector<std::uint8_t> load_image(const CallbackContext& context, std::uint64_t index) {
+/// Reads an image file; empty if it is missing.
+std::vector<std::uint8_t> load_image(const FileContext& context, std::uint64_t index) {
     const std::string where = child_path("/images", index);
     try {
         std::vector<std::uint8_t> bytes =
@@ -103,41 +100,33 @@ std::vector<std::uint8_t> load_image(const CallbackContext& context, std::uint64
         return bytes;
     } catch (const ReadError& error) {
         context.warnings.push_back(std::string(error.what()) + "; the textures that use it were left out");
-        return {0};
+        return {};
     }
 }
 
-bool token_exists(const std::string& name, void*) {
-    return name.compare(0, buffer_token.size(), buffer_token) == 0 ||
-           name.compare(0, image_token.size(), image_token) == 0;
-}
-
-std::string keep_path(const std::string& name, void*) { return name; }
-
-bool read_token(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
-    const auto& context = *static_cast<const CallbackContext*>(user);
-    const bool is_buffer = name.compare(0, buffer_token.size(), buffer_token) == 0;
-    std::uint64_t index = 0;
-    const char* digits = name.data() + (is_buffer ? buffer_token : image_token).size();
-    std::from_chars(digits, name.data() + name.size(), index);
-    *out = is_buffer ? load_buffer(context, index) : load_image(context, index);
-    return true;
-}
-
-/// Sizes are limited where bytes are read, so tinygltf's own limit is not used.
-[[maybe_unused]] bool token_size(std::size_t* size, std::string*, const std::string&, void*) {
-    *size = 0;
-    return true;
-}
-
-bool refuse_write(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-}
-
-bool store_image(tinygltf::Image* image, int, std::string*, std::string*, int, int,
-                 const unsigned char* bytes, int size, void*) {
-    image->image.assign(bytes, bytes + size);
-    return true;
+/// Reads the buffers and images of a document.
+void load_resources(const FileContext& context, SourceDocument& source) {
+    const Json& document = context.document;
+    for (std::uint64_t i = 0; i < array_size(document, "buffers"); ++i)
+        source.buffers.push_back(load_buffer(context, i));
+    for (std::uint64_t i = 0; i < array_size(document, "images"); ++i) {
+        const Json& from = document["images"][i];
+        const Index view = index_member(from, "bufferView");
+        Image& image = source.images.emplace_back();
+        image.name = string_member(from, "name");
+        image.uri = string_member(from, "uri");
+        if (view == no_index) {
+            image.encoded = load_image(context, i);
+        } else {
+            const Json& range = document["bufferViews"][view];
+            const std::uint8_t* const first = source.buffers[index_member(range, "buffer")].data() +
+                                              unsigned_member(range, "byteOffset", 0);
+            image.encoded.assign(first, first + unsigned_member(range, "byteLength", 0));
+        }
+        if (is_data_uri(image.uri)) image.uri.clear();
+        image.mime_type = sniff_mime_type(image.encoded);
+        if (image.mime_type.empty() && view != no_index) image.mime_type = string_member(from, "mimeType");
+    }
 }
 
 /// A copy without extras, which the tinygltf model would expand to 152 bytes per number and nothing reads there.
@@ -156,43 +145,24 @@ Json without_extras(const Json& from) {
     return copy;
 }
 
-/// The document without extras, with every URI replaced by a token for the callbacks. Buffers without data get
-/// one byte, and accessors with Draco data get a view, since tinygltf requires both.
-std::string json_with_uri_tokens(const Json& document) {
-    Json copy = without_extras(document);
-    for (std::uint64_t i = 0; i < array_size(copy, "buffers"); ++i) {
-        if (is_fallback_buffer(copy["buffers"][i])) copy["buffers"][i]["byteLength"] = 1;
-        copy["buffers"][i]["uri"] = std::string(buffer_token) + std::to_string(i);
+/// The part of the document that the reader takes from the tinygltf model, without indices, for which tinygltf requires
+/// accessors. The rest, mostly the larger part, is taken from the document, so that it is parsed once.
+std::string json_for_tinygltf(const Json& document) {
+    Json part = {{"asset", {{"version", "2.0"}}}};
+    for (const char* const key : {"meshes", "materials", "textures", "samplers"})
+        part[key] = without_extras(member(document, key));
+    for (Json& mesh : part["meshes"]) {
+        for (Json& primitive : mesh["primitives"]) {
+            primitive.erase("indices");
+            primitive.erase("extensions");
+        }
     }
-    const std::vector<char> draco = draco_accessor_flags(document);
-    for (std::uint64_t i = 0; i < draco.size(); ++i)
-        if (draco[i] && !copy["accessors"][i].contains("bufferView")) copy["accessors"][i]["bufferView"] = 0;
-    for (std::uint64_t i = 0; i < array_size(copy, "images"); ++i)
-        if (copy["images"][i].contains("uri"))
-            copy["images"][i]["uri"] = std::string(image_token) + std::to_string(i);
-    return copy.dump();
+    return part.dump();
 }
 
-/// A template, because the callback GetFileSizeInBytes exists from tinygltf 2.9 on only.
-template <class Callbacks>
-Callbacks token_callbacks(CallbackContext& context) {
-    Callbacks callbacks{};
-    callbacks.FileExists = token_exists;
-    callbacks.ExpandFilePath = keep_path;
-    callbacks.ReadWholeFile = read_token;
-    callbacks.WriteWholeFile = refuse_write;
-    if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = token_size;
-    callbacks.user_data = &context;
-    return callbacks;
-}
-
-tinygltf::Model parse_with_tinygltf(const Json& document, CallbackContext& context) {
+tinygltf::Model parse_with_tinygltf(const Json& document, const std::string& file) {
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks(token_callbacks<tinygltf::FsCallbacks>(context));
-    parser.SetImageLoader(store_image, nullptr);
-    const std::string file = context.file.string(), json = json_with_uri_tokens(document);
-    if (json.size() > std::numeric_limits<unsigned>::max())
-        throw UnsupportedError(file, "", "JSON of 4 GiB or more is not supported");
+    const std::string json = json_for_tinygltf(document);
     tinygltf::Model model;
     std::string errors, warnings;
     try {
@@ -206,28 +176,13 @@ tinygltf::Model parse_with_tinygltf(const Json& document, CallbackContext& conte
     } catch (const std::exception& error) {
         throw InputError(file, "", error.what());
     }
-    return model;
-}
-
-/// Moves the buffers and images from the tinygltf model to the source document.
-void move_buffers_and_images(LoadedGltf& loaded) {
-    for (tinygltf::Buffer& buffer : loaded.model.buffers)
-        loaded.source->buffers.push_back(std::move(buffer.data));
-    for (tinygltf::Image& from : loaded.model.images) {
-        Image image;
-        image.name = from.name;
-        const std::uint64_t index = loaded.source->images.size();
-        const std::string uri = string_member(loaded.source->document["images"][index], "uri");
-        if (!is_data_uri(uri)) image.uri = uri;
-        if (from.image.size() > 1) {
-            image.encoded = std::move(from.image);
-            image.mime_type = sniff_mime_type(image.encoded);
-            if (image.mime_type.empty()) image.mime_type = from.mimeType;
-        }
-        loaded.source->images.push_back(std::move(image));
+    for (std::size_t m = 0; m < model.meshes.size(); ++m) {
+        std::vector<tinygltf::Primitive>& primitives = model.meshes[m].primitives;
+        for (std::size_t p = 0; p < primitives.size(); ++p)
+            primitives[p].indices =
+                static_cast<int>(index_member(document["meshes"][m]["primitives"][p], "indices"));
     }
-    loaded.model.buffers.clear();
-    loaded.model.images.clear();
+    return model;
 }
 
 /// Removes members that are null, except in extras: the checks take them for absent, and so must all that follows, which
@@ -249,6 +204,8 @@ void remove_null_members(Json& value) {
 }  // namespace
 
 Json parse_gltf(std::string_view json, const std::string& file) {
+    if (json.size() > std::numeric_limits<unsigned>::max())
+        throw UnsupportedError(file, "", "JSON of 4 GiB or more is not supported");
     check_json_depth(json, file);
     Json document;
     try {
@@ -267,9 +224,8 @@ LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) 
     loaded.source = std::make_shared<SourceDocument>();
     const GltfContainer container = split_gltf(bytes, loaded.file, loaded.warnings);
     const Json& document = loaded.source->document = parse_gltf(container.json, loaded.file);
-    CallbackContext context{document, container, file, loaded.warnings};
-    loaded.model = parse_with_tinygltf(document, context);
-    move_buffers_and_images(loaded);
+    load_resources({document, container, file, loaded.warnings}, *loaded.source);
+    loaded.model = parse_with_tinygltf(document, loaded.file);
     decompress(*loaded.source, loaded.file);
     check_sparse(*loaded.source, loaded.file);
     check_instances(*loaded.source, loaded.file);
