@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asset/scene/influences.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
@@ -11,44 +12,13 @@ namespace {
 
 using engine::to_eigen;
 
-struct Influence {
-    std::uint16_t joint;
-    double weight;
-};
-
 void blend_skin(const Part& from, const SurfacePoint& point, Part& to) {
     const Triangle& t = from.triangles[point.face];
-    std::array<Influence, 12> all{};  // those that are not used have weight 0
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            const double weight = point.barycentric[i] * from.weights[t[i]][k];
-            if (!(weight > 0)) continue;
-            const std::uint16_t joint = from.joints[t[i]][k];
-            const auto end = all.begin() + static_cast<std::ptrdiff_t>(count);
-            const auto found =
-                std::find_if(all.begin(), end, [&](const Influence& x) { return x.joint == joint; });
-            if (found == end) {
-                all[count++] = {joint, weight};
-            } else {
-                found->weight += weight;
-            }
-        }
-    }
-    std::sort(all.begin(), all.end(), [](const Influence& a, const Influence& b) {
-        return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
-    });
-    count = std::min<std::size_t>(count, 4);
-    double sum = 0;
-    for (std::size_t k = 0; k < count; ++k) sum += all[k].weight;
-    std::array<std::uint16_t, 4> joints{};
-    Vec4f weights{};
-    for (std::size_t k = 0; k < count; ++k) {
-        joints[k] = all[k].joint;
-        weights[k] = static_cast<float>(all[k].weight / sum);
-    }
-    to.joints.push_back(joints);
-    to.weights.push_back(weights);
+    Influences all;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 4; ++k)
+            all.add(from.joints[t[i]][k], point.barycentric[i] * from.weights[t[i]][k]);
+    all.take_heaviest(to.joints.emplace_back(), to.weights.emplace_back());
 }
 
 Vec3f blend(const std::vector<Vec3f>& values, const Triangle& t, const Vec3& w) {

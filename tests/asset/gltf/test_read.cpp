@@ -230,6 +230,38 @@ TEST_CASE("joints, weights and morph targets are read") {
     CHECK(part.morph_targets[0].normals.empty());
 }
 
+TEST_CASE("of several sets of joints the four heaviest stay, with the sum 1, and the rest is reported") {
+    // Vertex 0 has six joints; in vertex 1 joint 7 is in both sets; of vertex 2 two of four equal ones stay beside two
+    // heavier ones; vertex 3 has no weights.
+    using Four = std::array<std::uint8_t, 4>;
+    GltfBuilder builder = square_gltf();
+    Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
+    const auto add = [&](const char* name, const auto& values, int type) {
+        attributes[name] = builder.accessor(values, type, "VEC4");
+    };
+    add("JOINTS_0", std::vector<Four>{{0, 1, 2, 3}, {7, 1, 0, 0}, {9, 8, 7, 6}, {1, 2, 3, 4}}, u8);
+    add("JOINTS_1", std::vector<Four>{{4, 5, 0, 0}, {7, 2, 0, 0}, {5, 4, 0, 0}, {5, 6, 7, 8}}, u8);
+    add("WEIGHTS_0",
+        std::vector<Vec4f>{
+            {0.0625f, 0.125f, 0.1875f, 0.125f}, {0.25f, 0.25f, 0, 0}, {0.125f, 0.125f, 0.125f, 0.125f}, {}},
+        f32);
+    add("WEIGHTS_1", std::vector<Vec4f>{{0.25f, 0.25f, 0, 0}, {0.25f, 0.25f, 0, 0}, {0.25f, 0.25f, 0, 0}, {}},
+        f32);
+    const Asset asset = load_glb(builder);
+    const Part& part = only_part(asset);
+    using Joints = std::array<std::uint16_t, 4>;
+    CHECK(part.joints == std::vector<Joints>{{4, 5, 2, 1}, {7, 1, 2, 0}, {4, 5, 6, 7}, {0, 0, 0, 0}});
+    const float s = 0.8125f, third = 0.25f / 0.75f, sixth = 0.125f / 0.75f;
+    CHECK(part.weights == std::vector<Vec4f>{{0.25f / s, 0.25f / s, 0.1875f / s, 0.125f / s},
+                                             {0.5f, 0.25f, 0.25f, 0},
+                                             {third, third, sixth, sixth},
+                                             {0, 0, 0, 0}});
+    // 3/16 of the weight of vertex 0 and 1/4 of that of vertex 2.
+    REQUIRE(asset.warnings.size() == 1);
+    CHECK(contains(asset.warnings[0], "/meshes/0: 2 vertices have more than four joints"));
+    CHECK(contains(asset.warnings[0], "21.9% of the weights in the mean and at most 25.0% were left out"));
+}
+
 TEST_CASE("materials are read with factors, textures, wrap modes and texture transforms") {
     GltfBuilder builder = square_gltf();
     const Image png = small_png();

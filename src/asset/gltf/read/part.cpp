@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -6,6 +7,7 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/read/read.hpp"
+#include "asset/scene/influences.hpp"
 #include "asset/scene/repair.hpp"
 #include "faqem/error.hpp"
 #include "faqem/options.hpp"
@@ -17,19 +19,22 @@ using Attributes = std::map<std::string, int>;
 
 /// Union of the attributes of all triangle primitives of a mesh.
 struct PartLayout {
-    bool normals = false, tangents = false, colors = false, joints = false, target_normals = false;
-    std::size_t uv_sets = 0, targets = 0;
+    bool normals = false, tangents = false, colors = false, target_normals = false;
+    std::size_t uv_sets = 0, joint_sets = 0, targets = 0;
     std::vector<CustomAttribute> custom;  // without values
     std::set<std::string> ignored_attributes;
 };
 
-/// Numbers of non-finite values that were replaced.
+/// Numbers of non-finite values that were replaced, and what was left out of joint weights.
 struct Repairs {
     std::uint64_t positions = 0, normals = 0, tangents = 0, uvs = 0, colors = 0, weights = 0, targets = 0,
-                  custom = 0;
+                  custom = 0, trimmed_skins = 0;  // vertices with more than four joints
+    double left_out = 0, most_left_out = 0;  // of their weights: the sum of the shares, the largest share
 };
 
 std::string uv_name(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
+std::string joints_name(std::size_t set) { return "JOINTS_" + std::to_string(set); }
+std::string weights_name(std::size_t set) { return "WEIGHTS_" + std::to_string(set); }
 
 bool is_triangle_primitive(const tinygltf::Primitive& primitive) {
     return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.attributes.count("POSITION") != 0;
@@ -86,10 +91,10 @@ PartLayout layout_of(const tinygltf::Mesh& mesh, const Json& accessors) {
     layout.normals = names.erase("NORMAL") != 0;
     layout.tangents = names.erase("TANGENT") != 0;
     layout.colors = names.erase("COLOR_0") != 0;
-    layout.joints = names.count("JOINTS_0") != 0 && names.count("WEIGHTS_0") != 0;
-    if (layout.joints) {
-        names.erase("JOINTS_0");
-        names.erase("WEIGHTS_0");
+    for (std::size_t& set = layout.joint_sets;
+         names.contains(joints_name(set)) && names.contains(weights_name(set)); ++set) {
+        names.erase(joints_name(set));
+        names.erase(weights_name(set));
     }
     for (const CustomAttribute& attribute : layout.custom) names.erase(attribute.name);
     layout.target_normals = target_names.erase("NORMAL") != 0;
@@ -118,24 +123,35 @@ std::uint64_t append(std::vector<std::array<T, N>>& out, const SourceDocument& s
     return repaired;
 }
 
-void append_joints(Part& part, const SourceDocument& source, const Attributes& attributes, std::size_t count,
-                   Repairs& repairs) {
-    const Index joints = find_accessor(attributes, "JOINTS_0"),
-                weights = find_accessor(attributes, "WEIGHTS_0");
-    if (joints == no_index || weights == no_index) {
-        part.joints.resize(part.joints.size() + count);
-        part.weights.resize(part.weights.size() + count);
+/// Appends the joints and weights of a primitive: one set as it is, of several the four heaviest influences.
+/// \param sets  largest number of sets that the primitive may have
+void append_joints(Part& part, const SourceDocument& source, const Attributes& attributes, std::size_t sets,
+                   std::size_t count, Repairs& repairs) {
+    std::vector<std::vector<std::array<std::uint16_t, 4>>> joints;
+    std::vector<std::vector<Vec4f>> weights;
+    for (std::size_t set = 0; set < sets; ++set) {
+        const Index of_joints = find_accessor(attributes, joints_name(set)),
+                    of_weights = find_accessor(attributes, weights_name(set));
+        if (of_joints == no_index || of_weights == no_index) continue;
+        joints.push_back(read_joints(source, of_joints));
+        repairs.weights += append(weights.emplace_back(), source, of_weights, count, Vec4f{});
+    }
+    if (joints.size() == 1) {
+        part.joints.insert(part.joints.end(), joints[0].begin(), joints[0].end());
+        part.weights.insert(part.weights.end(), weights[0].begin(), weights[0].end());
         return;
     }
-    const auto values = read_joints(source, joints);
-    part.joints.insert(part.joints.end(), values.begin(), values.end());
-    repairs.weights += append(part.weights, source, weights, count, Vec4f{});
-    if (attributes.count("WEIGHTS_1") == 0) return;
-    for (std::size_t i = part.weights.size() - count; i < part.weights.size(); ++i) {
-        Vec4f& w = part.weights[i];
-        const float sum = w[0] + w[1] + w[2] + w[3];
-        if (sum > 0)
-            for (float& x : w) x /= sum;
+    const std::size_t first = part.joints.size();
+    part.joints.resize(first + count);
+    part.weights.resize(first + count);
+    Influences all;
+    for (std::size_t v = 0; v < count; ++v) {
+        for (std::size_t set = 0; set < joints.size(); ++set)
+            for (std::size_t k = 0; k < 4; ++k) all.add(joints[set][v][k], double{weights[set][v][k]});
+        const double left_out = all.take_heaviest(part.joints[first + v], part.weights[first + v]);
+        repairs.trimmed_skins += left_out > 0;
+        repairs.left_out += left_out;
+        repairs.most_left_out = std::max(repairs.most_left_out, left_out);
     }
 }
 
@@ -156,7 +172,7 @@ std::uint64_t append_vertices(Part& part, const PartLayout& layout, const Source
     if (layout.colors)
         repairs.colors +=
             append(part.colors, source, find_accessor(from, "COLOR_0"), count, Vec4f{1, 1, 1, 1});
-    if (layout.joints) append_joints(part, source, from, count, repairs);
+    if (layout.joint_sets > 0) append_joints(part, source, from, layout.joint_sets, count, repairs);
     for (CustomAttribute& attribute : part.custom_attributes)
         repairs.custom += append(attribute.values, source, find_accessor(from, attribute.name), count,
                                  std::array<double, 4>{});
@@ -234,6 +250,12 @@ void warn(LoadedGltf& loaded, const std::string& where, std::uint64_t count, con
     if (count != 0) loaded.warnings.push_back(where + ": " + std::to_string(count) + " " + what);
 }
 
+/// A share in percent, with one decimal place: `12.5%`.
+std::string percent(double share) {
+    const long tenths = std::lround(share * 1000);
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + "%";
+}
+
 void add_warnings(LoadedGltf& loaded, const std::string& where, const Repairs& repairs,
                   std::uint64_t dropped_faces, std::uint64_t excess_corners, const PartLayout& layout) {
     warn(loaded, where, dropped_faces, "faces with a non-finite position were left out");
@@ -244,6 +266,12 @@ void add_warnings(LoadedGltf& loaded, const std::string& where, const Repairs& r
     warn(loaded, where, repairs.uvs, "non-finite texture coordinates were reset");
     warn(loaded, where, repairs.colors, "non-finite vertex colours were reset");
     warn(loaded, where, repairs.weights, "non-finite joint weights were reset");
+    if (const std::uint64_t trimmed = repairs.trimmed_skins; trimmed > 0)
+        warn(loaded, where, trimmed,
+             "vertices have more than four joints: the four heaviest are kept, " +
+                 percent(repairs.left_out / static_cast<double>(trimmed)) +
+                 " of the weights in the mean and at most " + percent(repairs.most_left_out) +
+                 " were left out");
     warn(loaded, where, repairs.targets, "non-finite morph target vectors were reset");
     warn(loaded, where, repairs.custom, "non-finite values of custom attributes were reset");
     warn(loaded, where, excess_corners,
