@@ -24,6 +24,9 @@ inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
 inline constexpr const char* lod_name = "MSFT_lod";
 inline constexpr const char* coverage_name = "MSFT_screencoverage";
 
+/// Name of the extension with the center of a tile of 3D Tiles.
+inline constexpr const char* center_name = "CESIUM_RTC";
+
 /// Extensions of textures whose images have other media types than PNG and JPEG, with these types.
 struct ImageExtension {
     const char *name, *media_type;

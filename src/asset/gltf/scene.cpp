@@ -5,6 +5,7 @@
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
 #include "asset/scene/affine.hpp"
+#include "asset/scene/flatten.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -120,6 +121,13 @@ std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNod
 
 std::vector<Instance> gltf_instances(const Asset& asset) {
     return instances_at(asset, placed_nodes(asset.source->document));
+}
+
+std::optional<Vec3> scene_center(const Asset& asset) {
+    if (!asset.source) return std::nullopt;
+    const Json& extension = member(member(asset.source->document, "extensions"), center_name);
+    if (!extension.contains("center")) return std::nullopt;
+    return number_array<3>(extension, "center", {0, 0, 0});
 }
 
 }  // namespace faqem::detail

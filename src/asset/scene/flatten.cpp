@@ -65,6 +65,12 @@ void append(Part& flat, const Part& part, const std::array<double, 16>& m, const
     for (const FaceArray& array : face_arrays) append_faces(flat, part, array);
 }
 
+/// Turns a part from y up to z up and moves it.
+void place(Part& flat, const Vec3& center) {
+    for (Vec3& p : flat.positions) p = {center[0] + p[0], center[1] - p[2], center[2] + p[1]};
+    for (Vec3f& n : flat.normals) n = {n[0], -n[2], n[1]};
+}
+
 std::size_t uninstanced_part_count(const Asset& asset) {
     std::vector<std::uint8_t> is_uninstanced;
     for (const Part& part : asset.parts) is_uninstanced.push_back(!part.triangles.empty());
@@ -107,6 +113,7 @@ Part flatten(const Asset& asset, const std::vector<PosedInstance>& all) {
         else
             append(flat, part, instance.transform, layout);
     }
+    if (const std::optional<Vec3> center = scene_center(asset)) place(flat, *center);
     flat.face_material.resize(faces, no_index);
     for (const FaceArray& array : face_arrays)
         if (!(flat.*array.values).empty()) (flat.*array.values).resize(faces, no_index);

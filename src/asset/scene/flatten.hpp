@@ -2,6 +2,7 @@
 /// \file
 /// Flattening of a scene to one part in world space, for formats without a scene graph.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,15 @@
 
 namespace faqem::detail {
 
-/// Concatenates all instances of all parts, in world space and in their pose at rest (posed_part()). Normals are
-/// transformed by the inverse transpose and normalised; the winding of mirrored instances is reversed. Attributes that
-/// only some parts have get neutral values in the others: zero normals and UVs, white colours. Tangents, skins and
-/// morph targets are left out. With the identity transform and no pose, positions and normals are copied bit for bit.
+/// The point to which viewers of 3D Tiles move a scene after they have turned it from y up to z up (CESIUM_RTC); nothing
+/// if its file names none.
+std::optional<Vec3> scene_center(const Asset& asset);
+
+/// Concatenates all instances of all parts, in world space and in their pose at rest (posed_part()), and moves them to
+/// scene_center(). Normals are transformed by the inverse transpose and normalised; the winding of mirrored instances is
+/// reversed. Attributes that only some parts have get neutral values in the others: zero normals and UVs, white colours.
+/// Tangents, skins and morph targets are left out. With the identity transform, no pose and no center, positions and
+/// normals are copied bit for bit.
 /// \throws InputError  if there are more vertices or faces than 32-bit indices can address
 FAQEM_EXPORT Part flatten(const Asset& asset);
 

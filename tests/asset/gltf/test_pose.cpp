@@ -190,3 +190,34 @@ TEST_CASE("morph targets displace a mesh before its joints move it") {
     builder.json["nodes"][0]["weights"] = {1};
     check_points(flatten(load_glb(builder)).positions, {{0, 1, 5}, {0, 0, 0}, {0, 2, 5}, {-1, 0, 0}});
 }
+
+TEST_CASE(
+    "a tile of 3D Tiles is turned to z up and moved to its center in other formats, and stays in glTF "
+    "files") {
+    // The square, one unit above the ground (y), stands upright to the south after the turn.
+    GltfBuilder builder = square_gltf();
+    builder.json["nodes"][0]["translation"] = {0, 1, 0};
+    builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"CESIUM_RTC"};
+    builder.json["extensions"]["CESIUM_RTC"]["center"] = {4000000.5, -2, 10};
+    const auto normals = builder.accessor(std::vector<Vec3f>(4, Vec3f{0, 0, 1}), f32, "VEC3");
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normals;
+    const Asset asset = load_glb(builder);
+    CHECK(asset.not_understood.empty());
+    const Part flat = detail::flatten(asset);
+    CHECK(flat.positions ==
+          std::vector<Vec3>{
+              {4000000.5, -2, 11}, {4000001.5, -2, 11}, {4000000.5, -2, 12}, {4000001.5, -2, 12}});
+    CHECK(flat.normals[0] == Vec3f{0, -1, 0});
+    CHECK(flat.triangles == std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}});
+    const TemporaryFolder folder;
+    save(asset, folder / "a.ply");
+    CHECK(load(folder / "a.ply").parts[0].positions == flat.positions);
+    const WrittenGltf written = write_gltf_of(asset);
+    CHECK(written.warnings.empty());
+    for (const char* key : {"extensions", "extensionsRequired", "nodes"})
+        CHECK(written.json[key] == builder.json[key]);
+    CHECK(load_glb(written.glb).parts[0].positions == asset.parts[0].positions);
+
+    builder.json["extensions"]["CESIUM_RTC"]["center"] = {1, 2};
+    CHECK(contains(refusal(builder), "/extensions/CESIUM_RTC/center"));
+}

@@ -75,6 +75,23 @@ def instancing(runs):
     expect(runs.run("info", "a.glb").returncode == 3, "code 3 for counts that differ")
 
 
+@row("CESIUM_RTC")
+def center(runs):
+    glb = gltf_grid(RED)
+    glb.json["extensions"] = {"CESIUM_RTC": {"center": [1000, 2000, 3000]}}
+    glb.json["extensionsRequired"] = ["CESIUM_RTC"]
+    write(runs, glb, ["CESIUM_RTC"])
+    expect_no_warning(runs)
+    for gltf in three(runs):
+        expect(gltf.json["extensions"] == glb.json["extensions"], "kept")
+    # The grid, from 0 to 1 along x and y and bumpy along z, stands upright.
+    for out in ("out.obj", "out.ply", "out.stl"):
+        runs.simplify("a.glb", "--ratio", 0.5, out=out)
+        total = runs.info(out)["total"]
+        corners = zip(total["box_min"] + total["box_max"], (1000, 2000, 3000, 1001, 2000, 3001))
+        expect(all(abs(a - b) < 0.1 for a, b in corners), out)
+
+
 def numbered():
     """The grid with extensions that refer to vertices, triangles and features."""
     glb = textured(PATTERN, _FEATURE_ID_0=([float(i // 9) for i in range(VERTICES)], "f"))

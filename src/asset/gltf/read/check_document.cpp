@@ -37,7 +37,8 @@ bool contains(const List& list, std::string_view name) {
 }
 
 bool is_supported(std::string_view extension) {
-    return contains(supported_extensions, extension) || extension.starts_with("KHR_materials_");
+    return contains(supported_extensions, extension) || extension.starts_with("KHR_materials_") ||
+           extension == center_name;
 }
 
 void check_version(const GltfChecker& checker) {
@@ -120,6 +121,8 @@ void check_document(const GltfChecker& checker) {
     }
     check_extensions(checker, checker.document, "");
     check_image_lights(checker);
+    const Json& tile = member(member(checker.document, "extensions"), center_name);
+    checker.check_number_array(tile, child_path("/extensions", center_name), "center", 3);
 }
 
 }  // namespace faqem::detail

@@ -167,7 +167,7 @@ bool contains_number(const Json& value) {
 void warn_about_unknown_extensions(GltfWriter& writer) {
     std::set<std::string> unknown;
     for_each_extension(writer.out, [&](const std::string& name, const Json& value) {
-        if (name.compare(0, 4, "KHR_") != 0 &&
+        if (name.compare(0, 4, "KHR_") != 0 && name != center_name &&
             std::find(remapped_extensions.begin(), remapped_extensions.end(), name) ==
                 remapped_extensions.end() &&
             contains_number(value))
