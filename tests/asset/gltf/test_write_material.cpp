@@ -239,3 +239,37 @@ TEST_CASE("anisotropy of a rebaked material is removed with a warning") {
                        "material 'm': the directions of KHR_materials_anisotropy do not fit"));
     CHECK_FALSE(json_of(get(folder / "out.glb"))["materials"][0].contains("extensions"));
 }
+
+TEST_CASE(
+    "a texture whose image is encoded again keeps its sampler, name and extras; that of a new page does "
+    "not") {
+    GltfBuilder builder = square_gltf();
+    add_texture(builder, 1);
+    add_texture(builder, 2);
+    builder.json["samplers"] = Json::parse(R"([{},{"magFilter":9728,"minFilter":9728,"wrapS":33071}])");
+    builder.json["textures"][0]["sampler"] = 1;
+    builder.json["textures"][0]["name"] = "pixels";
+    builder.json["textures"][0]["extras"] = 7;
+    builder.json["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    builder.json["textures"][0]["extensions"]["EXT_other"]["a"] = "b";
+    builder.json["extensionsUsed"] = {"EXT_texture_webp", "EXT_other"};
+    builder.json["materials"] = Json::parse(R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+        {"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}}])");
+    Json& primitives = builder.json["meshes"][0]["primitives"];
+    primitives.push_back(primitives[0]);
+    for (int i : {0, 1}) primitives[i]["material"] = i;
+    Asset asset = load_glb(builder);
+    for (Image& image : asset.images) image = encode_jpeg(decode(image), image.name, 90, Content::color);
+    const Json kept = json_of(saved(asset));
+    CHECK(kept["textures"][0] == Json::parse(R"({"source":0,"sampler":0,"name":"pixels","extras":7,
+        "extensions":{"EXT_other":{"a":"b"}}})"));
+    CHECK(kept["textures"][1] == Json::parse(R"({"source":1})"));
+    CHECK(kept["samplers"] == Json::array({builder.json["samplers"][1]}));
+    CHECK(kept["images"][0]["mimeType"] == "image/jpeg");
+    CHECK(kept["images"].size() == 2);
+
+    for (Material& material : asset.materials) material.rebaked = true;
+    const Json baked = json_of(saved(asset));
+    CHECK(baked["samplers"][0]["minFilter"] == 9984);
+    CHECK_FALSE(baked["textures"][0].contains("name"));
+}

@@ -50,6 +50,22 @@ Index write_asset_image(GltfWriter& writer, Index image) {
     return entry->second;
 }
 
+/// Makes an image of the asset the only one of a texture.
+void set_image(GltfWriter& writer, Json& texture, Index image) {
+    texture.erase("source");
+    if (texture.contains("extensions")) {
+        Json& extensions = texture["extensions"];
+        for (auto it = extensions.begin(); it != extensions.end();)
+            it = it->contains("source") ? extensions.erase(it) : std::next(it);
+        if (extensions.empty()) texture.erase("extensions");
+    }
+    const std::string& type = writer.asset.images[image].mime_type;
+    const auto extension = std::find_if(std::begin(image_extensions), std::end(image_extensions),
+                                        [&](const ImageExtension& own) { return type == own.media_type; });
+    (extension == std::end(image_extensions) ? texture : texture["extensions"][extension->name])["source"] =
+        write_asset_image(writer, image);
+}
+
 }  // namespace
 
 void find_source_images(GltfWriter& writer) {
@@ -71,21 +87,25 @@ Index copy_image(GltfWriter& writer, Index image) {
     return entry->second;
 }
 
-Index copy_texture(GltfWriter& writer, Index texture) {
-    const auto [entry, is_new] = writer.source_textures.try_emplace(texture, no_index);
+Index copy_texture(GltfWriter& writer, Index texture, Index image) {
+    const auto [entry, is_new] = writer.source_textures.try_emplace({texture, image}, no_index);
     if (!is_new) return entry->second;
     Json json = source_array(writer, "textures")[texture];
     const auto remap_image = [&](Json& holder) {
-        const Index image = index_member(holder, "source");
-        if (image == no_index) return;
-        if (writer.source.images[image].encoded.empty())
+        const Index own = index_member(holder, "source");
+        if (own == no_index) return;
+        if (writer.source.images[own].encoded.empty())
             holder.erase("source");
         else
-            holder["source"] = copy_image(writer, image);
+            holder["source"] = copy_image(writer, own);
     };
-    remap_image(json);
-    if (json.contains("extensions"))
-        for (Json& extension : json["extensions"]) remap_image(extension);
+    if (image != no_index) {
+        set_image(writer, json, image);
+    } else {
+        remap_image(json);
+        if (json.contains("extensions"))
+            for (Json& extension : json["extensions"]) remap_image(extension);
+    }
     const Index sampler = index_member(json, "sampler");
     if (sampler != no_index) {
         const auto [copied, is_first] = writer.source_samplers.try_emplace(sampler, no_index);
@@ -102,12 +122,7 @@ Index make_texture(GltfWriter& writer, const TextureRef& ref) {
         writer.textures.try_emplace({image, ref.wrap_u, ref.wrap_v, ref.filter}, no_index);
     if (is_new) {
         Json json = {{"sampler", make_sampler(writer, ref)}};
-        const std::string& type = writer.asset.images[ref.image].mime_type;
-        const auto extension =
-            std::find_if(std::begin(image_extensions), std::end(image_extensions),
-                         [&](const ImageExtension& own) { return type == own.media_type; });
-        (extension == std::end(image_extensions) ? json : json["extensions"][extension->name])["source"] =
-            image;
+        set_image(writer, json, ref.image);
         entry->second = append(writer, "textures", std::move(json));
     }
     return entry->second;

@@ -52,14 +52,18 @@ bool has_other_image_only(const TextureRef& current, const TextureRef& original)
 
 /// Updates the texture info under `key`: kept with a new index if at most the image changed, rebuilt if the
 /// reference did, erased if it is unset. An animation may point to a transform that does nothing at rest.
-void write_texture_info(GltfWriter& writer, Json& holder, const char* key, const TextureRef& current,
-                        const TextureRef& original) {
+/// \param material  whose texture it is
+void write_texture_info(GltfWriter& writer, const Material& material, Json& holder, const char* key,
+                        const TextureRef& current, const TextureRef& original) {
     if (!current) {
         holder.erase(key);
     } else if (is_same_reference(writer, current, original)) {
         holder[key]["index"] = copy_texture(writer, index_member(holder[key], "index"));
     } else if (has_other_image_only(current, original)) {
-        holder[key]["index"] = make_texture(writer, current);
+        // The image of a new page has nothing to do with the sampler of the source.
+        holder[key]["index"] = material.rebaked
+                                   ? make_texture(writer, current)
+                                   : copy_texture(writer, index_member(holder[key], "index"), current.image);
     } else {
         holder[key] = make_texture_info(writer, current);
     }
@@ -86,7 +90,7 @@ void write_core_textures(GltfWriter& writer, Json& json, const Material& current
                    shortest_decimal(current.roughness));
     for (const CoreSlot& slot : core_slots) {
         Json& holder = slot.is_in_pbr ? pbr : json;
-        write_texture_info(writer, holder, slot.key, current.*slot.texture, original.*slot.texture);
+        write_texture_info(writer, current, holder, slot.key, current.*slot.texture, original.*slot.texture);
         if (slot.factor)
             write_texture_factor(holder, slot.key, slot.factor_key, current.*slot.factor,
                                  original.*slot.factor);
@@ -182,7 +186,8 @@ void write_extensions(GltfWriter& writer, const Material& current, const Materia
         const ExtensionTexture* previous = find_texture(original, texture.extension, texture.name);
         if (!previous) previous = &none;
         Json& extension = json["extensions"][texture.extension];
-        write_texture_info(writer, extension, texture.name.c_str(), texture.texture, previous->texture);
+        write_texture_info(writer, current, extension, texture.name.c_str(), texture.texture,
+                           previous->texture);
         write_texture_factor(extension, texture.name.c_str(), "scale", texture.normal_scale,
                              previous->normal_scale);
     }

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "asset/gltf/source_document.hpp"
@@ -30,7 +31,8 @@ struct GltfWriter {
     std::map<Index, Index> accessors = {};         ///< source accessor to output accessor
     std::map<Index, Index> asset_materials = {};   ///< asset material to output material
     std::map<Index, Index> source_materials = {};  ///< source material, copied unchanged, to output material
-    std::map<Index, Index> source_textures = {};
+    /// Source texture and the asset image that it has instead of its own, or no_index, to output texture.
+    std::map<std::pair<Index, Index>, Index> source_textures = {};
     std::map<Index, Index> source_samplers = {};
     std::map<Index, Index> source_images = {};
     std::map<Index, Index> asset_images = {};  ///< asset image without an equal source image to output image
@@ -60,8 +62,9 @@ Index append(GltfWriter& writer, const char* key, Json value);
 Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use);
 
 /// Copies a source texture on first use, with its sampler, extras and the images of extensions.
+/// \param image  image of the asset that it has instead of these; no_index: none
 /// \return the output texture
-Index copy_texture(GltfWriter& writer, Index texture);
+Index copy_texture(GltfWriter& writer, Index texture, Index image = no_index);
 
 /// Creates the output texture for a texture reference of the asset. Equal textures are shared.
 Index make_texture(GltfWriter& writer, const TextureRef& ref);
