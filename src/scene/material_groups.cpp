@@ -83,4 +83,42 @@ MaterialGroups group_materials(const Asset& asset, const BakeOptions& bake,
     return result;
 }
 
+bool has_non_white_colors(const Part& part) {
+    return std::any_of(part.colors.begin(), part.colors.end(), [](const Vec4f& c) {
+        return c != Vec4f{1, 1, 1, 1};
+    });
+}
+
+bool has_spare_uvs_only(const Asset& asset, const Part& part) {
+    const std::vector<Index> materials = materials_of(part);
+    return !part.uvs.empty() && !has_non_white_colors(part) &&
+           std::none_of(materials.begin(), materials.end(),
+                        [&](Index m) { return has_textures(asset.materials[m]); });
+}
+
+std::vector<std::uint8_t> parts_with_own_uvs(const Asset& asset, const BakeOptions& bake) {
+    std::vector<std::uint8_t> result(asset.parts.size(), 0);
+    if (!makes_atlas(bake.kind) || bake.normal_map == NormalMap::on || bake.correspondence == Recording::on)
+        return result;
+    const MaterialGroups groups = group_materials(asset, bake);
+    std::vector<std::uint8_t> has_page;
+    for (const MaterialGroup& group : groups.groups)
+        has_page.push_back(std::any_of(group.materials.begin(), group.materials.end(), [&](Index m) {
+            const Material& material = material_or_default(asset, m);
+            return has_textures(material) || !has_equal_factors(material, group.material);
+        }));
+    const auto page_of = [&](const Part& part, std::size_t f) -> std::uint8_t& {
+        return has_page[groups.group_of(face_material(part, f))];
+    };
+    for (const Part& part : asset.parts)
+        if (has_non_white_colors(part))
+            for (std::size_t f = 0; f < part.triangles.size(); ++f) page_of(part, f) = 1;
+    for (std::size_t p = 0; p < result.size(); ++p) {
+        const Part& part = asset.parts[p];
+        result[p] = has_spare_uvs_only(asset, part);
+        for (std::size_t f = 0; result[p] && f < part.triangles.size(); ++f) result[p] = !page_of(part, f);
+    }
+    return result;
+}
+
 }  // namespace faqem::detail

@@ -63,4 +63,16 @@ FAQEM_EXPORT bool has_plain_materials(const Asset& asset, const BakeOptions& bak
 MaterialGroups group_materials(const Asset& asset, const BakeOptions& bake,
                                std::span<const std::uint8_t> skipped_parts = {});
 
+/// Whether a part has UVs that no texture of its materials uses, and no vertex colours other than white, so that nothing
+/// of it needs a page. Its UVs may be those of light maps that a program adds.
+/// Complexity: O(vertices + faces log faces).
+FAQEM_EXPORT bool has_spare_uvs_only(const Asset& asset, const Part& part);
+
+/// By part: nonzero if has_spare_uvs_only() and no page is baked for its material groups, so that it keeps its UVs.
+/// Complexity: that of has_spare_uvs_only() and group_materials().
+FAQEM_EXPORT std::vector<std::uint8_t> parts_with_own_uvs(const Asset& asset, const BakeOptions& bake);
+
+/// Whether a part has vertex colours other than white.
+bool has_non_white_colors(const Part& part);
+
 }  // namespace faqem::detail

@@ -16,7 +16,8 @@ void resolve_bake(const Asset& source, const FileFormat& format, BakeOptions& ba
                            [&](const Part& part) { return (part.*values).empty(); });
     };
     const bool is_bare = source.materials.empty() && no_part_has(&Part::colors);
-    bake.kind = is_bare ? format.bare_bake : format.bake;
+    const bool keeps_uvs = format.keeps_plain_parts && !no_part_has(&Part::uvs);
+    bake.kind = !is_bare ? format.bake : keeps_uvs ? Bake::automatic : format.bare_bake;
     // Flat normals need no map to the original. If the source has normals, save() warns that the format cannot store
     // them.
     if (!format.holds_normals) bake.normals = no_part_has(&Part::normals) ? Normals::none : Normals::flat;

@@ -69,11 +69,11 @@ struct PartInput {
 
     // Sets the weld of the options to none if the part is welded here.
     PartInput(const Asset& source, const Part& part,
-              const std::optional<detail::MaterialGroups>& material_groups, std::span<const float> weights,
-              Options& own)
+              const std::optional<detail::MaterialGroups>& material_groups, bool keeps_uvs,
+              std::span<const float> weights, Options& own)
         : groups(face_groups(part, material_groups)) {
         if (material_groups) groups = detail::separate_coincident_faces(part, std::move(groups));
-        if (own.bake.kind == Bake::keep) attributes = corner_attributes(part);
+        if (keeps_uvs) attributes = corner_attributes(part);
         if (own.topology.weld != Weld::none)
             welded = detail::welded_by_motion(part, detail::motion_rounding(source, part),
                                               detail::settings(own).weld_distance);
@@ -97,6 +97,7 @@ public:
         const Bake kind = options.bake.kind;
         const bool merged = kind != Bake::keep && kind != Bake::none;
         if (merged) groups_ = detail::group_materials(source, options.bake);
+        has_own_uvs_ = detail::parts_with_own_uvs(source, options.bake);
         if (options.topology.prune)
             size_ = detail::scene_size(source);
         else
@@ -264,7 +265,8 @@ private:
                                                      (done_ + size) / (passes_ * faces_));
             const auto& groups = keeps_groups() ? std::nullopt : groups_;
             const std::span<const float> weights = weights_.empty() ? std::span<const float>() : weights_[p];
-            const PartInput input(source_, part, groups, weights, own);
+            const bool keeps_uvs = options_.bake.kind == Bake::keep || has_own_uvs_[p];
+            const PartInput input(source_, part, groups, keeps_uvs, weights, own);
             work(p, input.view, own, of_part);
             done_ += size;
         }
@@ -274,6 +276,7 @@ private:
     const Options& options_;
     const RunContext& context_;
     std::optional<detail::MaterialGroups> groups_;
+    std::vector<std::uint8_t> has_own_uvs_;  // by part
     std::vector<SimplifiedParts> results_;
     std::span<const detail::LevelTarget> levels_;  // see simplify_parts_to_targets()
     std::vector<std::vector<double>> shares_;      // by target: of proportional_shares(), or empty

@@ -15,6 +15,7 @@
 #include "bake/source/page_groups.hpp"
 #include "bake/source/source_sampler.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
+#include "scene/material_groups.hpp"
 #include "scene/part_reports.hpp"
 #include "scene/vector_conversion.hpp"
 
@@ -169,6 +170,12 @@ bool shows_single_texels(const Asset& asset, const PartSet& set) {
     });
 }
 
+// Whether a part has UVs that no texture uses, and nothing that a page would show better: several materials have no
+// borders where the free simplification left no faces for them.
+bool is_plain_with_uvs(const Asset& asset, const Part& part) {
+    return has_spare_uvs_only(asset, part) && materials_of(part).size() <= 1;
+}
+
 }  // namespace
 
 std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart> parts,
@@ -204,8 +211,9 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
     std::vector<Index> good;
     PictureLoss total;
     for (const PartSet& set : sets) {
-        const bool must_be_kept =
-            std::any_of(set.begin(), set.end(), [&](Index p) { return needs_uvs[p] != 0; });
+        const bool must_be_kept = std::any_of(set.begin(), set.end(), [&](Index p) {
+            return needs_uvs[p] != 0 || is_plain_with_uvs(source, source.parts[p]);
+        });
         const bool is_coarse =
             shows_single_texels(source, set) ||
             std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });

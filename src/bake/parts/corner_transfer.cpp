@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "bake/parts/output_part.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "scene/material_groups.hpp"
 
@@ -193,6 +194,36 @@ TransferredCorners transfer_corners(const BakePart& part, const RunContext& cont
     });
     result.crossing_faces = crossing;
     if (!result.values.empty()) transfer.merge_versions();
+    return result;
+}
+
+bool has_corner_attributes(const BakePart& part) {
+    const std::size_t width = 2 * part.source->uvs.size() + (part.source->colors.empty() ? 0 : 4);
+    return part.simplified->mesh.attributes.values.size() == 3 * part.faces() * width;
+}
+
+void warn_of_crossing_faces(std::uint64_t count, std::vector<std::string>& warnings) {
+    if (count > 0)
+        warnings.push_back(std::to_string(count) +
+                           " faces cross borders of the source's UV charts: the image is stretched there");
+}
+
+KeptCorners kept_corners(const BakePart& part, const RunContext& context) {
+    const bool has_own = has_corner_attributes(part);
+    const TransferredCorners transferred = has_own ? TransferredCorners{} : transfer_corners(part, context);
+    const std::vector<float>& attributes =
+        has_own ? part.simplified->mesh.attributes.values : transferred.values;
+    KeptCorners result;
+    result.materials = has_own ? kept_materials(part) : materials_of_faces(*part.source, transferred.faces);
+    result.crossing_faces = transferred.crossing_faces;
+    const std::size_t sets = part.source->uvs.size();
+    result.values.uvs.resize(sets);
+    for (auto at = attributes.begin(); at != attributes.end();) {
+        for (std::size_t s = 0; s < sets; ++s, at += 2) result.values.uvs[s].push_back({at[0], at[1]});
+        if (part.source->colors.empty()) continue;
+        result.values.colors.push_back({at[0], at[1], at[2], at[3]});
+        at += 4;
+    }
     return result;
 }
 

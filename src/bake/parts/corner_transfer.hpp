@@ -3,6 +3,7 @@
 /// UVs and vertex colours of the source at the corners of a mesh that was simplified without regard to them.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "bake/parts/corners.hpp"
@@ -25,5 +26,22 @@ struct TransferredCorners {
 /// \throws whatever `context` throws
 /// Complexity: 4 queries of the map per face, and 6 more for each corner beyond a border.
 TransferredCorners transfer_corners(const BakePart& part, const RunContext& context);
+
+/// Whether the simplified mesh of a part has the UVs and vertex colours of the source as attributes.
+bool has_corner_attributes(const BakePart& part);
+
+/// What a part keeps.
+struct KeptCorners {
+    CornerValues values;               ///< UVs and vertex colours
+    std::vector<Index> materials;      ///< by face: those of the source
+    std::uint64_t crossing_faces = 0;  ///< as in TransferredCorners
+};
+
+/// The UVs and vertex colours of a part: the attributes of the simplified mesh or, if it has none, those of
+/// transfer_corners().
+KeptCorners kept_corners(const BakePart& part, const RunContext& context);
+
+/// Adds a warning about faces that cross borders of UV charts, if there are any.
+void warn_of_crossing_faces(std::uint64_t count, std::vector<std::string>& warnings);
 
 }  // namespace faqem::detail

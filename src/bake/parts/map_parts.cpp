@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bake/parts/corner_normals.hpp"
+#include "bake/parts/corner_transfer.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -14,12 +15,15 @@ bool may_make_images(const Asset& asset, const BakeOptions& bake) {
     return !asset.images.empty() || asset.materials.size() > 1 || bake.normal_map == NormalMap::on ||
            bake.correspondence == Recording::on ||
            std::any_of(asset.parts.begin(), asset.parts.end(),
-                       [](const Part& part) { return !part.uvs.empty() || !part.colors.empty(); });
+                       [](const Part& part) { return !part.colors.empty(); });
 }
 
 // Normals need no map, see make_normals().
-bool needs_map(const Asset& asset, const Part& part, const BakeOptions& bake) {
-    if (!part.joints.empty() || !part.morph_targets.empty() || !part.custom_attributes.empty()) return true;
+bool needs_map(const Asset& asset, const BakePart& of, const BakeOptions& bake) {
+    const Part& part = *of.source;
+    if (!part.joints.empty() || !part.morph_targets.empty() || !part.custom_attributes.empty() ||
+        (makes_atlas(bake.kind) && !part.uvs.empty() && !has_corner_attributes(of)))
+        return true;
     return bake.kind != Bake::none && (!makes_atlas(bake.kind) || may_make_images(asset, bake));
 }
 
@@ -39,7 +43,7 @@ std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyRes
     const auto map_part = [&](std::size_t p, std::size_t, const RunContext& block_context) {
         BakePart& part = parts[p];
         if (part.faces() == 0 || part.is_kept) return;
-        if (needs_map(source, *part.source, bake)) {
+        if (needs_map(source, part, bake)) {
             part.map = std::make_unique<const SurfaceMap>(
                 make_surface_map(part.simplified->history, part.source->triangles, block_context));
         }

@@ -12,12 +12,14 @@
 #include "bake/page/page_baker.hpp"
 #include "bake/page/page_layout.hpp"
 #include "bake/page/page_mesh.hpp"
+#include "bake/parts/corner_transfer.hpp"
 #include "bake/parts/output_part.hpp"
 #include "bake/source/extension_layers.hpp"
 #include "bake/source/page_groups.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "bake/texture/page_material.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -35,12 +37,6 @@ struct PartUvs {
     std::vector<std::vector<Vec2f>> uvs;       // in [0, 1]
     std::vector<std::vector<Vec4f>> tangents;  // for normal maps
 };
-
-bool has_non_white_colors(const Part& part) {
-    return std::any_of(part.colors.begin(), part.colors.end(), [](const Vec4f& c) {
-        return c != Vec4f{1, 1, 1, 1};
-    });
-}
 
 // Channels that need an image: those for which a material has one, or for which the factors differ.
 Channels needed_channels(const Asset& asset, const MaterialGroup& group) {
@@ -237,14 +233,44 @@ void remove_unused_uvs(const std::vector<Page>& pages, const std::vector<Materia
     }
 }
 
-Part textured_part(const BakePart& part, const MaterialGroups& groups, PartUvs& from,
-                   const RunContext& context) {
-    CornerValues values;
-    values.tangents = std::move(from.tangents[part.index]);
-    if (!from.uvs[part.index].empty()) values.uvs.push_back(std::move(from.uvs[part.index]));
-    std::vector<Index> materials = kept_materials(part);
-    for (Index& m : materials) m = groups.group_of(m);
-    return make_output_part(part, std::move(values), std::move(materials), context);
+// Warns of the UV sets of a part that neither its textures nor the result use.
+void warn_of_dropped_uvs(const Asset& source, const BakePart& part, std::vector<std::string>& warnings) {
+    std::vector<std::uint8_t> is_used(part.source->uvs.size(), 0);
+    for (const Index m : materials_of(*part.source))
+        for_each_texture(source.materials[m], [&](const TextureRef& texture) {
+            if (texture && texture.uv_set < is_used.size()) is_used[texture.uv_set] = 1;
+        });
+    std::string sets;
+    for (std::size_t s = 0; s < is_used.size(); ++s)
+        if (!is_used[s]) sets += (sets.empty() ? "" : ", ") + std::to_string(s);
+    if (!sets.empty() && part.faces() > 0)
+        warnings.push_back(part_title(source, part.index) +
+                           ": texture coordinates that no texture uses were left out for a new page: set " +
+                           sets);
+}
+
+// The parts of the result. Those without a texture keep the UVs of the source, if these had none either.
+void add_parts(const BakeJob& job, const MaterialGroups& groups, PartUvs& from, UnencodedResult& out) {
+    std::uint64_t crossing_faces = 0;
+    for (const BakePart& part : job.parts) {
+        Part& to = out.asset.asset.parts.emplace_back();
+        if (part.is_kept) continue;
+        CornerValues values;
+        std::vector<Index> materials = kept_materials(part);
+        if (from.uvs[part.index].empty() && part.faces() > 0 &&
+            has_spare_uvs_only(job.source, *part.source)) {
+            KeptCorners kept = kept_corners(part, job.context);
+            values.uvs = std::move(kept.values.uvs);
+            crossing_faces += kept.crossing_faces;
+        } else {
+            warn_of_dropped_uvs(job.source, part, out.asset.report.warnings);
+        }
+        values.tangents = std::move(from.tangents[part.index]);
+        if (!from.uvs[part.index].empty()) values.uvs.push_back(std::move(from.uvs[part.index]));
+        for (Index& m : materials) m = groups.group_of(m);
+        to = make_output_part(part, std::move(values), std::move(materials), job.context);
+    }
+    warn_of_crossing_faces(crossing_faces, out.asset.report.warnings);
 }
 
 }  // namespace
@@ -261,10 +287,8 @@ bool bake_pages(const BakeJob& job, DecodedImages decoded, UnencodedResult& out)
     warn_of_normal_maps(job.source, groups, pages, out.asset.report.warnings);
     PartUvs uvs = uvs_of_pages(job.parts, pages);
     bake_images(job, sampler, groups, pages, uvs, out);
-    Asset& asset = out.asset.asset;
-    remove_unused_uvs(pages, asset.materials, job.options.correspondence == Recording::on, uvs);
-    for (const BakePart& part : job.parts)
-        asset.parts.push_back(part.is_kept ? Part{} : textured_part(part, groups, uvs, job.context));
+    remove_unused_uvs(pages, out.asset.asset.materials, job.options.correspondence == Recording::on, uvs);
+    add_parts(job, groups, uvs, out);
     return true;
 }
 

@@ -67,45 +67,19 @@ std::vector<Vec4f> kept_tangents(const Asset& source, const BakePart& part,
     return result;
 }
 
-// The UVs and colours of a part, which the simplified mesh has as attributes or which are transferred from the source.
-// \param attributes  by corner: UVs of all sets, then the colour if the source has vertex colours
-CornerValues values_of_attributes(const BakePart& part, const std::vector<float>& attributes) {
-    const std::size_t sets = part.source->uvs.size();
-    CornerValues values;
-    values.uvs.resize(sets);
-    for (auto at = attributes.begin(); at != attributes.end();) {
-        for (std::size_t s = 0; s < sets; ++s, at += 2) values.uvs[s].push_back({at[0], at[1]});
-        if (part.source->colors.empty()) continue;
-        values.colors.push_back({at[0], at[1], at[2], at[3]});
-        at += 4;
-    }
-    return values;
-}
-
-// Number of values of a corner.
-std::size_t attribute_width(const Part& source) {
-    return 2 * source.uvs.size() + (source.colors.empty() ? 0 : 4);
-}
-
 // Keeps the UVs and vertex colours of a part.
 // \return the number of faces that cross borders of UV charts
 std::uint64_t keep_part(const BakeJob& job, const BakePart& part, Part& to) {
-    const std::vector<float>& own = part.simplified->mesh.attributes.values;
-    const bool has_own = own.size() == 3 * part.faces() * attribute_width(*part.source);
-    if (!has_own && job.options.kind == Bake::keep) {
+    if (!has_corner_attributes(part) && job.options.kind == Bake::keep) {
         throw InputError(
             "", part_title(job.source, part.index),
             "the simplified mesh must have the source's UVs and vertex colours as attributes, which "
             "simplify_parts() transfers if bake.kind is Bake::keep");
     }
-    const TransferredCorners transferred =
-        has_own ? TransferredCorners{} : transfer_corners(part, job.context);
-    std::vector<Index> materials =
-        has_own ? kept_materials(part) : materials_of_faces(*part.source, transferred.faces);
-    CornerValues values = values_of_attributes(part, has_own ? own : transferred.values);
-    values.tangents = kept_tangents(job.source, part, materials, values.uvs);
-    to = make_output_part(part, std::move(values), std::move(materials), job.context);
-    return transferred.crossing_faces;
+    KeptCorners kept = kept_corners(part, job.context);
+    kept.values.tangents = kept_tangents(job.source, part, kept.materials, kept.values.uvs);
+    to = make_output_part(part, std::move(kept.values), std::move(kept.materials), job.context);
+    return kept.crossing_faces;
 }
 
 }  // namespace
@@ -146,11 +120,7 @@ void bake_keep(const BakeJob& job, UnencodedResult& out) {
         Part& to = asset.parts.emplace_back();
         if (!part.is_kept) crossing_faces += keep_part(job, part, to);
     }
-    if (crossing_faces > 0) {
-        out.asset.report.warnings.push_back(
-            std::to_string(crossing_faces) +
-            " faces cross borders of the source's UV charts: the image is stretched there");
-    }
+    warn_of_crossing_faces(crossing_faces, out.asset.report.warnings);
 }
 
 void bake_none(const BakeJob& job, UnencodedResult& out) {

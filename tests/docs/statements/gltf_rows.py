@@ -94,6 +94,10 @@ def coordinates(runs):
     for gltf in (whole, kept):
         expect(gltf.attribute("TEXCOORD_1")[0][0] == 0.5, "both sets")
     expect(baked.attribute("TEXCOORD_0") is not None and baked.attribute("TEXCOORD_1") is None, "one set of a new page")
+    expect(baked.warns("no texture uses were left out for a new page: set 1"), "a warning of the other")
+    write(runs, gltf_grid(RED, TEXCOORD_0=([(0.5, 0.25)] * VERTICES, "f")))
+    for gltf in three(runs):
+        expect(gltf.attribute("TEXCOORD_0")[0] == (0.5, 0.25), "kept without textures")
 
 
 @row("`COLOR_0`")
