@@ -176,7 +176,7 @@ struct Instance {
 /// instance with the identity transform.
 FAQEM_EXPORT std::vector<Instance> instances(const Asset& asset);
 
-/// Loads a .glb, .gltf, .obj, .ply, .stl or .off file. The format is determined by the content if it has a
+/// Loads a .glb, .gltf, .vrm, .obj, .ply, .stl or .off file. The format is determined by the content if it has a
 /// signature, else by the file extension.
 /// \param file  a regular file of at most 16 GiB; files it refers to must be in its directory or below
 /// \return the scene; Asset::warnings lists repairs and omissions
@@ -189,7 +189,7 @@ FAQEM_EXPORT Asset load(const std::filesystem::path& file);
 /// Whether save() may replace an existing file.
 enum class Overwrite { no, yes };
 
-/// Saves a scene as .glb, .gltf (+ .bin + images), .obj (+ .mtl + images), .ply or .stl, by file extension.
+/// Saves a scene as .glb, .gltf (+ .bin + images), .vrm, .obj (+ .mtl + images), .ply or .stl, by file extension.
 /// All files are replaced, or none: they are written under temporary names and then renamed, while signals are
 /// held in the calling thread. If the process is killed meanwhile, load() rejects the files until the next
 /// save() to their directory completes or restores them (docs/assets.md, "Writing").

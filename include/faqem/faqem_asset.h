@@ -22,7 +22,7 @@ typedef struct faqem_asset faqem_asset;
 typedef enum faqem_overwrite FAQEM_ENUM { FAQEM_OVERWRITE_NO = 0, FAQEM_OVERWRITE_YES = 1 } faqem_overwrite;
 
 /**
- * Loads a .glb, .gltf, .obj, .ply, .stl or .off file.
+ * Loads a .glb, .gltf, .vrm, .obj, .ply, .stl or .off file.
  * \param path   in the encoding of the file system, usually UTF-8
  * \param asset  receives a new object; repairs and omissions are in its warnings
  * \param error  may be null
@@ -116,7 +116,7 @@ FAQEM_API faqem_status faqem_asset_bake_truncated(const faqem_asset* source, con
                                                   faqem_asset** simplified, faqem_error* error);
 
 /**
- * Saves a model as .glb, .gltf, .obj, .ply or .stl, by file extension. Each file is complete or absent.
+ * Saves a model as .glb, .gltf, .vrm, .obj, .ply or .stl, by file extension. Each file is complete or absent.
  * \param asset      what the format cannot store is added to its warnings
  * \param path       in the encoding of the file system
  * \param overwrite  whether existing files may be replaced

@@ -26,7 +26,7 @@ bool is_ply(std::string_view head, std::string_view /*text*/) {
     return head.starts_with("ply\n") || head.starts_with("ply\r");
 }
 
-const std::array<FileFormat, 6> formats = {{
+const std::array<FileFormat, 7> formats = {{
     {.extension = ".glb",
      .format = ModelFormat::glb,
      .has_signature = is_glb,
@@ -50,6 +50,14 @@ const std::array<FileFormat, 6> formats = {{
      .is_gltf = true,
      .document_memory = gltf_document_memory,
      .decoding_memory = gltf_decoding_memory,
+     .min_bytes_per_face = 15},
+    {.extension = ".vrm",  // a GLB with the extension VRM or VRMC_vrm
+     .format = ModelFormat::glb,
+     .read = read_gltf,
+     .encode = encode_gltf,
+     .encode_levels = encode_gltf_levels,
+     .list_references = list_gltf_references,
+     .is_gltf = true,
      .min_bytes_per_face = 15},
     {.extension = ".obj",
      .format = ModelFormat::obj,

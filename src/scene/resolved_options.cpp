@@ -4,6 +4,7 @@
 
 #include "asset/file_format.hpp"
 #include "asset/image/image.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -18,6 +19,7 @@ void resolve_bake(const Asset& source, const FileFormat& format, BakeOptions& ba
     const bool is_bare = source.materials.empty() && no_part_has(&Part::colors);
     const bool keeps_uvs = format.keeps_plain_parts && !no_part_has(&Part::uvs);
     bake.kind = !is_bare ? format.bake : keeps_uvs ? Bake::automatic : format.bare_bake;
+    if (format.is_gltf && names_objects_by_number(source)) bake.kind = Bake::keep;
     // Flat normals need no map to the original. If the source has normals, save() warns that the format cannot store
     // them.
     if (!format.holds_normals) bake.normals = no_part_has(&Part::normals) ? Normals::none : Normals::flat;

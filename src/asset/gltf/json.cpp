@@ -32,6 +32,14 @@ std::string string_member(const Json& object, const char* key) {
     return value.is_string() ? value.get<std::string>() : std::string();
 }
 
+Index texture_image(const Json& texture) {
+    Index image = index_member(texture, "source");
+    for (const ImageExtension& extension : image_extensions)
+        if (image == no_index)
+            image = index_member(member(member(texture, "extensions"), extension.name), "source");
+    return image;
+}
+
 const Json& level_ids(const Json& object) {
     return member(member(member(object, "extensions"), lod_name), "ids");
 }

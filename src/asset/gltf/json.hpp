@@ -50,6 +50,9 @@ std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t
 /// The string stored under `key`, or an empty string.
 std::string string_member(const Json& object, const char* key);
 
+/// The image of a texture; if it has none, the first of one of its extensions; no_index: none.
+Index texture_image(const Json& texture);
+
 /// The indices of the coarser levels of a node or material by MSFT_lod; null if it has none.
 const Json& level_ids(const Json& object);
 

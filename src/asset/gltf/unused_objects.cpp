@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "asset/gltf/source_document.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
 
 namespace faqem::detail {
@@ -82,7 +84,24 @@ private:
 
 }  // namespace
 
+bool names_by_number(std::string_view extension) {
+    return extension == "VRM" || extension.starts_with("VRMC_");
+}
+
+bool names_objects_by_number(const Json& document) {
+    for (const Json& name : member(document, "extensionsUsed"))
+        if (names_by_number(name.get<std::string>())) return true;
+    for (const auto& [name, extension] : member(document, "extensions").items())
+        if (names_by_number(name)) return true;
+    return false;
+}
+
+bool names_objects_by_number(const Asset& asset) {
+    return asset.source && names_objects_by_number(asset.source->document);
+}
+
 std::string unused_objects(const Json& document) {
+    if (names_objects_by_number(document)) return {};
     const UseMarker marker(document);
     const std::uint64_t materials = marker.unused_materials(), images = marker.unused_images();
     if (materials == 0 && images == 0) return {};

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -125,6 +126,10 @@ void for_each_texture(M& material, const Visit& visit) {
     for_each_core_texture(material, visit);
     for (auto& extension : material.extension_textures) visit(extension.texture);
 }
+
+/// Whether the file of an asset names materials, textures and images by number (VRM), so that a result must keep all of
+/// them in their order.
+FAQEM_EXPORT bool names_objects_by_number(const Asset& asset);
 
 /// Removes all textures of a material, with what only applies to them.
 inline void remove_textures(Material& material) {

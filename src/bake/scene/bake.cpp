@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "asset/finest_level.hpp"
+#include "asset/image/image.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "bake/keep/kept_images.hpp"
@@ -114,9 +116,20 @@ void keep_file_records(std::span<const BakePart> parts, std::span<const std::uin
     }
 }
 
+// Lists the parts of bake_keep() as those whose images may change.
+void list_kept_parts(const Asset& source, std::span<const BakePart> parts, std::vector<KeptPart>& kept,
+                     Report& report) {
+    for (const BakePart& part : parts) {
+        if (part.is_kept) continue;
+        kept.push_back({part.index, false});
+        if (part.faces() > 0) report.kept_uvs.push_back(part_title(source, part.index));
+    }
+}
+
 // Bakes all parts, except for the encoding of images.
+// \param requested  the kind before what is automatic was replaced
 void bake_parts(const Asset& source, const SimplifiedParts& simplified, const BakeOptions& bake,
-                const RunContext& context, UnencodedResult& out) {
+                Bake requested, const RunContext& context, UnencodedResult& out) {
     const Stopwatch watch;
     const RunContext untimed = context.untimed();
     Report& report = out.asset.report;
@@ -135,7 +148,7 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
     }
     keep_uvs(source, simplified, compared.good, parts, report);
 
-    const BakeJob job{source, bake, parts, untimed};
+    const BakeJob job{source, bake, parts, untimed, requested == Bake::keep};
     const bool is_late = makes_atlas(bake.kind) && !bake_textures(job, context, std::move(decoded), out);
     if (is_late) {
         if (bake.correspondence == Recording::on)
@@ -149,8 +162,10 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
     if (keeps_images) bake_keep(job, out);
     if (bake.kind == Bake::vertex) bake_vertex(job, out);
     if (bake.kind == Bake::none) bake_none(job, out);
-    const std::vector<KeptPart> kept =
+    std::vector<KeptPart> kept =
         add_kept_parts(source, parts, untouched, std::move(with_uvs.asset), keeps_images, out.asset);
+    if (bake.kind == Bake::keep && requested == Bake::automatic && names_objects_by_number(source))
+        list_kept_parts(source, parts, kept, report);
     if (!is_late) add_kept_images(source, bake, kept, untimed, out);
     for (PendingImage& image : out.pending)
         image.quality_change = quality_change(compared.pictures, image.content);
@@ -167,10 +182,7 @@ void keep_all_parts(const Asset& source, const SimplifiedParts& simplified, cons
     out.asset.report.seconds.map = watch.seconds();
     bake_keep({source, bake, parts, context}, out);
     std::vector<KeptPart> kept;
-    for (const BakePart& part : parts) {
-        kept.push_back({part.index, false});
-        if (part.faces() > 0) out.asset.report.kept_uvs.push_back(part_title(source, part.index));
-    }
+    list_kept_parts(source, parts, kept, out.asset.report);
     add_kept_images(source, bake, kept, context, out);
     keep_file_records(parts, untouched, out.asset.asset);
     for (Part& part : out.asset.asset.parts) part.file_order = FileOrder::for_gpu;
@@ -215,10 +227,11 @@ UnencodedResult bake_unencoded(const Asset& given, const SimplifiedParts& simpli
         throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
     }
     return run_bake(source, simplified, options, context, [&](UnencodedResult& out) {
-        if (options.bake.kind == Bake::keep && requested.bake.kind != Bake::keep)
+        if (options.bake.kind == Bake::keep && requested.bake.kind != Bake::keep &&
+            std::any_of(source.images.begin(), source.images.end(), is_passed_through))
             out.asset.report.warnings.push_back(
                 "images of KTX2 or AVIF cannot be baked: the UVs and images of the source are kept");
-        bake_parts(source, simplified, options.bake, context, out);
+        bake_parts(source, simplified, options.bake, requested.bake.kind, context, out);
     });
 }
 

@@ -20,6 +20,7 @@ struct BakeJob {
     const BakeOptions& options;
     std::span<const BakePart> parts;  ///< by part of the source, as map_parts() makes them
     const RunContext& context;
+    bool needs_attributes = false;  ///< whether bake_keep() throws instead of transferring UVs and vertex colours
 };
 
 /// Bakes new images with a new atlas.
@@ -32,8 +33,8 @@ bool bake_pages(const BakeJob& job, DecodedImages decoded, UnencodedResult& out)
 void bake_vertex(const BakeJob& job, UnencodedResult& out);
 
 /// Keeps the source's UVs and vertex colours, and all of its materials and images.
-/// \throws InputError if BakeOptions::kind is Bake::keep and a simplified mesh has no UVs and vertex colours; with
-///     another kind these are transferred from the source
+/// \throws InputError if BakeJob::needs_attributes and a simplified mesh has no UVs and vertex colours; otherwise these
+///     are transferred from the source
 void bake_keep(const BakeJob& job, UnencodedResult& out);
 
 /// Removes UVs, vertex colours and images.

@@ -70,7 +70,7 @@ std::vector<Vec4f> kept_tangents(const Asset& source, const BakePart& part,
 // Keeps the UVs and vertex colours of a part.
 // \return the number of faces that cross borders of UV charts
 std::uint64_t keep_part(const BakeJob& job, const BakePart& part, Part& to) {
-    if (!has_corner_attributes(part) && job.options.kind == Bake::keep) {
+    if (!has_corner_attributes(part) && job.needs_attributes) {
         throw InputError(
             "", part_title(job.source, part.index),
             "the simplified mesh must have the source's UVs and vertex colours as attributes, which "

@@ -136,7 +136,7 @@ def _path(path: Path) -> bytes:
 
 @names_keywords
 def load(path: Path) -> Model:
-    """Loads a .glb, .gltf, .obj, .ply, .stl or .off file.
+    """Loads a .glb, .gltf, .vrm, .obj, .ply, .stl or .off file.
 
     Returns a Model. Raises InputError, ReadError if there is no such file or it cannot be read, UnsupportedError,
     MemoryError.
@@ -227,7 +227,7 @@ def save_levels(
 
 @names_keywords
 def save(model: Model | tuple[ArrayLike, ArrayLike], path: Path, *, overwrite: bool = False) -> None:
-    """Saves a model as .glb, .gltf, .obj, .ply or .stl, by file extension. Each file is complete or absent.
+    """Saves a model as .glb, .gltf, .vrm, .obj, .ply or .stl, by file extension. Each file is complete or absent.
 
     model      a Model, or a pair of arrays (vertices, triangles)
     path       file name

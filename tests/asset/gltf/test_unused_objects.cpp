@@ -1,5 +1,7 @@
 #include "asset/gltf/unused_objects.hpp"
 
+#include <algorithm>
+
 #include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
 
@@ -53,4 +55,60 @@ TEST_CASE("materials and images that no mesh uses are counted, and saving warns 
           std::vector<std::string>{"2 materials and 1 image that no mesh uses: left out"});
     CHECK(written.json["materials"].size() == 1);
     CHECK(write_gltf_of(load_glb(written.glb)).warnings.empty());
+}
+
+TEST_CASE("what VRM and VRMC extensions name by number keeps its number, also if no mesh uses it") {
+    const std::string name = GENERATE("VRM", "VRMC_vrm");
+    GltfBuilder builder = square_gltf();
+    for (std::uint8_t shade = 10; shade < 50; shade += 10) add_texture(builder, shade);
+    std::reverse(builder.json["textures"].begin(), builder.json["textures"].end());
+    for (int m : {3, 1, 2})
+        builder.add("materials", {{"name", std::to_string(m)},
+                                  {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", m}}}}}});
+    builder.json["meshes"][0]["primitives"][0]["material"] = 1;
+    builder.json["extensions"][name] = {{"meta", {{"texture", 0}}}, {"materials", {2, 1}}};
+    builder.json["extensionsUsed"] = {name};
+    CHECK(unused_objects(builder.json).empty());
+    Asset asset = load_glb(builder);
+    CHECK(asset.not_understood.empty());
+    const auto check = [&](const WrittenGltf& written) {
+        CHECK(written.warnings.empty());
+        REQUIRE(written.json["textures"].size() >= 4);
+        for (std::size_t t = 0; t < 4; ++t)
+            CHECK(written.json["textures"][t] == builder.json["textures"][t]);
+        CHECK(written.json["extensions"] == builder.json["extensions"]);
+        REQUIRE(written.json["materials"].size() >= 3);
+        for (std::size_t m = 0; m < 3; ++m)
+            CHECK(written.json["materials"][m] == builder.json["materials"][m]);
+        REQUIRE(written.json["images"].size() >= 4);
+        return load_glb(written.glb);
+    };
+    CHECK(check(write_gltf_of(asset)).parts[0].face_material[0] == 1);
+
+    // Texture 1 has image 2, which is encoded again; an unused material has it, too, but by the image of the source.
+    const Index image = asset.materials[1].base_color_texture.image;
+    asset.images[image] = encode_jpeg(decode(asset.images[image]), "", 100, Content::color);
+    const WrittenGltf again = write_gltf_of(asset);
+    for (std::size_t i = 0; i < 4; ++i)
+        CHECK(again.json["images"][i]["mimeType"] == (i == 2 ? "image/jpeg" : "image/png"));
+    check(again);
+
+    // A new page is added.
+    asset.materials[1].rebaked = true;
+    const WrittenGltf baked = write_gltf_of(asset);
+    check(baked);
+    CHECK(baked.primitive()["material"] == 3);
+    CHECK(baked.json["images"].size() == 5);
+}
+
+TEST_CASE("a warning tells that an extension which names meshes by number may be wrong where one is gone") {
+    GltfBuilder builder = square_gltf();
+    builder.json["extensions"]["VRM"]["mesh"] = 1;
+    builder.json["extensionsUsed"] = {"VRM"};
+    builder.mesh(builder.json["meshes"][0]["primitives"][0]);
+    Asset asset = load_glb(builder);
+    CHECK(write_gltf_of(asset).warnings.empty());
+    asset.parts[0].triangles.clear();
+    asset.parts[0].face_material.clear();
+    CHECK(write_gltf_of(asset).warns("the extension VRM is unknown"));
 }

@@ -90,3 +90,47 @@ TEST_CASE("KTX2 and AVIF images as core sources are those of extensions that the
     builder.json.erase("extensionsUsed");
     CHECK(contains(refusal<UnsupportedError>(builder), "/images/0: is "));
 }
+
+TEST_CASE(
+    "a model with VRM keeps its UVs, and its materials and images their numbers; images are encoded again") {
+    // A noisy picture, and one that no mesh uses.
+    constexpr std::uint32_t side = 64;
+    Pixels pixels{side, side, {}, false};
+    std::uint32_t state = 1;
+    for (std::uint32_t i = 0; i < 4 * side * side; ++i) {
+        state = state * 1664525 + 1013904223;
+        pixels.rgba.push_back(i % 4 == 3 ? 255 : static_cast<std::uint8_t>(100 + (state >> 24) / 8));
+    }
+    const std::vector<std::uint8_t> noise = encode_png(pixels, "").encoded;
+    GltfBuilder builder = passed_square(std::string(noise.begin(), noise.end()), "unused", "image/png");
+    add_texture(builder, 10);
+    builder.json["textures"][0] = {{"source", 0}};
+    builder.json["materials"].insert(builder.json["materials"].begin(), Json{{"name", "unused"}});
+    builder.json["meshes"][0]["primitives"][0]["material"] = 1;
+    builder.json["extensions"]["VRM"]["materialProperties"] = {{{"texture", 1}}};
+    builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"VRM"};
+    const Asset asset = load_glb(builder);
+    const auto check = [&](const SimplifiedAsset& result) {
+        CHECK(result.report.warnings.empty());
+        const Json json = json_of(saved(result.asset));
+        CHECK(json["extensions"] == builder.json["extensions"]);
+        CHECK(json["textures"] == builder.json["textures"]);
+        CHECK(json["materials"] == builder.json["materials"]);
+        CHECK(json["images"].size() == 2);
+        CHECK(json["images"][0]["mimeType"] == "image/jpeg");
+        CHECK(json["meshes"][0]["primitives"][0]["attributes"].contains("TEXCOORD_0"));
+        CHECK(json["meshes"][0]["primitives"][0]["material"] == 1);
+    };
+    Options options;
+    options.target = ratio(0.5);
+    options.bake.untouched = UntouchedParts::baked;
+    options.bake.image_format = ImageFormat::jpeg;
+    check(simplify(asset, options));
+    SimplifiedParts parts = simplify_parts(asset, options);
+    parts.parts[0].mesh.attributes = {};  // as in a history
+    check(bake(asset, parts, options));
+    options.target = {};
+    check(simplify_levels(asset, {ratio(0.5)}, options).at(0).result);
+    options.bake.kind = Bake::keep;
+    CHECK_THROWS_AS(bake(asset, parts, options), InputError);
+}

@@ -75,6 +75,25 @@ def instancing(runs):
     expect(runs.run("info", "a.glb").returncode == 3, "code 3 for counts that differ")
 
 
+@row("VRM, VRMC_*")
+def numbers(runs):
+    glb = textured(PATTERN)
+    pictures = [0] + [glb.texture(png((shade, 0, 0, 255))) for shade in (10, 20)]
+    glb.add("materials", {"name": "unused"})
+    for name in ("VRM", "VRMC_vrm"):
+        glb.json["extensions"] = {name: {"meta": {"texture": 2}, "materials": [1, 0]}}
+        write(runs, glb, [name])
+        expect_no_warning(runs)
+        runs.results.clear()
+        for gltf in three(runs):
+            expect(gltf.json["extensions"] == glb.json["extensions"], "kept")
+            sources = [t.get("source") for t in gltf.json["textures"]]
+            expect(sources[:3] == pictures and len(gltf.json["images"]) >= 3, "the textures and images")
+            expect([m["name"] for m in gltf.json["materials"]][:2] == ["m", "unused"], "the materials")
+        plain = runs.simplify("a.glb", "--ratio", 0.5)
+        expect(plain.attribute("TEXCOORD_0") is not None and len(plain.json["materials"]) == 2, "no page by default")
+
+
 @row("CESIUM_RTC")
 def center(runs):
     glb = gltf_grid(RED)

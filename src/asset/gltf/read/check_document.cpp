@@ -6,6 +6,7 @@
 #include "asset/gltf/instancing.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
+#include "asset/gltf/unused_objects.hpp"
 #include "asset/image/image.hpp"
 
 namespace faqem::detail {
@@ -38,7 +39,7 @@ bool contains(const List& list, std::string_view name) {
 
 bool is_supported(std::string_view extension) {
     return contains(supported_extensions, extension) || extension.starts_with("KHR_materials_") ||
-           extension == center_name;
+           extension == center_name || names_by_number(extension);
 }
 
 void check_version(const GltfChecker& checker) {

@@ -27,23 +27,13 @@ Wrap wrap_of(int mode) {
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
 }
 
-/// The image of a texture; if it has none, the first of one of its extensions.
-Index image_of(const SourceDocument& source, std::size_t index) {
-    const Json& texture = source.document["textures"][index];
-    Index image = index_member(texture, "source");
-    for (const ImageExtension& extension : image_extensions)
-        if (image == no_index)
-            image = index_member(member(member(texture, "extensions"), extension.name), "source");
-    return image;
-}
-
 /// Converts a texture info; unset if there is none, or if the texture has no usable image.
 TextureRef texture_ref(const LoadedGltf& loaded, const Json& info) {
     TextureRef ref;
     const Index index = index_member(info, "index");
     if (index == no_index) return ref;
     const tinygltf::Texture& texture = loaded.model.textures[index];
-    const Index source = image_of(*loaded.source, index);
+    const Index source = texture_image(loaded.source->document["textures"][index]);
     const auto image = static_cast<std::size_t>(source);
     // A texture without an image is ignored. Missing images were reported when they were loaded.
     if (source == no_index || loaded.source->images[image].encoded.empty()) return ref;

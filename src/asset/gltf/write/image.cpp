@@ -37,7 +37,8 @@ Index add_image(GltfWriter& writer, const Image& image, Json json) {
     return append(writer, "images", std::move(json));
 }
 
-Index write_asset_image(GltfWriter& writer, Index image) {
+/// \param json  other members of the image
+Index write_asset_image(GltfWriter& writer, Index image, Json json = Json::object()) {
     if (writer.source_image_of[image] != no_index) return copy_image(writer, writer.source_image_of[image]);
     const auto [entry, is_new] = writer.asset_images.try_emplace(image, no_index);
     if (!is_new) return entry->second;
@@ -46,7 +47,7 @@ Index write_asset_image(GltfWriter& writer, Index image) {
         writer.converted_images.push_back(encode_png(decode(*written), written->name));
         written = &writer.converted_images.back();
     }
-    entry->second = add_image(writer, *written, Json::object());
+    entry->second = add_image(writer, *written, std::move(json));
     return entry->second;
 }
 
@@ -82,12 +83,18 @@ Index copy_image(GltfWriter& writer, Index image) {
     if (is_new) {
         Json json = source_array(writer, "images")[image];
         for (const char* key : {"uri", "bufferView", "mimeType"}) json.erase(key);
-        entry->second = add_image(writer, writer.source.images[image], std::move(json));
+        const Index other = writer.replaced_images.empty() ? no_index : writer.replaced_images[image];
+        entry->second = other != no_index ? write_asset_image(writer, other, std::move(json))
+                                          : add_image(writer, writer.source.images[image], std::move(json));
     }
     return entry->second;
 }
 
 Index copy_texture(GltfWriter& writer, Index texture, Index image) {
+    if (!writer.replaced_images.empty()) {
+        const Index own = texture_image(source_array(writer, "textures")[texture]);
+        image = own == no_index ? no_index : writer.replaced_images[own];
+    }
     const auto [entry, is_new] = writer.source_textures.try_emplace({texture, image}, no_index);
     if (!is_new) return entry->second;
     Json json = source_array(writer, "textures")[texture];

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "asset/gltf/unused_objects.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/scene/material_textures.hpp"
 
@@ -273,6 +274,29 @@ Index write_source_material(GltfWriter& writer, Index material) {
     write_levels_of_material(writer, json);
     entry->second = append(writer, "materials", std::move(json));
     return entry->second;
+}
+
+void write_numbered_objects(GltfWriter& writer) {
+    if (!names_objects_by_number(writer.source.document)) return;
+    writer.replaced_images.assign(writer.source.images.size(), no_index);
+    const auto replace = [&](const TextureRef& current, const TextureRef& original) {
+        if (!current || !has_other_image_only(current, original)) return;
+        Index& replaced = writer.replaced_images[original.image];
+        if (replaced == no_index && writer.source_image_of[current.image] == no_index)
+            replaced = current.image;
+    };
+    for (const Material& material : writer.asset.materials) {
+        if (material.rebaked || material.source >= writer.source.materials.size()) continue;
+        const Material& original = writer.source.materials[material.source];
+        for (const CoreSlot& slot : core_slots) replace(material.*slot.texture, original.*slot.texture);
+        for (const ExtensionTexture& own : material.extension_textures)
+            if (const ExtensionTexture* previous = find_texture(original, own.extension, own.name))
+                replace(own.texture, previous->texture);
+    }
+    for (Index i = 0; i < writer.source.images.size(); ++i)
+        if (!writer.source.images[i].encoded.empty()) copy_image(writer, i);
+    for (Index i = 0; i < source_array(writer, "textures").size(); ++i) copy_texture(writer, i);
+    for (Index i = 0; i < source_array(writer, "materials").size(); ++i) write_source_material(writer, i);
 }
 
 }  // namespace faqem::detail

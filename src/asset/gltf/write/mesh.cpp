@@ -107,6 +107,7 @@ void mark_materials_of(const GltfWriter& writer, Index source, std::vector<char>
 
 /// Writes the materials in the asset's order, whichever mesh uses them first.
 void write_used_materials(GltfWriter& writer) {
+    write_numbered_objects(writer);
     const std::vector<Material>& materials = writer.asset.materials;
     std::vector<char> used(materials.size(), 0);
     for (const Part& part : writer.asset.parts)

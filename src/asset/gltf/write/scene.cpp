@@ -8,6 +8,7 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/instancing.hpp"
+#include "asset/gltf/unused_objects.hpp"
 #include "asset/gltf/write/feature_metadata.hpp"
 #include "asset/gltf/write/index_extensions.hpp"
 #include "asset/gltf/write/writer.hpp"
@@ -164,10 +165,20 @@ bool contains_number(const Json& value) {
     return value.is_structured() && std::any_of(value.begin(), value.end(), contains_number);
 }
 
+/// Whether what an extension names by number has the number of the source: meshes whose faces are gone and images that
+/// are missing leave gaps.
+bool keeps_numbers(const GltfWriter& writer) {
+    for (Index mesh = 0; mesh < writer.mesh_map.size(); ++mesh)
+        if (writer.mesh_map[mesh] != mesh) return false;
+    return std::none_of(writer.source.images.begin(), writer.source.images.end(),
+                        [](const Image& image) { return image.encoded.empty(); });
+}
+
 void warn_about_unknown_extensions(GltfWriter& writer) {
     std::set<std::string> unknown;
     for_each_extension(writer.out, [&](const std::string& name, const Json& value) {
         if (name.compare(0, 4, "KHR_") != 0 && name != center_name &&
+            !(names_by_number(name) && keeps_numbers(writer)) &&
             std::find(remapped_extensions.begin(), remapped_extensions.end(), name) ==
                 remapped_extensions.end() &&
             contains_number(value))

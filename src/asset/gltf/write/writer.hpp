@@ -41,12 +41,14 @@ struct GltfWriter {
     std::vector<const Image*> images = {};    ///< the output images, borrowed
     std::deque<Image> converted_images = {};  ///< images of kinds that glTF does not have, as PNG
     std::vector<Index> source_image_of =
-        {};                            ///< per asset image: a source image with equal bytes, or no_index
+        {};  ///< per asset image: a source image with equal bytes, or no_index
+    /// Per source image, after write_numbered_objects(): the asset image that is written instead, or no_index.
+    std::vector<Index> replaced_images = {};
     std::vector<Index> mesh_map = {};  ///< source mesh to output mesh; no_index if it was left out
     std::vector<MeshGrid> grids = {};  ///< by output mesh
     /// Receives the attributes of a primitive instead of `binary`, while it is not null.
     std::vector<DracoValues>* draco = nullptr;
-    bool needs_quantization = false;   ///< a primitive needs KHR_mesh_quantization
+    bool needs_quantization = false;  ///< a primitive needs KHR_mesh_quantization
     /// By part: the source mesh whose primitives give extras and extensions; empty: Part::source.
     std::span<const Index> sources = {};
 };
@@ -81,6 +83,10 @@ Index write_material(GltfWriter& writer, Index material);
 /// Writes a source material that is used by a copied primitive or a material variant, on first use.
 /// \return the output material
 Index write_source_material(GltfWriter& writer, Index material);
+
+/// Writes all source images, textures and materials in their order, if an extension names them by number. Images that
+/// the asset has instead of those of the source get their numbers.
+void write_numbered_objects(GltfWriter& writer);
 
 /// The members that the output primitive of a part with the given asset material keeps from the source:
 /// extras and extensions of the corresponding triangle primitives, if these agree. Extensions that do not fit
