@@ -1,7 +1,6 @@
 #include "result/image_trials.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "bake/texture/image_choice.hpp"
@@ -140,7 +139,7 @@ std::vector<ImageTrials::Request> ImageTrials::smaller_requests() const {
 
 std::vector<ImageTrials::Request> ImageTrials::next_requests(const BudgetChoice& choice) const {
     std::vector<Request> result;
-    const double least_error = least_share * std::pow(10, -choice.psnr / 10);
+    const double least_error = least_share * mean_square_of(choice.psnr);
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const Trial& trial = trials_[i][choice.images[i]];
         const Size& size = sizes_[i][trial.size];
@@ -234,7 +233,7 @@ void ImageTrials::measure_sizes(std::span<const Request> requests) {
         const PendingImage& largest = sizes_[i].back().pending;
         const double weight = data_weight * gain * std::max(meter_->shares()[i], least_seen);
         const double lost =
-            std::pow(10, -image_loss(largest.pixels, sizes_[i][s].pending.pixels, *largest.known).psnr / 10);
+            mean_square_of(shown_quality(largest.pixels, sizes_[i][s].pending.pixels, *largest.known).whole);
         size_errors_[i][s] = SizeError{unseen_error(weight * lost), {{1, unseen_error(weight)}}};
     }
     update_errors();

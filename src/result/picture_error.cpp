@@ -1,11 +1,11 @@
 #include "result/picture_error.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "asset/image/srgb.hpp"
+#include "bake/texture/image_choice.hpp"
 #include "render/views.hpp"
 
 namespace faqem::detail {
@@ -67,8 +67,7 @@ std::vector<render::Frame> pictures(const render::Scene& scene, const std::vecto
 }
 
 double picture_psnr(const PictureError& error) {
-    const auto psnr = [](double mean_square) { return -10 * std::log10(mean_square + least_difference); };
-    return (psnr(error.unlit) + psnr(error.lit)) / 2;
+    return (psnr(error.unlit, least_difference) + psnr(error.lit, least_difference)) / 2;
 }
 
 PictureMeter::PictureMeter(Asset source, const RunContext& context)

@@ -148,13 +148,9 @@ std::vector<std::uint8_t> texels_of_parts(const Asset& asset, std::span<const Ke
     return std::move(texels).finish();
 }
 
-bool can_halve(const Pixels& pixels) {
-    return pixels.width % 2 == 0 && pixels.height % 2 == 0 && std::min(pixels.width, pixels.height) > 1;
-}
-
 // Whether an image must get fewer texels.
 bool exceeds(const Pixels& pixels, const ImageUse& use, std::uint32_t texture_size) {
-    return !use.is_pixel_art && std::max(pixels.width, pixels.height) > texture_size && can_halve(pixels);
+    return !use.is_pixel_art && std::max(pixels.width, pixels.height) > texture_size && can_be_halved(pixels);
 }
 
 // The decoded image without alpha that nothing uses.

@@ -14,6 +14,7 @@
 #include "bake/parts/output_part.hpp"
 #include "bake/source/page_groups.hpp"
 #include "bake/source/source_sampler.hpp"
+#include "bake/texture/image_choice.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/part_reports.hpp"
@@ -121,16 +122,17 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
     return result;
 }
 
-double psnr(double sum, std::uint64_t points) {
-    return -10 * std::log10(sum / (3 * static_cast<double>(points)) + invisible_difference);
+double picture_psnr(double sum, std::uint64_t points) {
+    return psnr(sum / (3 * static_cast<double>(points)), invisible_difference);
 }
 
 bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses, bool is_coarse) {
     const double allowed = is_coarse ? allowed_loss_if_coarse : allowed_loss;
     std::array<double, 2> sum{};  // unlit, lit
     for (const auto& [kept, baked] : losses) {
-        const std::array<double, 2> lost = {psnr(baked.unlit, kept.points) - psnr(kept.unlit, kept.points),
-                                            psnr(baked.lit, kept.points) - psnr(kept.lit, kept.points)};
+        const std::array<double, 2> lost = {
+            picture_psnr(baked.unlit, kept.points) - picture_psnr(kept.unlit, kept.points),
+            picture_psnr(baked.lit, kept.points) - picture_psnr(kept.lit, kept.points)};
         for (std::size_t k = 0; k < sum.size(); ++k) {
             if (!(lost[k] <= allowed)) return false;
             sum[k] += lost[k];
@@ -223,7 +225,8 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
         total += is_good ? losses.back().kept : losses.back().baked;
     }
     std::sort(good.begin(), good.end());
-    return {std::move(good), {psnr(total.unlit, total.points), psnr(total.lit, total.points)}};
+    return {std::move(good),
+            {picture_psnr(total.unlit, total.points), picture_psnr(total.lit, total.points)}};
 }
 
 void keep_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<const Index> which,

@@ -8,6 +8,7 @@
 #include "asset/image/srgb.hpp"
 #include "asset/scene/flatten.hpp"
 #include "bake/source/source_sampler.hpp"
+#include "bake/texture/image_choice.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"
 
@@ -141,8 +142,9 @@ ColorComparison compare_colors(const Asset& a, const Asset& b, const CompareOpti
     ColorComparison result;
     result.a_to_b = one_sided(model_a, model_b, options, 2 * options.seed);
     result.b_to_a = one_sided(model_b, model_a, options, 2 * options.seed + 1);
-    result.rmse = std::sqrt((result.a_to_b.mean_squared + result.b_to_a.mean_squared) / 2);
-    result.psnr = -20 * std::log10(result.rmse);
+    const double mean_squared = (result.a_to_b.mean_squared + result.b_to_a.mean_squared) / 2;
+    result.rmse = std::sqrt(mean_squared);
+    result.psnr = detail::psnr(mean_squared);
     return result;
 }
 

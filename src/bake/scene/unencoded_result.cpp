@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -67,24 +66,6 @@ void encode_in_time(UnencodedResult& result, BakeOptions bake, const RunContext&
     encode(context.untimed());
     result.asset.report.warnings.push_back(
         "max_seconds was over before the smallest images were found: they have the formats of the source");
-}
-
-bool can_be_halved(const Pixels& pixels) {
-    return pixels.width % 2 == 0 && pixels.height % 2 == 0 && std::min(pixels.width, pixels.height) > 1;
-}
-
-// A texel of the halved image is known if one of its four texels is.
-void halve(PendingImage& pending) {
-    const Pixels& from = pending.pixels;
-    const std::uint32_t width = from.width / 2, height = from.height / 2;
-    std::vector<std::uint8_t> known(std::size_t{width} * height, 0);
-    for (std::uint32_t y = 0; y < from.height; ++y)
-        for (std::uint32_t x = 0; x < from.width; ++x)
-            if ((*pending.known)[std::size_t{y} * from.width + x])
-                known[std::size_t{y / 2} * width + x / 2] = 1;
-    pending.known = std::make_shared<const std::vector<std::uint8_t>>(std::move(known));
-    pending.pixels = halved(from);
-    pending.original.reset();  // has more texels
 }
 
 }  // namespace

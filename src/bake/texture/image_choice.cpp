@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -33,7 +32,7 @@ constexpr std::uint32_t min_side = 8;
 // With fewer texels, a result may have this many times the bytes: texels take memory wherever it is shown.
 constexpr double bytes_for_fewer_texels = 1.1;
 
-// Side of the blocks of ImageLoss, texels.
+// Side of the blocks of ImageQuality, texels.
 constexpr std::uint32_t block_side = 8;
 
 // PSNR of colours if BakeOptions::image_quality is unset.
@@ -78,11 +77,6 @@ float squared_difference(const std::uint8_t* texel, std::size_t channels,
     return sum;
 }
 
-double psnr_of(double mean_square) {
-    return mean_square > 0 ? 10 * std::log10(255.0 * 255 / mean_square)
-                           : std::numeric_limits<double>::infinity();
-}
-
 std::vector<Interpolation> interpolations(std::uint32_t size, std::uint32_t shown_size) {
     std::vector<Interpolation> result;
     const double scale = static_cast<double>(shown_size) / size;
@@ -102,8 +96,9 @@ struct LossyEncoding {
     ImageQuality quality;
     const RunContext& context;
 
-    ImageLoss loss(const Image& image) const { return image_loss(original, decode(image), known); }
-    bool allows(const Image& image) const { return is_within(loss(image), quality); }
+    bool allows(const Image& image) const {
+        return is_within(shown_quality(original, decode(image), known), quality);
+    }
 
     // The first of some levels, from coarse to fine, with which encode() gives a sufficient image, and its index;
     // nothing if none does.
@@ -129,12 +124,9 @@ void keep_smaller(std::optional<Image>& best, std::optional<Image> other) {
     if (other && (!best || other->encoded.size() < best->encoded.size())) best = std::move(other);
 }
 
-// Mean squared error of a PSNR.
-double mean_square_of(double psnr) { return 255.0 * 255 / std::pow(10, psnr / 10); }
-
 // JpegRounding::step values that are tried for a PSNR, from coarse to fine.
 std::vector<std::uint32_t> jpeg_steps(double quality) {
-    const double even = std::sqrt(12 * mean_square_of(quality));  // uniform errors of up to half a step
+    const double even = 255 * std::sqrt(12 * mean_square_of(quality));  // uniform errors of up to half a step
     std::vector<std::uint32_t> result;
     for (double factor = coarsest_step; factor >= finest_step; factor *= step_ratio) {
         const auto step = static_cast<std::uint32_t>(std::clamp(std::round(even * factor), 1.0, 100.0));
@@ -166,7 +158,7 @@ std::optional<Image> smallest_jpeg(const LossyEncoding& lossy, const std::string
 
 // The most that values of a PNG may change for a PSNR: if differences are distributed evenly.
 int png_difference(double quality, std::size_t channels) {
-    const double mean_square = mean_square_of(quality) * static_cast<double>(channels) / 3;
+    const double mean_square = 255.0 * 255 * mean_square_of(quality) * static_cast<double>(channels) / 3;
     const double interval = std::sqrt(12 * mean_square + 1);
     return static_cast<int>(std::clamp((interval - 1) / 2, 0.0, double{max_png_difference}));
 }
@@ -227,7 +219,7 @@ double quality_change(const PicturePsnr& pictures, TextureContent content) {
     return std::clamp(shown + quality_above_pictures - usual_quality, -most_worse, most_better);
 }
 
-ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {
+ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {
     const std::vector<Interpolation> columns = interpolations(original.width, shown.width);
     const std::vector<Interpolation> rows = interpolations(original.height, shown.height);
     const std::size_t channels = original.has_alpha ? 4 : 3;
@@ -256,13 +248,17 @@ ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<cons
             worst = std::max(worst, block);
         }
     }
-    const auto n = static_cast<double>(channels);
-    return {psnr_of(sum / (n * static_cast<double>(std::max<std::uint64_t>(count, 1)))),
-            psnr_of(worst / (n * block_side * block_side))};
+    const double n = 255.0 * 255 * static_cast<double>(channels);
+    return {psnr(sum / (n * static_cast<double>(std::max<std::uint64_t>(count, 1)))),
+            psnr(worst / (n * block_side * block_side))};
 }
 
-bool is_within(const ImageLoss& loss, const ImageQuality& quality) {
-    return loss.psnr >= quality.whole && loss.worst_psnr >= quality.block;
+bool is_within(const ImageQuality& shown, const ImageQuality& least) {
+    return shown.whole >= least.whole && shown.block >= least.block;
+}
+
+bool can_be_halved(const Pixels& pixels) {
+    return pixels.width % 2 == 0 && pixels.height % 2 == 0 && std::min(pixels.width, pixels.height) > 1;
 }
 
 Pixels halved(const Pixels& pixels) {
@@ -287,10 +283,10 @@ Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known,
     std::vector<Pixels> smaller;  // by number of halvings, without `pixels` itself
     while (limits.may_shrink) {
         const Pixels& last = smaller.empty() ? pixels : smaller.back();
-        if (last.width % 2 || last.height % 2 || std::min(last.width, last.height) / 2 < min_side) break;
+        if (!can_be_halved(last) || std::min(last.width, last.height) / 2 < min_side) break;
         context.check_now();
         Pixels next = halved(last);
-        if (!is_within(image_loss(pixels, next, known), limits.quality)) break;
+        if (!is_within(shown_quality(pixels, next, known), limits.quality)) break;
         smaller.push_back(std::move(next));
     }
     const auto encoded = [&](const Pixels& at, bool tries_lossless) {

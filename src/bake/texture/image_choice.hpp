@@ -2,6 +2,7 @@
 /// \file
 /// Encoding and resolution of baked images, chosen by the measured loss.
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -15,16 +16,18 @@
 
 namespace faqem::detail {
 
-/// Least PSNR, in dB: of a whole image, and of each of its blocks, so that errors are not concentrated where they would
-/// be seen, such as at the seams of charts.
-struct ImageQuality {
-    double whole, block;
-};
+/// Peak signal-to-noise ratio of a mean squared difference of values in [0, 1], in dB; infinity if nothing differs.
+/// \param unseen  mean squared difference that is added, since it is not seen: limits the ratio
+inline double psnr(double mean_square, double unseen = 0) { return -10 * std::log10(mean_square + unseen); }
 
-/// Peak signal-to-noise ratios, in dB; infinity if nothing differs.
-struct ImageLoss {
-    double psnr;        ///< over all known texels
-    double worst_psnr;  ///< least one of a block of 8 x 8 texels; unknown texels of the block count as equal
+/// The mean squared difference of a ratio in dB.
+inline double mean_square_of(double psnr) { return std::pow(10, -psnr / 10); }
+
+/// Peak signal-to-noise ratios, in dB; infinity if nothing differs. That of the worst block tells whether errors are
+/// concentrated where they would be seen, such as at the seams of charts.
+struct ImageQuality {
+    double whole;  ///< over all known texels
+    double block;  ///< least one of a block of 8 x 8 texels; unknown texels of the block count as equal
 };
 
 /// How far encode_smallest() may go.
@@ -53,22 +56,25 @@ struct PicturePsnr {
 /// since these are small beside those of the faces: in [-2, 4]. 0 if pictures were not measured.
 double quality_change(const PicturePsnr& pictures, TextureContent content);
 
-/// Loss of an image that is shown instead of another: the differences at the texels of the other image, where
-/// the first is interpolated bilinearly. Differences of colour are weighted by alpha.
+/// Quality of an image that is shown instead of another: the differences at the texels of the other image,
+/// where the first is interpolated bilinearly. Differences of colour are weighted by alpha.
 /// \param original  at least one texel
 /// \param shown     its sides are those of `original`, divided by the same power of two
 /// \param known     by texel of `original`: nonzero for those that count
 /// Complexity: O(texels of `original`).
-ImageLoss image_loss(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known);
+ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known);
 
-/// Whether a loss is acceptable. NaN is not.
-bool is_within(const ImageLoss& loss, const ImageQuality& quality);
+/// Whether an image is at least as good as a limit. NaN is not.
+bool is_within(const ImageQuality& shown, const ImageQuality& least);
+
+/// Whether halved() takes an image.
+bool can_be_halved(const Pixels& pixels);
 
 /// Averages blocks of 2 x 2 texels. \pre the sides are even
 Pixels halved(const Pixels& pixels);
 
-/// Encodes an image in few bytes, so that image_loss() of the decoded result is within `limits.quality`.
-/// The resolution is halved as long as this loss alone is within the limit. At the least resolution and at
+/// Encodes an image in few bytes, so that shown_quality() of the decoded result is within `limits.quality`.
+/// The resolution is halved as long as this alone is within the limit. At the least resolution and at
 /// twice that, PNG and the JPEG or WebP of least sufficient quality are tried (with alpha: a PNG whose colours
 /// differ by up to 6 of 255), and the result with the fewest bytes is taken; of two that differ by less than 10%,
 /// that with fewer texels.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <unordered_set>
@@ -121,7 +120,7 @@ Image encode_as(const PendingImage& pending, const BakeOptions& bake, const Imag
 }
 
 double mean_square_error(const PendingImage& pending, const Image& encoded) {
-    return std::pow(10, -image_loss(pending.pixels, decode(encoded), *pending.known).psnr / 10);
+    return mean_square_of(shown_quality(pending.pixels, decode(encoded), *pending.known).whole);
 }
 
 }  // namespace faqem::detail

@@ -15,7 +15,6 @@
 #include "asset/image/srgb.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "bake/texture/constant_image.hpp"
-#include "bake/texture/image_choice.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -98,18 +97,6 @@ void add_layers(PageImageList& list, const Material& source, std::span<const Ext
 bool may_halve_new_map(const BakeOptions& bake, const PendingImage& image) {
     return has_image_quality(bake.image_format) && bake.normal_map == NormalMap::automatic &&
            image.may_shrink && std::min(image.pixels.width, image.pixels.height) > min_new_map_side;
-}
-
-void halve(PendingImage& image) {
-    const std::size_t width = image.pixels.width;
-    image.pixels = halved(image.pixels);
-    std::vector<std::uint8_t> known(std::size_t{image.pixels.width} * image.pixels.height);
-    for (std::size_t i = 0; i < known.size(); ++i) {
-        const std::uint8_t* const first =
-            image.known->data() + 2 * (i / image.pixels.width) * width + 2 * (i % image.pixels.width);
-        known[i] = first[0] | first[1] | first[width] | first[width + 1];
-    }
-    image.known = std::make_shared<const std::vector<std::uint8_t>>(std::move(known));
 }
 
 // Linear value of a constant sRGB channel.

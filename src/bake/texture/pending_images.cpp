@@ -34,6 +34,19 @@ bool tries_webp(const Asset& source) {
                                         [](const Image& image) { return image.mime_type == "image/webp"; });
 }
 
+void halve(PendingImage& image) {
+    const std::size_t width = image.pixels.width;
+    image.pixels = halved(image.pixels);
+    std::vector<std::uint8_t> known(std::size_t{image.pixels.width} * image.pixels.height);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        const std::uint8_t* const first =
+            image.known->data() + 2 * (i / image.pixels.width) * width + 2 * (i % image.pixels.width);
+        known[i] = first[0] | first[1] | first[width] | first[width + 1];
+    }
+    image.known = std::make_shared<const std::vector<std::uint8_t>>(std::move(known));
+    image.original.reset();
+}
+
 void encode_pending_images(std::span<const PendingImage> pending, const BakeOptions& bake,
                            const RunContext& context, std::vector<Image>& images) {
     parallel_blocks(pending.size(), 1, context,

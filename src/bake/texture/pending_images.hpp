@@ -50,6 +50,10 @@ struct UnencodedResult {
 /// PendingImage::tries_webp for the images of a result: glTF needs an extension for WebP, which the source has then.
 bool tries_webp(const Asset& source);
 
+/// Halves the sides of an image, which is not that of the source any more. A texel is known if one of its four is.
+/// \pre can_be_halved(image.pixels)
+void halve(PendingImage& image);
+
 /// Encodes images as BakeOptions::image_format says.
 /// \param images  Asset::images of the result; receives the encoded images
 /// \throws engine::Cancelled

@@ -66,17 +66,25 @@ Image smallest(const Pixels& pixels, double quality, bool may_shrink = true) {
 
 }  // namespace
 
+TEST_CASE("psnr: ten decibels for each factor of ten, infinity or the limit without a difference") {
+    CHECK(psnr(1) == Approx(0).margin(1e-12));
+    CHECK(psnr(1e-4) == Approx(40));
+    CHECK(psnr(0) == std::numeric_limits<double>::infinity());
+    CHECK(psnr(0, 1e-5) == Approx(50));
+    CHECK(mean_square_of(40) == Approx(1e-4));
+}
+
 TEST_CASE("the shown PSNR is that of the differences at known texels") {
     const Pixels gray = paint(4, 4, [](std::uint32_t, std::uint32_t) { return Rgba{100, 100, 100, 255}; });
     Pixels other = gray;
-    CHECK(image_loss(gray, other, all_known(gray)).psnr == std::numeric_limits<double>::infinity());
+    CHECK(shown_quality(gray, other, all_known(gray)).whole == std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < other.rgba.size(); ++i) other.rgba[i] = static_cast<std::uint8_t>(110);
-    CHECK(image_loss(gray, other, all_known(gray)).psnr == Approx(20 * std::log10(255.0 / 10)));
+    CHECK(shown_quality(gray, other, all_known(gray)).whole == Approx(20 * std::log10(255.0 / 10)));
     std::vector<std::uint8_t> first_only(16, 0);
     first_only[0] = 1;
     other = gray;
     other.rgba[4] = 0;  // the second texel
-    CHECK(std::isinf(image_loss(gray, other, first_only).psnr));
+    CHECK(std::isinf(shown_quality(gray, other, first_only).whole));
 }
 
 TEST_CASE("an error in one block is not within a limit that the whole image meets") {
@@ -85,11 +93,11 @@ TEST_CASE("an error in one block is not within a limit that the whole image meet
     });
     Pixels other = gray;
     for (std::size_t x = 0; x < 8; ++x) other.rgba[4 * x] = 200;
-    const ImageLoss loss = image_loss(gray, other, all_known(gray));
-    CHECK(loss.psnr == Approx(10 * std::log10(255.0 * 255 * 3 * 128 * 128 / (8 * 100 * 100))));
-    CHECK(loss.worst_psnr == Approx(10 * std::log10(255.0 * 255 * 3 * 64 / (8 * 100 * 100))));
-    CHECK_FALSE(is_within(loss, quality_of(40)));
-    CHECK(is_within(loss, quality_of(loss.worst_psnr + 9)));
+    const ImageQuality shown = shown_quality(gray, other, all_known(gray));
+    CHECK(shown.whole == Approx(10 * std::log10(255.0 * 255 * 3 * 128 * 128 / (8 * 100 * 100))));
+    CHECK(shown.block == Approx(10 * std::log10(255.0 * 255 * 3 * 64 / (8 * 100 * 100))));
+    CHECK_FALSE(is_within(shown, quality_of(40)));
+    CHECK(is_within(shown, quality_of(shown.block + 9)));
 }
 
 TEST_CASE("an image with fewer texels is interpolated bilinearly") {
@@ -103,23 +111,23 @@ TEST_CASE("an image with fewer texels is interpolated bilinearly") {
     CHECK(half.rgba[0] == 2);  // between 0 and 4
     std::vector<std::uint8_t> inner = all_known(ramp_x);
     for (std::size_t y = 0; y < 64; ++y) inner[64 * y] = inner[64 * y + 63] = 0;
-    CHECK(std::isinf(image_loss(ramp_x, half, inner).psnr));
+    CHECK(std::isinf(shown_quality(ramp_x, half, inner).whole));
 }
 
 TEST_CASE("colours of transparent texels do not count") {
     const Pixels clear = paint(4, 4, [](std::uint32_t, std::uint32_t) { return Rgba{100, 100, 100, 0}; });
     Pixels other = clear;
     other.rgba[0] = 255;
-    CHECK(std::isinf(image_loss(clear, other, all_known(clear)).psnr));
+    CHECK(std::isinf(shown_quality(clear, other, all_known(clear)).whole));
     other.rgba[3] = 255;
-    CHECK(image_loss(clear, other, all_known(clear)).psnr < 40);
+    CHECK(shown_quality(clear, other, all_known(clear)).whole < 40);
 }
 
 TEST_CASE("chosen images are within the limit at any quality and content") {
     const double quality = GENERATE(25.0, 34.0, 40.0, 48.0, 80.0);
     for (const Pixels& pixels : {ramp(128), noise(64), waves(64)}) {
         const Image image = smallest(pixels, quality);
-        CHECK(is_within(image_loss(pixels, decode(image), all_known(pixels)), quality_of(quality)));
+        CHECK(is_within(shown_quality(pixels, decode(image), all_known(pixels)), quality_of(quality)));
         CHECK(image.encoded.size() <= encode_png(pixels, "page").encoded.size());
         CHECK(image.name == "page");
     }
@@ -183,7 +191,7 @@ TEST_CASE("images with alpha are PNGs within the limit, smaller than lossless on
         const Image image = smallest(leaf, quality, false);
         CHECK(image.mime_type == "image/png");
         const Pixels decoded = decode(image);
-        CHECK(is_within(image_loss(leaf, decoded, all_known(leaf)), quality_of(quality)));
+        CHECK(is_within(shown_quality(leaf, decoded, all_known(leaf)), quality_of(quality)));
         for (std::size_t i = 3; i < leaf.rgba.size(); i += 4) REQUIRE(decoded.rgba[i] == leaf.rgba[i]);
         CHECK(image.encoded.size() <= last);
         last = image.encoded.size();
@@ -203,7 +211,7 @@ TEST_CASE("WebP images are within the limit, with alpha as it was") {
                 const Image webp = encode_smallest(pixels, all_known(pixels), "page", content, limits);
                 CHECK(webp.mime_type == "image/webp");
                 const Pixels decoded = decode(webp);
-                CHECK(is_within(image_loss(pixels, decoded, all_known(pixels)), quality_of(quality)));
+                CHECK(is_within(shown_quality(pixels, decoded, all_known(pixels)), quality_of(quality)));
                 for (std::size_t i = 3; i < pixels.rgba.size(); i += 4)
                     REQUIRE(decoded.rgba[i] == pixels.rgba[i]);
                 const ImageLimits both{quality_of(quality), false, true, true};
