@@ -150,7 +150,7 @@ private:
             UnencodedResult result = made_level(levels[i], i == 0 && !keeps_images_);
             if (i == 0) images_.emplace(result, options_.bake, context_);
             Asset& asset = result.asset.asset;
-            const PictureError error = meter_->with_source_images(asset);
+            const PictureDifference error = meter_->with_source_images(asset);
             for (Image& image : asset.images) image.encoded = placeholder.encoded;
             tried_faces_.push_back(
                 {result.asset.report.faces_out, model_size(asset, options_.format).geometry, error});
@@ -172,7 +172,7 @@ private:
             const bool is_rounded = round_vertices(rounded);
             tried_roundings_.push_back(
                 {bits, model_size(asset, options_.format).geometry,
-                 is_rounded ? meter_->with_source_images(std::move(rounded)) : PictureError{}});
+                 is_rounded ? meter_->with_source_images(std::move(rounded)) : PictureDifference{}});
         }
         if (tried_roundings_.size() == 1) tried_roundings_[0].position_bits = options_.quantize.position_bits;
     }

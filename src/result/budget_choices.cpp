@@ -36,13 +36,13 @@ constexpr int allocation_rounds = 3;
 struct ImageStep {
     std::size_t image = 0, encoding = 0;  // the larger one
     std::uint64_t bytes = 0;              // more
-    PictureError less;
+    PictureDifference less;
 };
 
 struct Allocation {
     std::vector<std::size_t> chosen;
     std::uint64_t bytes = 0;
-    PictureError error;  // with those of geometry
+    PictureDifference error;  // with those of geometry
 };
 
 /// Chooses encodings for numbers of bytes.
@@ -60,9 +60,9 @@ public:
 
     // \param bytes  not less than least_bytes()
     // \param other  errors that do not depend on the images
-    Allocation within(std::uint64_t bytes, const PictureError& other) const {
+    Allocation within(std::uint64_t bytes, const PictureDifference& other) const {
         Allocation result;
-        PictureError total = least_.error;
+        PictureDifference total = least_.error;
         total += other;
         for (int round = 0; round < allocation_rounds; ++round) {
             result = chosen_by(bytes, {1 / (total.unlit + smallest_error), 1 / (total.lit + smallest_error)});
@@ -72,22 +72,20 @@ public:
         return result;
     }
 
-    PictureError error_of(const std::vector<std::size_t>& chosen) const {
-        PictureError result;
+    PictureDifference error_of(const std::vector<std::size_t>& chosen) const {
+        PictureDifference result;
         for (std::size_t i = 0; i < chosen.size(); ++i) result += images_[i][chosen[i]].error;
         return result;
     }
 
 private:
-    static double sum(const PictureError& error) { return error.unlit + error.lit; }
-
     // Adds the steps along the lower convex hull of an image's bytes and errors.
     void add(std::size_t image, const std::vector<TriedImage>& tried) {
         std::vector<std::size_t> order(tried.size());
         for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return std::pair(tried[a].bytes, sum(tried[a].error)) <
-                   std::pair(tried[b].bytes, sum(tried[b].error));
+            return std::pair(tried[a].bytes, tried[a].error.sum()) <
+                   std::pair(tried[b].bytes, tried[b].error.sum());
         });
         std::size_t at = order[0];
         least_.chosen.push_back(at);
@@ -98,7 +96,7 @@ private:
             double best = 0;
             for (const std::size_t k : order) {
                 if (!(tried[k].bytes > tried[at].bytes)) continue;
-                const double gain = (sum(tried[at].error) - sum(tried[k].error)) /
+                const double gain = (tried[at].error.sum() - tried[k].error.sum()) /
                                     static_cast<double>(tried[k].bytes - tried[at].bytes);
                 if (!(gain > best)) continue;
                 best = gain;
@@ -114,7 +112,7 @@ private:
         }
     }
 
-    Allocation chosen_by(std::uint64_t bytes, const PictureError& weights) const {
+    Allocation chosen_by(std::uint64_t bytes, const PictureDifference& weights) const {
         std::vector<std::pair<double, std::size_t>> order(steps_.size());
         for (std::size_t s = 0; s < steps_.size(); ++s) {
             const double gain = weights.unlit * steps_[s].less.unlit + weights.lit * steps_[s].less.lit;
@@ -149,7 +147,8 @@ private:
     }
 
     // Takes the encoding with the least error that fits, which is not on the hull.
-    void fill(std::size_t image, std::uint64_t bytes, const PictureError& weights, Allocation& result) const {
+    void fill(std::size_t image, std::uint64_t bytes, const PictureDifference& weights,
+              Allocation& result) const {
         const std::vector<TriedImage>& tried = images_[image];
         const auto weighted = [&](std::size_t k) {
             return weights.unlit * tried[k].error.unlit + weights.lit * tried[k].error.lit;
@@ -182,7 +181,7 @@ std::optional<std::uint64_t> faces_within(std::span<const TriedFaces> tried, std
     return std::nullopt;
 }
 
-PictureError error_of_faces(std::span<const TriedFaces> tried, std::uint64_t faces) {
+PictureDifference error_of_faces(std::span<const TriedFaces> tried, std::uint64_t faces) {
     if (faces >= tried.front().faces) return tried.front().error;
     for (std::size_t i = 1; i < tried.size(); ++i) {
         if (faces < tried[i].faces) continue;
@@ -231,7 +230,7 @@ std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, cons
                 faces_within(faces, as_first_rounding(roundings, r, taken));
             if (!count) break;
             const auto error_with = [&](std::uint64_t n) {
-                PictureError error = error_of_faces(faces, n);
+                PictureDifference error = error_of_faces(faces, n);
                 error += roundings[r].error;
                 return error;
             };
@@ -239,7 +238,7 @@ std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, cons
             // Images that do not use all their bytes leave more for faces.
             const std::uint64_t more =
                 *faces_within(faces, as_first_rounding(roundings, r, bytes - chosen.bytes));
-            PictureError error = allocator.error_of(chosen.chosen);
+            PictureDifference error = allocator.error_of(chosen.chosen);
             error += error_with(more);
             result.push_back({std::move(chosen.chosen), chosen.bytes, r, more, picture_psnr(error)});
             if (least == most) break;

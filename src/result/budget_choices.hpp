@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "result/picture_error.hpp"
+#include "result/picture_meter.hpp"
 
 namespace faqem::detail {
 
@@ -16,21 +16,21 @@ namespace faqem::detail {
 struct TriedFaces {
     std::uint64_t faces = 0;
     std::uint64_t bytes = 0;  ///< with the first rounding that was tried
-    PictureError error;
+    PictureDifference error;
 };
 
 /// Rounding of vertices that was tried, on all faces with perfect images.
 struct TriedRounding {
     std::optional<std::uint32_t> position_bits;  ///< QuantizeOptions::position_bits
     std::uint64_t bytes = 0;                     ///< of the geometry
-    PictureError error;
+    PictureDifference error;
 };
 
 /// An encoding of one image that was tried.
 struct TriedImage {
     std::uint64_t bytes = 0;
-    PictureError error;      ///< that it adds
-    std::uint32_t side = 0;  ///< the longer one, texels
+    PictureDifference error;  ///< that it adds
+    std::uint32_t side = 0;   ///< the longer one, texels
 };
 
 /// By image: the encodings that were tried.
@@ -48,7 +48,7 @@ struct BudgetChoice {
 /// Encodings of the images alone.
 struct ImagesPoint {
     std::uint64_t bytes = 0;
-    PictureError error;
+    PictureDifference error;
     std::uint32_t side = 0;  ///< the longest one
 };
 
@@ -58,7 +58,7 @@ struct ImagesPoint {
 std::optional<std::uint64_t> faces_within(std::span<const TriedFaces> tried, std::uint64_t bytes);
 
 /// The error of a face count, interpolated. \param tried  as for faces_within() O(tried)
-PictureError error_of_faces(std::span<const TriedFaces> tried, std::uint64_t faces);
+PictureDifference error_of_faces(std::span<const TriedFaces> tried, std::uint64_t faces);
 
 /// Bytes of geometry with a rounding, as bytes with the first one, to which it is in proportion. O(1)
 std::uint64_t as_first_rounding(std::span<const TriedRounding> roundings, std::size_t rounding,

@@ -106,8 +106,8 @@ std::vector<double> ImageErrorMeter::errors_by_material(const std::vector<render
     return result;
 }
 
-std::vector<std::optional<PictureError>> ImageErrorMeter::operator()(std::vector<Pixels> shown) {
-    std::vector<std::optional<PictureError>> result(images_.size());
+std::vector<std::optional<PictureDifference>> ImageErrorMeter::operator()(std::vector<Pixels> shown) {
+    std::vector<std::optional<PictureDifference>> result(images_.size());
     // Errors of one role: the other has perfect images, so that they are not mixed up.
     const auto measure = [&](std::vector<Texture>& all, TextureRef Material::*role, render::Shading shading,
                              ColorSpace color_space, auto&& error_of) {
@@ -125,7 +125,7 @@ std::vector<std::optional<PictureError>> ImageErrorMeter::operator()(std::vector
             double sum = 0;
             for (std::size_t m = 0; m < scene_.asset.materials.size(); ++m)
                 if ((scene_.asset.materials[m].*role).image == images_[i]) sum += errors[m];
-            const PictureError before = result[i].value_or(PictureError{}), added = error_of(sum);
+            const PictureDifference before = result[i].value_or(PictureDifference{}), added = error_of(sum);
             result[i] = {before.unlit + added.unlit, before.lit + added.lit};
             std::swap(all[images_[i]], perfect);
         }
@@ -133,11 +133,11 @@ std::vector<std::optional<PictureError>> ImageErrorMeter::operator()(std::vector
     // Light changes an error of colours little.
     measure(scene_.color_textures, &Material::base_color_texture, render::Shading::unlit, ColorSpace::srgb,
             [](double sum) {
-                return PictureError{sum, sum};
+                return PictureDifference{sum, sum};
             });
     measure(scene_.normal_maps, &Material::normal_texture, render::Shading::lit, ColorSpace::linear,
             [](double sum) {
-                return PictureError{0, sum};
+                return PictureDifference{0, sum};
             });
     return result;
 }

@@ -10,7 +10,7 @@
 #include "bake/texture/pending_images.hpp"
 #include "faqem/asset.hpp"
 #include "render/rasterizer.hpp"
-#include "result/picture_error.hpp"
+#include "result/picture_meter.hpp"
 
 namespace faqem::detail {
 
@@ -29,7 +29,7 @@ public:
     /// \return by pending image; nothing where pictures do not show it or it was not replaced. Pictures show base
     ///     colours and normal maps.
     /// Complexity: O(faces + texels).
-    std::vector<std::optional<PictureError>> operator()(std::vector<Pixels> shown);
+    std::vector<std::optional<PictureDifference>> operator()(std::vector<Pixels> shown);
 
     /// Whether pictures with light are compared, since there are normal maps.
     bool has_lit_pictures() const { return !lit_.empty(); }

@@ -30,12 +30,6 @@ constexpr double data_weight = 0.4;
 // Share of the pixels of an image that the views do not show: others may.
 constexpr double least_seen = 0.001;
 
-PictureError scaled(const PictureError& error, double factor) {
-    return {factor * error.unlit, factor * error.lit};
-}
-
-double sum(const PictureError& error) { return error.unlit + error.lit; }
-
 std::uint32_t longer_side(const Pixels& pixels) { return std::max(pixels.width, pixels.height); }
 
 }  // namespace
@@ -145,10 +139,10 @@ std::vector<ImageTrials::Request> ImageTrials::next_requests(const BudgetChoice&
         const Size& size = sizes_[i][trial.size];
         const SizeError& error = *size_errors_[i][trial.size];
         if (trial.fineness == size.last_tried_fineness() && trial.fineness < size.encodings.back().fineness &&
-            sum(estimated_error(error, trial.difference)) - sum(error.own) > least_error)
+            estimated_error(error, trial.difference).sum() - error.own.sum() > least_error)
             result.push_back({i, trial.size, 0, trial.fineness + fineness_step});
         const std::size_t next = trial.size + 1;
-        if (next < sizes_[i].size() && !sizes_[i][next].has_trials() && sum(error.own) > least_error)
+        if (next < sizes_[i].size() && !sizes_[i][next].has_trials() && error.own.sum() > least_error)
             result.push_back({i, next, 0, std::max(trial.fineness, measured_fineness)});
     }
     return result;
@@ -215,13 +209,13 @@ void ImageTrials::measure_sizes(std::span<const Request> requests) {
         encoded[i] = decode(measured->image);
         differences[i] = measured->difference;
     }
-    const std::vector<std::optional<PictureError>> own = (*meter_)(std::move(resized));
-    const std::vector<std::optional<PictureError>> both = (*meter_)(std::move(encoded));
+    const std::vector<std::optional<PictureDifference>> own = (*meter_)(std::move(resized));
+    const std::vector<std::optional<PictureDifference>> both = (*meter_)(std::move(encoded));
     // Seen images first: what errors of texels do in their pictures is assumed of the others.
     for (const auto& [i, s, first, last, step] : requests) {
         if (size_errors_[i][s] || !both[i]) continue;
         SizeError& error = size_errors_[i][s].emplace();
-        error.own = own[i].value_or(PictureError{});
+        error.own = own[i].value_or(PictureDifference{});
         add_sample(error, *both[i], differences[i]);
         const double share = std::max(meter_->shares()[i], least_seen);
         seen_gain_ += error.samples[0].added.lit / (share * differences[i]);
@@ -252,7 +246,7 @@ void ImageTrials::measure_choice(const BudgetChoice& choice) {
             });
         if (!is_measured) encoded[i] = decode(trial.image);
     }
-    const std::vector<std::optional<PictureError>> both = (*meter_)(std::move(encoded));
+    const std::vector<std::optional<PictureDifference>> both = (*meter_)(std::move(encoded));
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const Trial& trial = trials_[i][choice.images[i]];
         if (both[i]) add_sample(*size_errors_[i][trial.size], *both[i], trial.difference);
@@ -261,10 +255,10 @@ void ImageTrials::measure_choice(const BudgetChoice& choice) {
 }
 
 // \param both  with an encoding that has the difference
-void ImageTrials::add_sample(SizeError& error, const PictureError& both, double difference) {
+void ImageTrials::add_sample(SizeError& error, const PictureDifference& both, double difference) {
     const double unseen = least_seen * difference;
-    PictureError added = {std::max(0.0, both.unlit - error.own.unlit),
-                          std::max(0.0, both.lit - error.own.lit)};
+    PictureDifference added = {std::max(0.0, both.unlit - error.own.unlit),
+                               std::max(0.0, both.lit - error.own.lit)};
     if (added.unlit > 0) added.unlit += unseen;
     added.lit += unseen;
     const auto at = std::find_if(error.samples.begin(), error.samples.end(),
@@ -273,8 +267,8 @@ void ImageTrials::add_sample(SizeError& error, const PictureError& both, double 
 }
 
 // Interpolates between no difference, the samples, and beyond.
-PictureError ImageTrials::estimated_error(const SizeError& error, double difference) {
-    PictureError result = error.own;
+PictureDifference ImageTrials::estimated_error(const SizeError& error, double difference) {
+    PictureDifference result = error.own;
     Sample before;
     for (const Sample& sample : error.samples) {
         if (!(difference <= sample.difference)) {
@@ -282,11 +276,11 @@ PictureError ImageTrials::estimated_error(const SizeError& error, double differe
             continue;
         }
         const double share = (difference - before.difference) / (sample.difference - before.difference);
-        result += scaled(before.added, 1 - share);
-        result += scaled(sample.added, share);
+        result += before.added * (1 - share);
+        result += sample.added * share;
         return result;
     }
-    if (before.difference > 0) result += scaled(before.added, difference / before.difference);
+    if (before.difference > 0) result += before.added * (difference / before.difference);
     return result;
 }
 
@@ -301,7 +295,7 @@ void ImageTrials::update_errors() {
 }
 
 // Pictures without light are those of colours, if there are others.
-PictureError ImageTrials::unseen_error(double error) const {
+PictureDifference ImageTrials::unseen_error(double error) const {
     return {meter_->has_lit_pictures() ? 0 : error, error};
 }
 

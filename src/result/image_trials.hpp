@@ -73,11 +73,11 @@ private:
     /// What an encoding with a difference adds to the error of pictures.
     struct Sample {
         double difference = 0;
-        PictureError added;
+        PictureDifference added;
     };
     /// Errors of pictures for the size alone, and for encodings: in ascending order of differences.
     struct SizeError {
-        PictureError own;
+        PictureDifference own;
         std::vector<Sample> samples;
     };
 
@@ -85,14 +85,14 @@ private:
     void encode(std::span<const Request> requests);
     void measure_sizes(std::span<const Request> requests);
     void measure_choice(const BudgetChoice& choice);
-    static void add_sample(SizeError& error, const PictureError& both, double difference);
-    static PictureError estimated_error(const SizeError& error, double difference);
+    static void add_sample(SizeError& error, const PictureDifference& both, double difference);
+    static PictureDifference estimated_error(const SizeError& error, double difference);
     void update_errors();
     std::vector<Request> smaller_requests() const;
     std::vector<Request> next_requests(const BudgetChoice& choice) const;
     std::vector<Request> refining_requests(const BudgetChoice& choice, std::uint32_t distance,
                                            std::uint64_t least_bytes) const;
-    PictureError unseen_error(double error) const;
+    PictureDifference unseen_error(double error) const;
 
     UnencodedResult full_;
     const BakeOptions& bake_;

@@ -11,7 +11,7 @@
 #include "faqem/error.hpp"
 #include "result/fit_images.hpp"
 #include "result/model_size.hpp"
-#include "result/picture_error.hpp"
+#include "result/picture_meter.hpp"
 #include "scene/part_reports.hpp"
 #include "scene/resolved_options.hpp"
 

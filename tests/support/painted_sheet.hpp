@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "result/picture_error.hpp"
+#include "result/picture_meter.hpp"
 #include "support/cli_support.hpp"
 
 namespace tool_test {

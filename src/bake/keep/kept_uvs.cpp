@@ -31,9 +31,6 @@ constexpr double allowed_mean_loss = 0.25, allowed_loss = 0.8;
 // shows without filter: closer views show the difference.
 constexpr double allowed_loss_if_coarse = 2, coarse_share = 1.0 / 64;
 
-// Mean squared difference of a channel that is not seen: 50 dB.
-constexpr double invisible_difference = 1e-5;
-
 // Points per side of a view: of a scene with one set of parts, and at least.
 constexpr std::uint32_t view_points = 256, min_view_points = 64;
 
@@ -122,23 +119,23 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
     return result;
 }
 
-double picture_psnr(double sum, std::uint64_t points) {
-    return psnr(sum / (3 * static_cast<double>(points)), invisible_difference);
+// By how many dB one mean squared difference is worse than another.
+double decibels_worse(double one, double other) {
+    return psnr(other, invisible_difference) - psnr(one, invisible_difference);
 }
 
-bool is_as_good(const std::array<KeptAndBakedLoss, 2>& losses, bool is_coarse) {
+bool is_as_good(const std::array<KeptAndBaked, 2>& differences, bool is_coarse) {
     const double allowed = is_coarse ? allowed_loss_if_coarse : allowed_loss;
     std::array<double, 2> sum{};  // unlit, lit
-    for (const auto& [kept, baked] : losses) {
-        const std::array<double, 2> lost = {
-            picture_psnr(baked.unlit, kept.points) - picture_psnr(kept.unlit, kept.points),
-            picture_psnr(baked.lit, kept.points) - picture_psnr(kept.lit, kept.points)};
+    for (const auto& [kept, baked] : differences) {
+        const std::array<double, 2> lost = {decibels_worse(kept.unlit, baked.unlit),
+                                            decibels_worse(kept.lit, baked.lit)};
         for (std::size_t k = 0; k < sum.size(); ++k) {
             if (!(lost[k] <= allowed)) return false;
             sum[k] += lost[k];
         }
     }
-    const double mean = *std::max_element(sum.begin(), sum.end()) / static_cast<double>(losses.size());
+    const double mean = *std::max_element(sum.begin(), sum.end()) / static_cast<double>(differences.size());
     return is_coarse || mean <= allowed_mean_loss;
 }
 
@@ -211,7 +208,8 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
     const auto size = std::max(min_view_points, static_cast<std::uint32_t>(side));
     const std::vector<std::uint8_t> needs_uvs = parts_that_need_uvs(source);
     std::vector<Index> good;
-    PictureLoss total;
+    PictureDifference sum;
+    double points = 0;
     for (const PartSet& set : sets) {
         const bool must_be_kept = std::any_of(set.begin(), set.end(), [&](Index p) {
             return needs_uvs[p] != 0 || is_plain_with_uvs(source, source.parts[p]);
@@ -219,14 +217,16 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
         const bool is_coarse =
             shows_single_texels(source, set) ||
             std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });
-        const std::array<KeptAndBakedLoss, 2> losses = compare_pictures(scenes, set, size, context);
-        const bool is_good = must_be_kept || is_as_good(losses, is_coarse);
+        const ComparedPictures pictures = compare_pictures(scenes, set, size, context);
+        const bool is_good = must_be_kept || is_as_good(pictures.differences, is_coarse);
         if (is_good) good.insert(good.end(), set.begin(), set.end());
-        total += is_good ? losses.back().kept : losses.back().baked;
+        const KeptAndBaked& large = pictures.differences.back();
+        const auto own_points = static_cast<double>(pictures.points);
+        if (own_points > 0) sum += (is_good ? large.kept : large.baked) * own_points;
+        points += own_points;
     }
     std::sort(good.begin(), good.end());
-    return {std::move(good),
-            {picture_psnr(total.unlit, total.points), picture_psnr(total.lit, total.points)}};
+    return {std::move(good), sum * (1 / points)};
 }
 
 void keep_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<const Index> which,

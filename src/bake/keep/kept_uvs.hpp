@@ -2,12 +2,13 @@
 /// \file
 /// Parts that keep the UVs of the source because their pictures are as good as with new images.
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "bake/parts/corners.hpp"
 #include "bake/source/texture_sampling.hpp"
-#include "bake/texture/image_choice.hpp"
+#include "bake/texture/picture_difference.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
@@ -26,7 +27,7 @@ struct PartsWithUvs {
 /// Outcome of compare_uvs().
 struct ComparedUvs {
     std::vector<Index> good;  ///< the parts of all sets whose pictures are as good with UVs, ascending
-    PicturePsnr pictures;     ///< of the sets, as they are afterwards
+    std::optional<PictureDifference> pictures;  ///< of the sets, as they are afterwards
 };
 
 /// The sets of parts that could keep their UVs: each part has reached the face count of its simplification without UVs, up

@@ -27,7 +27,6 @@ struct Shade {
 
 // By compared size.
 using SizedShades = std::array<Shade, 2>;
-using SizedLosses = std::array<KeptAndBakedLoss, 2>;
 
 // Grey, so that neither dark nor bright surfaces stand out.
 constexpr Shade background = {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}};
@@ -86,12 +85,11 @@ double pixel_on_surface(std::size_t size, const Vector3& winding, const Placemen
     return view.pixel * view.size / compared_sizes[size] / at.scale / std::max(0.1, slope);
 }
 
-void add_difference(PictureLoss& loss, const Shade& a, const Shade& b) {
+void add_squares(PictureDifference& sum, const Shade& a, const Shade& b) {
     for (std::size_t k = 0; k < 3; ++k) {
-        loss.unlit += (a.unlit[k] - b.unlit[k]) * (a.unlit[k] - b.unlit[k]);
-        loss.lit += (a.lit[k] - b.lit[k]) * (a.lit[k] - b.lit[k]);
+        sum.unlit += (a.unlit[k] - b.unlit[k]) * (a.unlit[k] - b.unlit[k]);
+        sum.lit += (a.lit[k] - b.lit[k]) * (a.lit[k] - b.lit[k]);
     }
-    ++loss.points;
 }
 
 // The pictures of one set of parts.
@@ -113,29 +111,34 @@ public:
         }
     }
 
-    SizedLosses compare(std::uint32_t size, const RunContext& context) const {
+    ComparedPictures compare(std::uint32_t size, const RunContext& context) const {
         const std::vector<View> views = views_around(source_, view_count, size);
-        std::vector<SizedLosses> losses(view_count);
+        std::vector<ComparedPictures> sums(view_count);
         parallel_blocks(view_count, 1, context,
                         [&](std::size_t v, std::size_t, const RunContext& block_context) {
-                            losses[v] = compare_view(views[v], block_context);
+                            sums[v] = squares_of_view(views[v], block_context);
                         });
-        SizedLosses result;
-        for (const SizedLosses& of_view : losses) {
-            for (std::size_t i = 0; i < result.size(); ++i) {
-                result[i].kept += of_view[i].kept;
-                result[i].baked += of_view[i].baked;
+        ComparedPictures result;
+        for (const ComparedPictures& sum : sums) result.points += sum.points;
+        const double share = 1 / (3 * static_cast<double>(result.points));
+        for (std::size_t i = 0; i < result.differences.size(); ++i) {
+            auto& [kept, baked] = result.differences[i];
+            for (const ComparedPictures& sum : sums) {
+                kept += sum.differences[i].kept;
+                baked += sum.differences[i].baked;
             }
+            kept = kept * share;
+            baked = baked * share;
         }
         return result;
     }
 
 private:
-    SizedLosses compare_view(const View& view, const RunContext& context) const {
+    ComparedPictures squares_of_view(const View& view, const RunContext& context) const {
         const std::vector<SeenPoint> of_source = seen_points(source_, view);
         const std::vector<SeenPoint> of_kept = seen_points(kept_, view);
         const std::vector<SeenPoint> of_baked = seen_points(baked_, view);
-        SizedLosses losses;
+        ComparedPictures sums;
         for (std::size_t i = 0; i < of_source.size(); ++i) {
             const SeenPoint &source = of_source[i], &kept = of_kept[i], &baked = of_baked[i];
             const bool is_empty = source.mesh == no_index && kept.mesh == no_index && baked.mesh == no_index;
@@ -144,12 +147,13 @@ private:
             const auto wanted = shade_original(scenes_.source_sampler, scenes_.source, source, view);
             const auto with_kept = shade_original(scenes_.kept_sampler, scenes_.kept, kept, view);
             const auto with_baked = shade_baked(baked, view);
-            for (std::size_t s = 0; s < losses.size(); ++s) {
-                add_difference(losses[s].kept, wanted[s], with_kept[s]);
-                add_difference(losses[s].baked, wanted[s], with_baked[s]);
+            for (std::size_t s = 0; s < sums.differences.size(); ++s) {
+                add_squares(sums.differences[s].kept, wanted[s], with_kept[s]);
+                add_squares(sums.differences[s].baked, wanted[s], with_baked[s]);
             }
+            ++sums.points;
         }
-        return losses;
+        return sums;
     }
 
     // A point of an asset that has the sampler's images.
@@ -200,8 +204,8 @@ private:
 
 }  // namespace
 
-SizedLosses compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts, std::uint32_t size,
-                             const RunContext& context) {
+ComparedPictures compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts,
+                                  std::uint32_t size, const RunContext& context) {
     return Pictures(scenes, parts).compare(size, context);
 }
 

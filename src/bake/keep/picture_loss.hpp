@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much pictures of a simplified scene differ from those of its source: with the source's UVs, and with new
+/// How far pictures of a simplified scene differ from those of its source: with the source's UVs, and with new
 /// images that reproduce the source at every point.
 
 #include <array>
@@ -9,27 +9,14 @@
 
 #include "bake/parts/corners.hpp"
 #include "bake/source/source_sampler.hpp"
+#include "bake/texture/picture_difference.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 
-/// Sums of squared differences to pictures of the source, of sRGB values in [0, 1].
-struct PictureLoss {
-    double unlit = 0;          ///< base colours
-    double lit = 0;            ///< with light, which shows normals and normal maps
-    std::uint64_t points = 0;  ///< pixels that show something
-
-    PictureLoss& operator+=(const PictureLoss& o) {
-        unlit += o.unlit;
-        lit += o.lit;
-        points += o.points;
-        return *this;
-    }
-};
-
-/// The losses of two versions of the same parts.
-struct KeptAndBakedLoss {
-    PictureLoss kept, baked;
+/// How far pictures of two versions of the same parts differ from those of the source.
+struct KeptAndBaked {
+    PictureDifference kept, baked;
 };
 
 /// What is compared.
@@ -47,15 +34,20 @@ struct ComparedScenes {
 /// Sides in pixels of the pictures that are compared: small ones, in which textures are filtered, and large ones.
 inline constexpr std::array<std::uint32_t, 2> compared_sizes = {384, 1152};
 
+/// Outcome of compare_pictures().
+struct ComparedPictures {
+    std::array<KeptAndBaked, 2> differences;  ///< by compared size; NaN without points
+    std::uint64_t points = 0;                 ///< pixels that show something
+};
+
 /// Compares some parts in 6 views without perspective that show all of them, each at its first instance. New
 /// images are taken to be perfect: the colours are those of the source, at the points that the map gives, and blurred
 /// by a texel of the page.
 /// \param parts  indices of parts that have faces in the source and in both versions
 /// \param size   number of rows and columns of points that are compared in each view
-/// \return by compared size
 /// \throws engine::Cancelled
 /// Complexity: O(faces + size^2 log faces). The result does not depend on the number of threads.
-std::array<KeptAndBakedLoss, 2> compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts,
-                                                 std::uint32_t size, const RunContext& context);
+ComparedPictures compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts,
+                                  std::uint32_t size, const RunContext& context);
 
 }  // namespace faqem::detail

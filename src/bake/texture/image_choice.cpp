@@ -213,8 +213,10 @@ ImageQuality least_quality(const BakeOptions& bake, TextureContent content, doub
     return {bake.image_quality ? usual : usual + change, usual - block_allowance};
 }
 
-double quality_change(const PicturePsnr& pictures, TextureContent content) {
-    const double shown = is_color(content) ? std::max(pictures.unlit, pictures.lit) : pictures.lit;
+double quality_change(const std::optional<PictureDifference>& pictures, TextureContent content) {
+    if (!pictures) return 0;
+    const double most = is_color(content) ? std::min(pictures->unlit, pictures->lit) : pictures->lit;
+    const double shown = psnr(most, invisible_difference);
     if (!std::isfinite(shown)) return 0;
     return std::clamp(shown + quality_above_pictures - usual_quality, -most_worse, most_better);
 }

@@ -2,26 +2,19 @@
 /// \file
 /// Encoding and resolution of baked images, chosen by the measured loss.
 
-#include <cmath>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "bake/texture/picture_difference.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
-
-/// Peak signal-to-noise ratio of a mean squared difference of values in [0, 1], in dB; infinity if nothing differs.
-/// \param unseen  mean squared difference that is added, since it is not seen: limits the ratio
-inline double psnr(double mean_square, double unseen = 0) { return -10 * std::log10(mean_square + unseen); }
-
-/// The mean squared difference of a ratio in dB.
-inline double mean_square_of(double psnr) { return std::pow(10, -psnr / 10); }
 
 /// Peak signal-to-noise ratios, in dB; infinity if nothing differs. That of the worst block tells whether errors are
 /// concentrated where they would be seen, such as at the seams of charts.
@@ -46,15 +39,10 @@ struct ImageLimits {
 ImageQuality least_quality(const BakeOptions& bake, TextureContent content, double roughness,
                            double change = 0);
 
-/// PSNR of pictures of the result with perfect images, in dB; NaN where it was not measured.
-struct PicturePsnr {
-    double unlit = std::numeric_limits<double>::quiet_NaN();
-    double lit = std::numeric_limits<double>::quiet_NaN();
-};
-
 /// By how many dB images should be better than usual, since pictures of the result show their errors, or may be worse,
-/// since these are small beside those of the faces: in [-2, 4]. 0 if pictures were not measured.
-double quality_change(const PicturePsnr& pictures, TextureContent content);
+/// since these are small beside those of the faces: in [-2, 4].
+/// \param pictures  of the result with perfect images; nothing if they were not compared: 0
+double quality_change(const std::optional<PictureDifference>& pictures, TextureContent content);
 
 /// Quality of an image that is shown instead of another: the differences at the texels of the other image,
 /// where the first is interpolated bilinearly. Differences of colour are weighted by alpha.

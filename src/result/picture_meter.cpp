@@ -1,4 +1,4 @@
-#include "result/picture_error.hpp"
+#include "result/picture_meter.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -66,7 +66,7 @@ std::vector<render::Frame> pictures(const render::Scene& scene, const std::vecto
     return result;
 }
 
-double picture_psnr(const PictureError& error) {
+double picture_psnr(const PictureDifference& error) {
     return (psnr(error.unlit, least_difference) + psnr(error.lit, least_difference)) / 2;
 }
 
@@ -78,7 +78,7 @@ PictureMeter::PictureMeter(Asset source, const RunContext& context)
     if (has_normal_map_) lit_ = pictures(source_, cameras_, render::Shading::lit, threads_);
 }
 
-PictureError PictureMeter::operator()(Asset model) const {
+PictureDifference PictureMeter::operator()(Asset model) const {
     return compare(render::make_scene(std::move(model)));
 }
 
@@ -95,8 +95,8 @@ void PictureMeter::use_source_images(Asset model, const Use& use) {
     exchange_textures();
 }
 
-PictureError PictureMeter::with_source_images(Asset model) {
-    PictureError result;
+PictureDifference PictureMeter::with_source_images(Asset model) {
+    PictureDifference result;
     use_source_images(std::move(model), [&](const render::Scene& scene) { result = compare(scene); });
     return result;
 }
@@ -122,7 +122,7 @@ double PictureMeter::difference(const render::Scene& scene, render::Shading shad
     return sum.squares / (3 * static_cast<double>(std::max<std::uint64_t>(sum.pixels, 1)));
 }
 
-PictureError PictureMeter::compare(const render::Scene& scene) const {
+PictureDifference PictureMeter::compare(const render::Scene& scene) const {
     const double unlit = difference(scene, render::Shading::unlit, unlit_);
     return {unlit, has_normal_map_ ? difference(scene, render::Shading::lit, lit_) : unlit};
 }

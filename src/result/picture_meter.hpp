@@ -5,24 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "bake/texture/picture_difference.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "render/rasterizer.hpp"
 
 namespace faqem::detail {
-
-/// Mean squared differences of sRGB values in [0, 1], over the pixels that show one of the two models.
-struct PictureError {
-    double unlit = 0;
-    double lit = 0;  ///< equal to `unlit` where lit pictures are not compared
-
-    /// Errors of different causes add up.
-    PictureError& operator+=(const PictureError& other) {
-        unlit += other.unlit;
-        lit += other.lit;
-        return *this;
-    }
-};
 
 /// Number of pictures, and their side in pixels.
 inline constexpr std::uint32_t picture_views = 6, picture_size = 256;
@@ -33,7 +21,7 @@ std::vector<render::Frame> pictures(const render::Scene& scene, const std::vecto
                                     render::Shading shading, std::uint32_t threads);
 
 /// PSNR in dB, the mean of unlit and lit pictures; 90 if nothing differs.
-double picture_psnr(const PictureError& error);
+double picture_psnr(const PictureDifference& error);
 
 /// Renders models from the same cameras as their source.
 class PictureMeter {
@@ -45,11 +33,11 @@ public:
     PictureMeter(Asset source, const RunContext& context);
 
     /// Compares a model with the source. An image that cannot be decoded is drawn white in both.
-    PictureError operator()(Asset model) const;
+    PictureDifference operator()(Asset model) const;
 
     /// Compares a model that has the images of the source, with the same indices. Does not decode them again; those
     /// that the model holds are ignored.
-    PictureError with_source_images(Asset model);
+    PictureDifference with_source_images(Asset model);
 
     /// Mean squared difference of lit pictures, also where the others are unlit. Otherwise as with_source_images().
     double lit_with_source_images(Asset model);
@@ -58,7 +46,7 @@ private:
     // Calls use(scene) with a scene of the model that has the textures of the source.
     template <class Use>
     void use_source_images(Asset model, const Use& use);
-    PictureError compare(const render::Scene& scene) const;
+    PictureDifference compare(const render::Scene& scene) const;
     double difference(const render::Scene& scene, render::Shading shading,
                       const std::vector<render::Frame>& of_source) const;
 
