@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "render/visible_points.hpp"
+
 namespace faqem::render {
 
 namespace {
@@ -21,8 +23,6 @@ const Vector4f edge_color(0.02f, 0.03f, 0.05f, 1.0f);
 /// A corner of a projected triangle.
 struct Corner {
     Vector3 world, normal;
-    Vector2d screen;       ///< in pixels, y points down
-    double inverse_depth;  ///< 1 / distance along the view axis, which is linear in screen space
     Index vertex;
 };
 
@@ -36,6 +36,7 @@ struct FaceTexture {
 /// A projected triangle with its constant attributes.
 struct ScreenTriangle {
     std::array<Corner, 3> corners;
+    ScreenFace screen;
     const Part* part;
     const Material* material;
     Index material_index;  ///< the number of materials for the default material
@@ -59,14 +60,6 @@ struct RenderTarget {
     std::vector<Vector4f> color;       ///< linear RGBA, premultiplied
     std::vector<Index> materials;      ///< that of the nearest surface
 };
-
-/// Converts screen-space barycentric coordinates to perspective-correct ones.
-Vector3 perspective_weights(const ScreenTriangle& face, const Vector3& screen_weights) {
-    Vector3 w;
-    for (int k = 0; k < 3; ++k)
-        w[k] = screen_weights[k] * face.corners[static_cast<std::size_t>(k)].inverse_depth;
-    return w / w.sum();
-}
 
 template <class Value>
 auto interpolate(const ScreenTriangle& face, const Vector3& w, Value&& value) {
@@ -215,7 +208,7 @@ std::optional<Vector4f> shade(const RenderTarget& target, const ScreenTriangle& 
 double edge_distance(const ScreenTriangle& face, const Vector3& screen_weights) {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
-        const double length = (face.corners[(k + 2) % 3].screen - face.corners[(k + 1) % 3].screen).norm();
+        const double length = (face.screen[(k + 2) % 3].at - face.screen[(k + 1) % 3].at).norm();
         nearest = std::min(
             nearest, screen_weights[static_cast<Eigen::Index>(k)] * std::abs(face.screen_area) / length);
     }
@@ -223,13 +216,9 @@ double edge_distance(const ScreenTriangle& face, const Vector3& screen_weights) 
 }
 
 void draw_pixel(RenderTarget& target, const ScreenTriangle& face, std::size_t pixel,
-                const Vector3& screen_weights) {
-    double inverse_depth = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        inverse_depth += screen_weights[static_cast<Eigen::Index>(k)] * face.corners[k].inverse_depth;
-    }
+                const Vector3& screen_weights, double inverse_depth) {
     if (!(inverse_depth > target.inverse_depth[pixel])) return;
-    auto color = shade(target, face, perspective_weights(face, screen_weights));
+    auto color = shade(target, face, perspective_weights(face.screen, screen_weights));
     if (!color) return;
     if (target.edges == Edges::drawn && edge_distance(face, screen_weights) < edge_width) {
         *color = 0.6f * edge_color + 0.4f * *color;
@@ -243,28 +232,6 @@ void draw_pixel(RenderTarget& target, const ScreenTriangle& face, std::size_t pi
     target.inverse_depth[pixel] = static_cast<float>(inverse_depth);
 }
 
-void draw_face(RenderTarget& target, const ScreenTriangle& face) {
-    const Vector2d &a = face.corners[0].screen, &b = face.corners[1].screen, &c = face.corners[2].screen;
-    const auto size = static_cast<double>(target.size);
-    const auto range = [size](double low, double high) {
-        return std::pair(static_cast<std::uint32_t>(std::clamp(std::floor(low), 0.0, size)),
-                         static_cast<std::uint32_t>(std::clamp(std::ceil(high), 0.0, size)));
-    };
-    const auto [x0, x1] = range(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}));
-    const auto [y0, y1] = range(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}));
-    const auto cross = [](const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); };
-    for (std::uint32_t y = y0; y < y1; ++y) {
-        for (std::uint32_t x = x0; x < x1; ++x) {
-            const Vector2d p(x + 0.5, y + 0.5);
-            const Vector3 w =
-                Vector3(cross(b - p, c - p), cross(c - p, a - p), cross(a - p, b - p)) / face.screen_area;
-            if (w.minCoeff() >= 0) {
-                draw_pixel(target, face, std::size_t{y} * target.size + x, w);
-            }
-        }
-    }
-}
-
 std::optional<ScreenTriangle> project_triangle(const RenderTarget& target,
                                                const Scene::PartInstance& instance, std::size_t f) {
     ScreenTriangle face;
@@ -274,22 +241,14 @@ std::optional<ScreenTriangle> project_triangle(const RenderTarget& target,
     face.material = material < materials.size() ? &materials[material] : &default_material;
     face.material_index = std::min(material, static_cast<Index>(materials.size()));
     const Camera& camera = target.camera;
-    const double half = target.size / 2.0;
     for (std::size_t k = 0; k < 3; ++k) {
         Corner& corner = face.corners[k];
         corner.vertex = face.part->triangles[f][k];
         corner.world = instance.positions[corner.vertex];
         corner.normal = instance.normals.empty() ? Vector3::Zero().eval() : instance.normals[corner.vertex];
-        const Vector3 d = corner.world - camera.eye;
-        const double depth = -d.dot(camera.back);
-        if (!(depth > 0)) return std::nullopt;
-        corner.inverse_depth = 1 / depth;
-        corner.screen = {half + half * d.dot(camera.right) / (depth * camera.tan_half_fov),
-                         half - half * d.dot(camera.up) / (depth * camera.tan_half_fov)};
+        face.screen[k] = project(camera, corner.world, target.size);
     }
-    const Vector2d u = face.corners[1].screen - face.corners[0].screen,
-                   v = face.corners[2].screen - face.corners[0].screen;
-    face.screen_area = u.x() * v.y() - u.y() * v.x();
+    face.screen_area = twice_area(face.screen);
     if (!(std::abs(face.screen_area) > 0)) return std::nullopt;
     face.normal = engine::area_vector(face.corners[0].world, face.corners[1].world, face.corners[2].world)
                       .stableNormalized();
@@ -317,7 +276,7 @@ void draw_scene(RenderTarget& target) {
             const auto face = project_triangle(target, instances[i], f);
             if (!face) continue;
             double nearness = 0;
-            for (const Corner& corner : face->corners) nearness += corner.inverse_depth;
+            for (const ScreenPoint& corner : face->screen) nearness += corner.inverse_depth;
             const bool is_blended = face->material->alpha_mode == AlphaMode::blend;
             (is_blended ? blended : opaque).push_back({nearness, i, f});
         }
@@ -327,8 +286,13 @@ void draw_scene(RenderTarget& target) {
     std::stable_sort(blended.begin(), blended.end(),
                      [](const DrawnFace& a, const DrawnFace& b) { return a.nearness < b.nearness; });
     for (const std::vector<DrawnFace>* const faces : {&opaque, &blended})
-        for (const DrawnFace& face : *faces)
-            draw_face(target, *project_triangle(target, instances[face.instance], face.face));
+        for (const DrawnFace& drawn : *faces) {
+            const ScreenTriangle face = *project_triangle(target, instances[drawn.instance], drawn.face);
+            for_each_pixel(face.screen, face.screen_area, target.size,
+                           [&](std::size_t pixel, const Vector3& w, double inverse_depth) {
+                               draw_pixel(target, face, pixel, w, inverse_depth);
+                           });
+        }
 }
 
 Frame downsample(const std::vector<Vector4f>& color, const std::vector<Index>& materials,

@@ -9,11 +9,10 @@
 #include "faqem/asset.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
+#include "render/camera.hpp"
 #include "render/texture.hpp"
 
 namespace faqem::render {
-
-using engine::Vector3;
 
 /// An asset in world space with decoded images.
 struct Scene {
@@ -35,24 +34,8 @@ struct Scene {
 /// drawn white, with a warning in Scene::warnings.
 FAQEM_EXPORT Scene make_scene(Asset asset);
 
-/// A perspective camera with a square field of view. `right`, `up` and `back` are orthonormal.
-struct Camera {
-    Vector3 eye = Vector3::Zero();
-    Vector3 right = Vector3::UnitX(), up = Vector3::UnitY(), back = Vector3::UnitZ();
-    double tan_half_fov = 0.2;  ///< tangent of half the field of view
-};
-
-/// Creates a camera that looks at `centre` from unit distance.
-/// \param centre     point in the centre of the image
-/// \param azimuth    rotation about the y axis in radians; 0: the camera looks from +z
-/// \param elevation  angle above the horizon in radians
-Camera orbit_camera(const Vector3& centre, double azimuth, double elevation);
-
-/// Distance from `centre` at which a camera with the given orientation sees the whole scene. O(faces)
-double fitting_distance(const Scene& scene, const Camera& camera, const Vector3& centre);
-
-/// Computes the axis-aligned bounding box of all faces. Returns false if there are no faces.
-bool bounding_box(const Scene& scene, Vector3& low, Vector3& high);
+/// The meshes of all instances. They refer to the scene.
+std::vector<PlacedMesh> placed_meshes(const Scene& scene);
 
 /// How surfaces are drawn.
 enum class Shading {

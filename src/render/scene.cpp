@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,26 +11,6 @@
 namespace faqem::render {
 
 namespace {
-
-/// Transform of positions and normals of an instance, and whether it reverses the winding.
-struct InstanceTransform {
-    Eigen::Matrix3d linear, normal;
-    Vector3 offset;
-    bool mirrored;
-};
-
-InstanceTransform instance_transform(const Instance& instance) {
-    const auto& m = instance.transform;
-    InstanceTransform transform;
-    transform.linear << m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10];
-    transform.offset = {m[12], m[13], m[14]};
-    // The cofactor matrix is the determinant times the inverse transpose, also defined if it is singular.
-    const Vector3 x = transform.linear.col(0), y = transform.linear.col(1), z = transform.linear.col(2);
-    transform.normal << y.cross(z), z.cross(x), x.cross(y);
-    transform.mirrored = x.dot(y.cross(z)) < 0;
-    if (transform.mirrored) transform.normal = -transform.normal;
-    return transform;
-}
 
 /// The instance of a part that its transform alone places: a posed part is added to the asset.
 Instance placed_instance(Asset& asset, const detail::PosedInstance& instance) {
@@ -84,17 +62,15 @@ Scene make_scene(Asset asset) {
     for (const std::size_t i : shown) {
         const Instance instance = placed_instance(scene.asset, all[i]);
         const Part& part = scene.asset.parts[instance.part];
-        const InstanceTransform transform = instance_transform(instance);
+        const detail::NormalTransform to_world(instance.transform);
         Scene::PartInstance part_instance;
         part_instance.part = instance.part;
-        part_instance.mirrored = transform.mirrored;
-        for (const Vec3& p : part.positions) {
-            part_instance.positions.push_back(transform.linear * engine::to_eigen(p) + transform.offset);
-        }
-        for (const Vec3f& n : part.normals) {
-            part_instance.normals.push_back(
-                (transform.normal * Vector3(n[0], n[1], n[2])).stableNormalized());
-        }
+        part_instance.mirrored = to_world.is_mirrored();
+        for (const Vec3& p : part.positions)
+            part_instance.positions.push_back(
+                engine::to_eigen(detail::transformed_point(instance.transform, p)));
+        for (const Vec3f& n : part.normals)
+            part_instance.normals.push_back(Eigen::Vector3f(to_world(n).data()).cast<double>());
         scene.faces += part.triangles.size();
         scene.parts.push_back(std::move(part_instance));
     }
@@ -102,47 +78,11 @@ Scene make_scene(Asset asset) {
     return scene;
 }
 
-Camera orbit_camera(const Vector3& centre, double azimuth, double elevation) {
-    Camera camera;
-    camera.back = {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                   std::cos(azimuth) * std::cos(elevation)};
-    camera.right = Vector3::UnitY().cross(camera.back).normalized();
-    camera.up = camera.back.cross(camera.right);
-    camera.eye = centre + camera.back;
-    return camera;
-}
-
-namespace {
-
-template <class Visit>
-void for_each_corner(const Scene& scene, Visit&& visit) {
-    for (const Scene::PartInstance& part_instance : scene.parts) {
-        for (const Triangle& t : scene.asset.parts[part_instance.part].triangles) {
-            for (const Index v : t) visit(part_instance.positions[v]);
-        }
-    }
-}
-
-}  // namespace
-
-double fitting_distance(const Scene& scene, const Camera& camera, const Vector3& centre) {
-    double distance = 0;
-    for_each_corner(scene, [&](const Vector3& p) {
-        const Vector3 d = p - centre;
-        const double off_axis = std::max(std::abs(d.dot(camera.right)), std::abs(d.dot(camera.up)));
-        distance = std::max(distance, d.dot(camera.back) + off_axis / camera.tan_half_fov);
-    });
-    return distance;
-}
-
-bool bounding_box(const Scene& scene, Vector3& low, Vector3& high) {
-    bool any = false;
-    for_each_corner(scene, [&](const Vector3& p) {
-        low = any ? low.cwiseMin(p) : p;
-        high = any ? high.cwiseMax(p) : p;
-        any = true;
-    });
-    return any;
+std::vector<PlacedMesh> placed_meshes(const Scene& scene) {
+    std::vector<PlacedMesh> result;
+    for (const Scene::PartInstance& instance : scene.parts)
+        result.push_back({instance.positions, scene.asset.parts[instance.part].triangles});
+    return result;
 }
 
 }  // namespace faqem::render

@@ -1,6 +1,5 @@
 #include "render/views.hpp"
 
-#include <algorithm>
 #include <array>
 #include <numbers>
 
@@ -11,24 +10,17 @@ namespace faqem::render {
 
 namespace {
 
-constexpr double first_azimuth = 0.35, margin = 1.04;
+constexpr double first_azimuth = 0.35;
 constexpr std::array<double, 2> elevations = {0.16, 0.42};  // radians: alternating low and higher views
 
 }  // namespace
 
 std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, std::uint32_t views) {
-    Vector3 low, high;
-    if (!bounding_box(scene, low, high)) throw InputError(file, "", "has no triangles");
-    const Vector3 centre = 0.5 * low + 0.5 * high;
     std::vector<Camera> result;
-    double distance = 0;
-    for (std::uint32_t i = 0; i < views; ++i) {
-        result.push_back(orbit_camera(centre, first_azimuth + 2 * std::numbers::pi * i / views,
+    for (std::uint32_t i = 0; i < views; ++i)
+        result.push_back(orbit_camera(first_azimuth + 2 * std::numbers::pi * i / views,
                                       elevations[i % elevations.size()]));
-        distance = std::max(distance, fitting_distance(scene, result.back(), centre));
-    }
-    if (!(distance > 0)) distance = 1;
-    for (Camera& camera : result) camera.eye = centre + margin * distance * camera.back;
+    if (!show_all(placed_meshes(scene), result)) throw InputError(file, "", "has no triangles");
     return result;
 }
 

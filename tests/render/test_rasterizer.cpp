@@ -14,8 +14,9 @@ constexpr std::uint32_t size = 64;
 Frame picture(const faqem::Asset& asset, Shading shading = Shading::unlit, double azimuth = 0,
               Edges edges = Edges::hidden) {
     const Scene scene = make_scene(asset);
-    Camera camera = orbit_camera(Vector3::Zero(), azimuth, 0);
-    camera.eye = camera.back * 1.1 * fitting_distance(scene, camera, Vector3::Zero());
+    Camera camera = orbit_camera(azimuth, 0);
+    show_all(placed_meshes(scene), {&camera, 1});
+    camera.eye *= 1.06;
     return render(scene, camera, size, shading, edges);
 }
 
@@ -76,7 +77,7 @@ TEST_CASE("texture coordinates are interpolated with perspective correction") {
     faqem::Asset asset = tool_test::sheet(1, 0);
     for (faqem::Vec3& p : asset.parts[0].positions) p = {p[0], p[1], -3 * p[0]};
     const Scene scene = make_scene(asset);
-    Camera camera = orbit_camera(Vector3::Zero(), 0, 0);
+    Camera camera = orbit_camera(0, 0);
     camera.tan_half_fov = 0.5;
     camera.eye = {0, 0, 6};
     const Frame frame = render(scene, camera, size, Shading::unlit, Edges::hidden);
@@ -133,8 +134,9 @@ TEST_CASE("an image that cannot be decoded is drawn white with a warning") {
 
 TEST_CASE("a scene without faces has no bounding box") {
     Vector3 low, high;
-    CHECK(!bounding_box(make_scene(faqem::Asset{}), low, high));
-    CHECK(bounding_box(make_scene(tool_test::sheet(1, 0)), low, high));
+    CHECK(!bounding_box(placed_meshes(make_scene(faqem::Asset{})), low, high));
+    const Scene scene = make_scene(tool_test::sheet(1, 0));
+    CHECK(bounding_box(placed_meshes(scene), low, high));
     CHECK(low == Vector3(-1, -1, 0));
     CHECK(high == Vector3(1, 1, 0));
 }

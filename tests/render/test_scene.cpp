@@ -15,7 +15,7 @@ TEST_CASE("pictures show meshes with their default morph weights") {
     builder.json["nodes"][0]["translation"] = {0, 0, 1};
     const Scene scene = make_scene(load_glb(builder));
     Vector3 low, high;
-    REQUIRE(bounding_box(scene, low, high));
+    REQUIRE(bounding_box(placed_meshes(scene), low, high));
     CHECK(low == Vector3(0, 0, 3));
     CHECK(high == Vector3(1, 1, 3));
     CHECK(scene.faces == 2);
@@ -33,7 +33,7 @@ TEST_CASE("pictures show skinned meshes in their pose") {
     builder.json["nodes"][0]["translation"] = {50, 0, 0};
     const Scene scene = make_scene(load_glb(builder));
     Vector3 low, high;
-    REQUIRE(bounding_box(scene, low, high));
+    REQUIRE(bounding_box(placed_meshes(scene), low, high));
     CHECK(low == Vector3(-1, 0, 7));
     CHECK(high == Vector3(0, 1, 7));
     REQUIRE(scene.parts.size() == 1);

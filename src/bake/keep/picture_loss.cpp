@@ -7,16 +7,18 @@
 #include <vector>
 
 #include "asset/image/srgb.hpp"
-#include "bake/keep/seen_points.hpp"
+#include "asset/scene/affine.hpp"
 #include "bake/parts/corner_normals.hpp"
 #include "bake/source/source_normals.hpp"
+#include "render/visible_points.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {
 
-using engine::to_eigen;
 using engine::Vector3;
+using render::Camera;
+using render::VisiblePoint;
 
 constexpr std::size_t view_count = 6;
 
@@ -31,58 +33,75 @@ using SizedShades = std::array<Shade, 2>;
 // Grey, so that neither dark nor bright surfaces stand out.
 constexpr Shade background = {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}};
 
-// The transform of normals of a part into the scene.
+// Where a part is in the scene.
 struct Placement {
-    Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
-    Eigen::Matrix3d normals = Eigen::Matrix3d::Identity();
+    explicit Placement(const std::array<double, 16>& transform) : matrix(transform), normals(transform) {
+        const Eigen::Map<const Eigen::Matrix4d> m(matrix.data());
+        const double volume = std::abs(m.topLeftCorner<3, 3>().determinant());
+        if (volume > 0 && std::isfinite(volume)) scale = std::cbrt(volume);
+    }
+
+    Vector3 unit_normal(const Vector3& n) const { return to_vector(normals(to_vec3f(n))); }
+
+    std::array<double, 16> matrix;
+    NormalTransform normals;
     double scale = 1;  // of lengths, the mean over the axes
 };
 
-Placement placement_of(const std::array<double, 16>& matrix) {
-    Placement result;
-    result.transform = Eigen::Map<const Eigen::Matrix4d>(matrix.data());
-    const Eigen::Matrix3d linear = result.transform.topLeftCorner<3, 3>();
-    const double volume = linear.determinant();
-    if (!(std::abs(volume) > 0) || !std::isfinite(volume)) return result;
-    result.normals = linear.inverse().transpose();
-    result.scale = std::cbrt(std::abs(volume));
-    return result;
-}
+// One version of the parts in the scene.
+struct PlacedParts {
+    void add(std::span<const Vec3> of_part, std::span<const Triangle> triangles, const Placement& at) {
+        std::vector<Vector3>& own = positions.emplace_back();
+        for (const Vec3& p : of_part) own.push_back(engine::to_eigen(transformed_point(at.matrix, p)));
+        meshes.push_back({own, triangles});
+    }
 
-PlacedMesh placed_mesh(Index part, std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                       const Placement& at) {
-    PlacedMesh result{part, triangles, {}};
-    result.positions.reserve(positions.size());
-    for (const Vec3& p : positions)
-        result.positions.push_back((at.transform * to_eigen(p).homogeneous()).head<3>());
-    return result;
-}
+    std::vector<std::vector<Vector3>> positions;  // by mesh
+    std::vector<render::PlacedMesh> meshes;
+};
+
+// How the surface at a point is seen.
+struct SeenSurface {
+    // \param own_winding  normal of the face in its part
+    SeenSurface(const render::PlacedMesh& mesh, const VisiblePoint& seen, const Vector3& own_winding,
+                const Placement& at, const Camera& seen_from)
+        : placement(at), camera(seen_from), winding(at.unit_normal(own_winding)) {
+        Vector3 from_eye = -camera.eye;
+        for (std::size_t k = 0; k < 3; ++k)
+            from_eye += seen.barycentric[k] * mesh.positions[mesh.triangles[seen.face][k]];
+        to_eye = -from_eye.stableNormalized();
+        const double side = 2 * camera.tan_half_fov * -from_eye.dot(camera.back);
+        picture_side = side / at.scale / std::max(0.1, std::abs(winding.dot(to_eye)));
+    }
+
+    // Longer side of a pixel's area on the face for a picture of one of the compared sizes.
+    double pixel(std::size_t size) const { return picture_side / compared_sizes[size]; }
+
+    const Placement& placement;
+    const Camera& camera;
+    Vector3 winding, to_eye;  // unit vectors in the scene
+    // Longer side of the picture's area on the face, in the part's units. Viewers filter textures by it. It is limited
+    // to ten times that of a face parallel to the picture.
+    double picture_side;
+};
 
 // The colour of a surface under one light from the upper left of the camera, with a highlight.
-Shade shade(const LinearColor& base, Vector3 normal, const Vector3& winding, const Placement& at,
-            const View& view) {
-    normal = (at.normals * normal).stableNormalized();
-    if ((at.normals * winding).dot(view.back) < 0) normal = -normal;
-    const Vector3 light = (view.back + 0.5 * view.up - 0.4 * view.right).normalized();
-    const double diffuse = 0.25 + 0.75 * std::max(0.0, normal.dot(light));
-    const double shine = std::max(0.0, normal.dot((light + view.back).normalized()));
+Shade shade(const LinearColor& base, const Vector3& own_normal, const SeenSurface& at) {
+    Vector3 normal = at.placement.unit_normal(own_normal);
+    if (at.winding.dot(at.to_eye) < 0) normal = -normal;
+    const Vector3 key = (at.camera.back + 0.5 * at.camera.up - 0.4 * at.camera.right).normalized();
+    const double diffuse = 0.25 + 0.75 * std::max(0.0, normal.dot(key));
+    const double shine = std::max(0.0, normal.dot((key + at.to_eye).normalized()));
     const double highlight = 0.1 * std::pow(shine, 24);
     Shade result{};
     for (std::size_t k = 0; k < 3; ++k) {
         // The background shows through: base colours are premultiplied.
         const double behind = 0.2 * (1 - static_cast<double>(base[3]));
-        const auto own = static_cast<double>(base[k]);
-        result.unlit[k] = srgb_from_linear(std::clamp(own + behind, 0.0, 1.0));
-        result.lit[k] = srgb_from_linear(std::clamp(own * diffuse + highlight * base[3] + behind, 0.0, 1.0));
+        const double lit = base[k] * diffuse + highlight * base[3];
+        result.unlit[k] = srgb_from_linear(std::clamp(base[k] + behind, 0.0, 1.0));
+        result.lit[k] = srgb_from_linear(std::clamp(lit + behind, 0.0, 1.0));
     }
     return result;
-}
-
-// Longer side of a pixel's area on a face, in the part's units, for a picture of one of the compared sizes. Viewers
-// filter textures by it. It is limited to ten times that of a face parallel to the picture.
-double pixel_on_surface(std::size_t size, const Vector3& winding, const Placement& at, const View& view) {
-    const double slope = std::abs((at.normals * winding).stableNormalized().dot(view.back));
-    return view.pixel * view.size / compared_sizes[size] / at.scale / std::max(0.1, slope);
 }
 
 void add_squares(PictureDifference& sum, const Shade& a, const Shade& b) {
@@ -95,28 +114,31 @@ void add_squares(PictureDifference& sum, const Shade& a, const Shade& b) {
 // The pictures of one set of parts.
 class Pictures {
 public:
-    Pictures(const ComparedScenes& scenes, std::span<const Index> parts) : scenes_(scenes) {
+    Pictures(const ComparedScenes& scenes, std::span<const Index> parts) : scenes_(scenes), parts_(parts) {
         std::vector<const Instance*> first(scenes.source.parts.size(), nullptr);
         const std::vector<Instance> all = instances(scenes.source);
         for (const Instance& instance : all)
             if (!first[instance.part]) first[instance.part] = &instance;
         for (const Index p : parts) {
-            placements_.push_back(first[p] ? placement_of(first[p]->transform) : Placement{});
-            const Placement& at = placements_.back();
+            const Placement& at =
+                placements_.emplace_back(first[p] ? first[p]->transform : identity_transform);
             const Part &part = scenes.source.parts[p], &kept = scenes.kept.parts[p];
             const TriangleMesh& baked = scenes.parts[p].simplified->mesh;
-            source_.push_back(placed_mesh(p, part.positions, part.triangles, at));
-            kept_.push_back(placed_mesh(p, kept.positions, kept.triangles, at));
-            baked_.push_back(placed_mesh(p, baked.positions, baked.triangles, at));
+            source_.add(part.positions, part.triangles, at);
+            kept_.add(kept.positions, kept.triangles, at);
+            baked_.add(baked.positions, baked.triangles, at);
         }
     }
 
     ComparedPictures compare(std::uint32_t size, const RunContext& context) const {
-        const std::vector<View> views = views_around(source_, view_count, size);
+        std::vector<Camera> cameras;
+        for (const Vector3& direction : render::even_directions(view_count))
+            cameras.push_back(render::camera_from(direction));
+        render::show_all(source_.meshes, cameras);
         std::vector<ComparedPictures> sums(view_count);
         parallel_blocks(view_count, 1, context,
                         [&](std::size_t v, std::size_t, const RunContext& block_context) {
-                            sums[v] = squares_of_view(views[v], block_context);
+                            sums[v] = squares_of_view(cameras[v], size, block_context);
                         });
         ComparedPictures result;
         for (const ComparedPictures& sum : sums) result.points += sum.points;
@@ -134,19 +156,21 @@ public:
     }
 
 private:
-    ComparedPictures squares_of_view(const View& view, const RunContext& context) const {
-        const std::vector<SeenPoint> of_source = seen_points(source_, view);
-        const std::vector<SeenPoint> of_kept = seen_points(kept_, view);
-        const std::vector<SeenPoint> of_baked = seen_points(baked_, view);
+    ComparedPictures squares_of_view(const Camera& camera, std::uint32_t size,
+                                     const RunContext& context) const {
+        const std::vector<VisiblePoint> of_source = render::visible_points(source_.meshes, camera, size);
+        const std::vector<VisiblePoint> of_kept = render::visible_points(kept_.meshes, camera, size);
+        const std::vector<VisiblePoint> of_baked = render::visible_points(baked_.meshes, camera, size);
         ComparedPictures sums;
         for (std::size_t i = 0; i < of_source.size(); ++i) {
-            const SeenPoint &source = of_source[i], &kept = of_kept[i], &baked = of_baked[i];
+            const VisiblePoint &source = of_source[i], &kept = of_kept[i], &baked = of_baked[i];
             const bool is_empty = source.mesh == no_index && kept.mesh == no_index && baked.mesh == no_index;
             if (is_empty) continue;
             context.count(8 * map_query_cost);
-            const auto wanted = shade_original(scenes_.source_sampler, scenes_.source, source, view);
-            const auto with_kept = shade_original(scenes_.kept_sampler, scenes_.kept, kept, view);
-            const auto with_baked = shade_baked(baked, view);
+            const auto wanted =
+                shade_original(scenes_.source_sampler, scenes_.source, source_, source, camera);
+            const auto with_kept = shade_original(scenes_.kept_sampler, scenes_.kept, kept_, kept, camera);
+            const auto with_baked = shade_baked(baked, camera);
             for (std::size_t s = 0; s < sums.differences.size(); ++s) {
                 add_squares(sums.differences[s].kept, wanted[s], with_kept[s]);
                 add_squares(sums.differences[s].baked, wanted[s], with_baked[s]);
@@ -157,49 +181,49 @@ private:
     }
 
     // A point of an asset that has the sampler's images.
-    SizedShades shade_original(const SourceSampler& sampler, const Asset& asset, const SeenPoint& seen,
-                               const View& view) const {
+    SizedShades shade_original(const SourceSampler& sampler, const Asset& asset, const PlacedParts& placed,
+                               const VisiblePoint& seen, const Camera& camera) const {
         if (seen.mesh == no_index) return {background, background};
-        const Index p = source_[seen.mesh].part;
-        const Placement& at = placements_[seen.mesh];
+        const Index p = parts_[seen.mesh];
         const SurfacePoint point{seen.face, seen.barycentric};
         const Vector3 winding = winding_normal(asset.parts[p].positions, asset.parts[p].triangles[seen.face]);
+        const SeenSurface at(placed.meshes[seen.mesh], seen, winding, placements_[seen.mesh], camera);
         SizedShades result;
         for (std::size_t s = 0; s < result.size(); ++s) {
-            const double spacing = pixel_on_surface(s, winding, at, view);
-            result[s] = shade(sampler.sample(p, point, spacing).base,
-                              sampler.normal(p, point, spacing, winding), winding, at, view);
+            const double spacing = at.pixel(s);
+            result[s] =
+                shade(sampler.sample(p, point, spacing).base, sampler.normal(p, point, spacing, winding), at);
         }
         return result;
     }
 
     // A point of a mesh that would be baked.
-    SizedShades shade_baked(const SeenPoint& seen, const View& view) const {
+    SizedShades shade_baked(const VisiblePoint& seen, const Camera& camera) const {
         if (seen.mesh == no_index) return {background, background};
-        const Index p = source_[seen.mesh].part;
-        const Placement& at = placements_[seen.mesh];
+        const Index p = parts_[seen.mesh];
         const BakePart& part = scenes_.parts[p];
         const SurfacePoint point = part.map->map(seen.face, seen.barycentric);
         const Vector3 winding = oriented_face_normal(part, seen.face);
+        const SeenSurface at(baked_.meshes[seen.mesh], seen, winding, placements_[seen.mesh], camera);
         Vector3 own_normal = Vector3::Zero();
         for (std::size_t k = 0; k < 3; ++k)
             own_normal +=
                 seen.barycentric[k] * to_vector(part.normals.normals[std::size_t{3} * seen.face + k]);
         SizedShades result;
         for (std::size_t s = 0; s < result.size(); ++s) {
-            const double spacing = pixel_on_surface(s, winding, at, view) + scenes_.page_texels[p];
+            const double spacing = at.pixel(s) + scenes_.page_texels[p];
             const Vector3 normal = scenes_.gets_normal_map[p]
                                        ? scenes_.source_sampler.normal(p, point, spacing, winding)
                                        : own_normal;
-            result[s] =
-                shade(scenes_.source_sampler.sample(p, point, spacing).base, normal, winding, at, view);
+            result[s] = shade(scenes_.source_sampler.sample(p, point, spacing).base, normal, at);
         }
         return result;
     }
 
     const ComparedScenes& scenes_;
+    std::span<const Index> parts_;       // by mesh of the pictures
     std::vector<Placement> placements_;  // by mesh of the pictures
-    std::vector<PlacedMesh> source_, kept_, baked_;
+    PlacedParts source_, kept_, baked_;
 };
 
 }  // namespace

@@ -40,11 +40,11 @@ struct ComparedPictures {
     std::uint64_t points = 0;                 ///< pixels that show something
 };
 
-/// Compares some parts in 6 views without perspective that show all of them, each at its first instance. New
+/// Compares some parts in 6 pictures that show all of them, from directions all around, each at its first instance. New
 /// images are taken to be perfect: the colours are those of the source, at the points that the map gives, and blurred
 /// by a texel of the page.
 /// \param parts  indices of parts that have faces in the source and in both versions
-/// \param size   number of rows and columns of points that are compared in each view
+/// \param size   number of rows and columns of points that are compared in each picture
 /// \throws engine::Cancelled
 /// Complexity: O(faces + size^2 log faces). The result does not depend on the number of threads.
 ComparedPictures compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts,

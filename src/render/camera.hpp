@@ -1,0 +1,62 @@
+#pragma once
+/// \file
+/// Cameras, and meshes that they see.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/mesh.hpp"
+
+namespace faqem::render {
+
+using engine::Vector3;
+
+/// A mesh in world space.
+struct PlacedMesh {
+    std::span<const Vector3> positions;  ///< by vertex
+    std::span<const Triangle> triangles;
+};
+
+/// A perspective camera with a square field of view. `right`, `up` and `back` are orthonormal.
+struct Camera {
+    Vector3 eye = Vector3::Zero();
+    Vector3 right = Vector3::UnitX(), up = Vector3::UnitY(), back = Vector3::UnitZ();
+    double tan_half_fov = 0.2;  ///< tangent of half the field of view
+};
+
+/// Creates a camera that looks at the origin. \param back  unit vector towards the camera, not along the y axis
+Camera camera_from(const Vector3& back);
+
+/// Creates a camera that looks at the origin from the horizon or above it.
+/// \param azimuth    rotation about the y axis in radians; 0: the camera looks from +z
+/// \param elevation  angle above the horizon in radians
+Camera orbit_camera(double azimuth, double elevation);
+
+/// Unit vectors along a spiral about the y axis, evenly distributed over the sphere.
+std::vector<Vector3> even_directions(std::size_t count);
+
+/// Computes the axis-aligned bounding box of all faces. Returns false if there are no faces.
+bool bounding_box(std::span<const PlacedMesh> meshes, Vector3& low, Vector3& high);
+
+/// Moves cameras to the same distance from the centre of all faces, at which each of them sees all.
+/// \return false, without changing anything, if there are no faces
+/// Complexity: O(cameras faces).
+bool show_all(std::span<const PlacedMesh> meshes, std::span<Camera> cameras);
+
+/// A point in a picture.
+struct ScreenPoint {
+    Eigen::Vector2d at;  ///< in pixels, y points down
+    double inverse_depth =
+        0;  ///< 1 / distance along the view axis, which is linear in the picture; > 0 if it is seen
+};
+
+/// The corners of a face in a picture.
+using ScreenFace = std::array<ScreenPoint, 3>;
+
+/// Projects a point into a picture with the given side in pixels.
+ScreenPoint project(const Camera& camera, const Vector3& point, std::uint32_t size);
+
+}  // namespace faqem::render

@@ -1,0 +1,75 @@
+#pragma once
+/// \file
+/// The pixels of a face, and pictures that tell which point of which face is seen at every pixel.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "render/camera.hpp"
+
+namespace faqem::render {
+
+/// Cross product: positive if b is counter-clockwise from a in a right-handed plane.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Twice the signed area of a face in a picture; 0 if it is not completely in front of the camera.
+inline double twice_area(const ScreenFace& face) {
+    for (const ScreenPoint& corner : face)
+        if (!(corner.inverse_depth > 0)) return 0;
+    return cross(face[1].at - face[0].at, face[2].at - face[0].at);
+}
+
+/// Converts barycentric coordinates in a picture to those on the face.
+inline Vector3 perspective_weights(const ScreenFace& face, const Vector3& screen_weights) {
+    Vector3 w;
+    for (int k = 0; k < 3; ++k) w[k] = screen_weights[k] * face[static_cast<std::size_t>(k)].inverse_depth;
+    return w / w.sum();
+}
+
+/// Calls visit(pixel, weights, inverse_depth) for the pixels whose centres a face covers, row by row.
+/// \param area   twice_area(face), not 0
+/// \param size   width and height of the picture in pixels
+/// \param visit  is given the index of the pixel, and barycentric coordinates in the picture
+template <class Visit>
+void for_each_pixel(const ScreenFace& face, double area, std::uint32_t size, const Visit& visit) {
+    const Eigen::Vector2d &a = face[0].at, &b = face[1].at, &c = face[2].at;
+    const auto range = [size](double low, double high) {
+        return std::pair(static_cast<std::uint32_t>(std::clamp<double>(std::floor(low), 0, size)),
+                         static_cast<std::uint32_t>(std::clamp<double>(std::ceil(high), 0, size)));
+    };
+    const auto [x0, x1] = range(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}));
+    const auto [y0, y1] = range(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}));
+    for (std::uint32_t y = y0; y < y1; ++y) {
+        for (std::uint32_t x = x0; x < x1; ++x) {
+            const Eigen::Vector2d p(x + 0.5, y + 0.5);
+            const Vector3 w = Vector3(cross(b - p, c - p), cross(c - p, a - p), cross(a - p, b - p)) / area;
+            if (!(w.minCoeff() >= 0)) continue;
+            double inverse_depth = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                inverse_depth += w[static_cast<Eigen::Index>(k)] * face[k].inverse_depth;
+            visit(std::size_t{y} * size + x, w, inverse_depth);
+        }
+    }
+}
+
+/// The point of a mesh that is seen at a pixel.
+struct VisiblePoint {
+    Index mesh = no_index;  ///< index into the meshes of the picture; no_index: nothing is seen
+    Index face = 0;
+    Vec3 barycentric = {};
+};
+
+/// Draws meshes; both sides of every face are seen. Of points at the same depth, that of the first face is taken.
+/// \param size  width and height of the picture in pixels
+/// \return size * size points, top row first
+/// Complexity: O(faces + pixels of their bounding boxes).
+std::vector<VisiblePoint> visible_points(std::span<const PlacedMesh> meshes, const Camera& camera,
+                                         std::uint32_t size);
+
+}  // namespace faqem::render
