@@ -29,7 +29,7 @@ Camera from_above() {
 }  // namespace
 
 TEST_CASE("visible points: each pixel shows the point of the nearest face under its centre") {
-    const Part part = square();
+    const Part part = faqem::test::square();
     const std::vector<Vector3> low = positions(part, -1), high = positions(part, 0);
     const std::vector<PlacedMesh> meshes = {
         {low, part.triangles}, {high, part.triangles}, {high, part.triangles}};
@@ -49,7 +49,7 @@ TEST_CASE("visible points: each pixel shows the point of the nearest face under 
 }
 
 TEST_CASE("visible points: barycentric coordinates are those on a face that recedes") {
-    const Part part = square();
+    const Part part = faqem::test::square();
     std::vector<Vector3> receding = positions(part, 0);
     for (Vector3& p : receding) p.z() = -5 * p.x();
     const std::vector<PlacedMesh> meshes = {{receding, part.triangles}};
@@ -70,7 +70,7 @@ TEST_CASE(
     "visible points: nothing is seen beside the meshes or behind the camera, and faces without area or with "
     "huge "
     "coordinates are left out") {
-    const Part part = square();
+    const Part part = faqem::test::square();
     const std::vector<Vector3> own = positions(part, 0);
     const auto sees_nothing = [](const PlacedMesh& mesh, const Camera& camera) {
         for (const VisiblePoint& point : visible_points({&mesh, 1}, camera, 3))
@@ -92,7 +92,7 @@ TEST_CASE(
 }
 
 TEST_CASE("cameras in even directions show the whole scene") {
-    const Part part = square();
+    const Part part = faqem::test::square();
     const std::vector<Vector3> low = positions(part, -3), high = positions(part, 4);
     const std::vector<PlacedMesh> meshes = {{low, part.triangles}, {high, part.triangles}};
     std::vector<Camera> cameras;
