@@ -113,7 +113,7 @@ struct Part {
     std::string name;
     std::vector<Vec3> positions;       ///< V
     std::vector<Triangle> triangles;   ///< F, indices < V
-    std::vector<Index> face_material;  ///< F, indices into Asset::materials; no_index: the default material
+    std::vector<Index> face_material;  ///< F, indices into Asset::materials; no_index: the default one, in glTF metal
     std::vector<Vec3f> normals;        ///< empty or V; a zero vector if the file has no normal for a vertex
     std::vector<Vec4f> tangents;       ///< empty or V
     std::vector<std::vector<Vec2f>> uvs;  ///< UV sets of V entries each, v pointing down as in glTF

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "asset/scene/material_textures.hpp"
-
 namespace faqem::detail {
 namespace {
 
@@ -33,11 +31,6 @@ bool has_plain_materials(const Asset& asset, const BakeOptions& bake) {
            std::none_of(asset.parts.begin(), asset.parts.end(), [](const Part& part) {
                return !part.colors.empty() || !part.joints.empty() || !part.morph_targets.empty();
            });
-}
-
-const Material& material_or_default(const Asset& asset, Index material) {
-    static const Material standard;
-    return material == no_index ? standard : asset.materials[material];
 }
 
 std::vector<Index> materials_of(const Part& part) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "asset/scene/material_textures.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
 #include "faqem/options.hpp"
@@ -31,9 +32,6 @@ struct MaterialGroups {
         return group_of_material[material == no_index ? group_of_material.size() - 1 : material];
     }
 };
-
-/// The material with the given index; the default material for `no_index`.
-const Material& material_or_default(const Asset& asset, Index material);
 
 /// Material index of a face of a part; `no_index` if the part has no materials.
 inline Index face_material(const Part& part, std::size_t face) {

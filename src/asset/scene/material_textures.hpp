@@ -147,4 +147,17 @@ inline bool has_textures(const Material& material) {
     return result;
 }
 
+/// The material with the given index. For `no_index` the default material: that of glTF, which is metal, in scenes that
+/// were read from glTF, otherwise one that is no metal, since other formats have none.
+inline const Material& material_or_default(const Asset& asset, Index material) {
+    static const Material gltf;
+    static const Material plain = [] {
+        Material result;
+        result.metallic = 0;
+        return result;
+    }();
+    if (material != no_index) return asset.materials[material];
+    return asset.source ? gltf : plain;
+}
+
 }  // namespace faqem::detail

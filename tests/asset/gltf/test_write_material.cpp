@@ -273,3 +273,16 @@ TEST_CASE(
     CHECK(baked["samplers"][0]["minFilter"] == 9984);
     CHECK_FALSE(baked["textures"][0].contains("name"));
 }
+
+TEST_CASE(
+    "faces without a material are no metal, except those of a glTF file, which are written without one") {
+    Asset asset = new_square();
+    asset.parts[0].face_material = {no_index, no_index};
+    const Json json = json_of(saved(asset));
+    CHECK(json["materials"] == Json::parse(R"([{"pbrMetallicRoughness":{"metallicFactor":0}}])"));
+    CHECK(json["meshes"][0]["primitives"][0]["material"] == 0);
+
+    const Json again = through(square_gltf());
+    CHECK_FALSE(again.contains("materials"));
+    CHECK_FALSE(again["meshes"][0]["primitives"][0].contains("material"));
+}

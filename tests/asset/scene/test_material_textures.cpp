@@ -1,5 +1,7 @@
 #include "asset/scene/material_textures.hpp"
 
+#include "asset/gltf/source_document.hpp"
+
 #include <set>
 #include <type_traits>
 #include <vector>
@@ -82,4 +84,13 @@ TEST_CASE("a material without textures has none of their factors") {
     CHECK(material.normal_scale == 1);
     CHECK(material.occlusion_strength == 1);
     CHECK(material.extension_textures.empty());
+}
+
+TEST_CASE("the default material is metal in scenes of glTF only") {
+    Asset asset;
+    CHECK(material_or_default(asset, no_index).metallic == 0);
+    asset.source = std::make_shared<SourceDocument>();
+    CHECK(material_or_default(asset, no_index).metallic == 1);
+    asset.materials.resize(1);
+    CHECK(&material_or_default(asset, 0) == &asset.materials[0]);
 }

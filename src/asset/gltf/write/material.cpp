@@ -250,7 +250,8 @@ Json material_json(GltfWriter& writer, const Material& material) {
 Index write_material(GltfWriter& writer, Index material) {
     const auto [entry, is_new] = writer.asset_materials.try_emplace(material, no_index);
     if (is_new)
-        entry->second = append(writer, "materials", material_json(writer, writer.asset.materials[material]));
+        entry->second =
+            append(writer, "materials", material_json(writer, material_or_default(writer.asset, material)));
     return entry->second;
 }
 

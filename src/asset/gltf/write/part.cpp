@@ -424,7 +424,9 @@ void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json
                 part.file_order == FileOrder::for_gpu ? AccessorUse::triangles : AccessorUse::indices);
         }
         if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data, grid);
-        if (material != no_index) primitive["material"] = write_material(writer, material);
+        // Without a material glTF means metal, which only a glTF file can have meant.
+        if (material != no_index || !writer.asset.source)
+            primitive["material"] = write_material(writer, material);
         keep_manifold(writer, part, data, primitive, mesh_extensions);
         if (names_groups) add_group_names(part, faces, primitive);
         primitives.push_back(std::move(primitive));

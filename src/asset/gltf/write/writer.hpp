@@ -77,7 +77,7 @@ Index copy_image(GltfWriter& writer, Index image);
 /// Computes GltfWriter::source_image_of.
 void find_source_images(GltfWriter& writer);
 
-/// Writes an asset material on first use. Returns the output material.
+/// Writes an asset material, or for no_index the default one, on first use. Returns the output material.
 Index write_material(GltfWriter& writer, Index material);
 
 /// Writes a source material that is used by a copied primitive or a material variant, on first use.
