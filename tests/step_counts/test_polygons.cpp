@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "asset/formats/triangulate.hpp"
+#include "asset/scene/triangulate.hpp"
 #include "step_counts/steps.hpp"
 #include "support/catch.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "asset/formats/corner_vertices.hpp"
+#include "asset/scene/corner_vertices.hpp"
 #include "asset/scene/repair.hpp"
 
 namespace faqem::detail {

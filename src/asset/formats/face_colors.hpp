@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "asset/formats/triangulate.hpp"
+#include "asset/scene/triangulate.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {

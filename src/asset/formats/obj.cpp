@@ -8,15 +8,15 @@
 #include <map>
 #include <string_view>
 
-#include "asset/formats/corner_vertices.hpp"
 #include "asset/formats/mtl_material.hpp"
 #include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/referenced_images.hpp"
-#include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
+#include "asset/scene/corner_vertices.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "asset/scene/repair.hpp"
+#include "asset/scene/triangulate.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

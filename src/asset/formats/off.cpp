@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "asset/formats/face_colors.hpp"
-#include "asset/formats/triangulate.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/repair.hpp"
+#include "asset/scene/triangulate.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "asset/formats/corner_vertices.hpp"
 #include "asset/formats/referenced_images.hpp"
+#include "asset/scene/corner_vertices.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/repair.hpp"
 

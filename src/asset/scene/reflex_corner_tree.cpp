@@ -1,4 +1,4 @@
-#include "asset/formats/reflex_corner_tree.hpp"
+#include "asset/scene/reflex_corner_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "asset/formats/triangulate.hpp"
+#include "asset/scene/triangulate.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "asset/formats/reflex_corner_tree.hpp"
+#include "asset/scene/reflex_corner_tree.hpp"
 #include "asset/scene/repair.hpp"
 
 namespace faqem::detail {

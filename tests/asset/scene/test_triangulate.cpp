@@ -3,7 +3,7 @@
 #include <map>
 #include <random>
 
-#include "asset/formats/triangulate.hpp"
+#include "asset/scene/triangulate.hpp"
 #include "support/catch.hpp"
 
 using namespace faqem;

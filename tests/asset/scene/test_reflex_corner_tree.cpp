@@ -2,7 +2,7 @@
 #include <numeric>
 #include <random>
 
-#include "asset/formats/reflex_corner_tree.hpp"
+#include "asset/scene/reflex_corner_tree.hpp"
 #include "support/catch.hpp"
 
 using namespace faqem;
