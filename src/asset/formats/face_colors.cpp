@@ -1,7 +1,10 @@
 #include "asset/formats/face_colors.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
+#include "asset/image/srgb.hpp"
 #include "asset/scene/corner_vertices.hpp"
 #include "asset/scene/repair.hpp"
 
@@ -24,6 +27,21 @@ void set_face_colors(Part& part, Polygons& polygons, const std::vector<Vec4f>& c
     for (std::size_t v = 0; v < part.colors.size(); ++v) {
         const Index color = vertices.corner(v)[1];
         if (color != no_index) part.colors[v] = distinct.values()[color];
+    }
+}
+
+void divide_byte_colors(double largest, std::initializer_list<std::vector<Vec4f>*> colors,
+                        std::vector<std::string>& warnings) {
+    constexpr double largest_unit_color = 2;
+    if (!(largest > largest_unit_color)) return;
+    warnings.push_back("colours stored as numbers up to " +
+                       std::to_string(static_cast<int>(std::ceil(largest))) + " are divided by 255");
+    for (std::vector<Vec4f>* const list : colors) {
+        for (Vec4f& c : *list) {
+            for (std::size_t k = 0; k < 3; ++k)
+                c[k] = static_cast<float>(linear_from_srgb(srgb_from_linear(c[k]) / 255));
+            c[3] = std::min(c[3] / 255, 1.0f);
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Colours of faces as vertex colours.
+/// Colours of faces as vertex colours, and colours from 0 to 255.
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,13 @@ namespace faqem::detail {
 /// \throws InputError  there are more vertices than indices
 void set_face_colors(Part& part, Polygons& polygons, const std::vector<Vec4f>& colors,
                      const std::string& file);
+
+/// Divides colours by 255, with a warning, if they were stored as numbers from 0 to 255. Numbers up to 2 are from 0 to
+/// 1, possibly overexposed.
+/// \param largest   number of a colour up to 255, as stored
+/// \param colors    linear, as if the numbers were from 0 to 1
+/// \param warnings  receives the warning
+void divide_byte_colors(double largest, std::initializer_list<std::vector<Vec4f>*> colors,
+                        std::vector<std::string>& warnings);
 
 }  // namespace faqem::detail

@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "asset/formats/mtl_material.hpp"
+#include "asset/formats/obj_colors.hpp"
 #include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/referenced_images.hpp"
-#include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/corner_vertices.hpp"
 #include "asset/scene/part_arrays.hpp"
@@ -31,7 +31,7 @@ constexpr std::array<const char*, 3> corner_index_names = {"position", "texture 
 /// The statements of an OBJ file as written, with indices starting at 0.
 struct ObjStatements {
     std::vector<Vec3> positions;
-    std::vector<Vec3f> colors;  // empty, or one per position
+    std::vector<Vec4f> colors;  // empty, or one per position
     std::vector<Vec2f> uvs;
     std::vector<Vec3f> normals;
     std::vector<ObjCorner> corners;
@@ -53,11 +53,14 @@ public:
         : in_(text, file, Continuation::yes), warnings_(warnings) {}
 
     ObjStatements run() {
-        while (in_.skip_to_content()) {
-            statement(in_.word());
-            in_.next_line();
+        for (; !in_.at_end(); in_.next_line()) {
+            if (ObjColors::is_block(in_.remaining()))
+                colors_.read_block(in_);
+            else if (!in_.at_line_end())
+                statement(in_.word());
         }
         check_forward_references();
+        out_.colors = colors_.finish(warnings_);
         add_warnings();
         return std::move(out_);
     }
@@ -99,14 +102,8 @@ private:
             in_.fail("v has " + std::to_string(count) + " numbers; expected 3, 4, 6 or 7");
         weights_ += (count == 4 && n[3] != 1) || count == 7;
         out_.positions.push_back({n[0], n[1], n[2]});
-        if (count >= 6 && out_.colors.empty()) out_.colors.resize(out_.positions.size() - 1, {1, 1, 1});
-        if (count >= 6)
-            out_.colors.push_back({linear(n[3]), linear(n[4]), linear(n[5])});
-        else if (!out_.colors.empty())
-            out_.colors.push_back({1, 1, 1});
+        colors_.add_position(std::span(n).subspan(3, count >= 6 ? 3 : 0));
     }
-
-    static float linear(double display) { return static_cast<float>(linear_from_srgb(display)); }
 
     void uv() {
         Vec2f uv = {in_.number<float>(), 0};
@@ -135,6 +132,7 @@ private:
     }
 
     void face() {
+        colors_.add_face();
         const std::size_t first = out_.corners.size();
         while (!in_.at_line_end()) out_.corners.push_back(corner());
         const std::size_t count = out_.corners.size() - first;
@@ -224,6 +222,7 @@ private:
     TextScanner in_;
     std::vector<std::string>& warnings_;
     ObjStatements out_;
+    ObjColors colors_;
     Numbers material_numbers_, object_numbers_, group_numbers_;
     Index material_ = no_index, object_ = no_index, group_ = no_index;
     std::array<ForwardReference, 3> highest_;  // largest forward reference of each kind
@@ -245,8 +244,7 @@ void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& co
     for (std::size_t v = 0; v < count; ++v) {
         const ObjCorner c = corner_vertices.corner(v);
         part.positions[v] = in.positions[c[0]];
-        if (!in.colors.empty())
-            part.colors[v] = {in.colors[c[0]][0], in.colors[c[0]][1], in.colors[c[0]][2], 1};
+        if (!in.colors.empty()) part.colors[v] = in.colors[c[0]];
         if (c[1] != no_index) part.uvs[0][v] = in.uvs[c[1]];
         if (c[2] != no_index) part.normals[v] = in.normals[c[2]];
     }

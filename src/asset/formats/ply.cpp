@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "asset/formats/face_colors.hpp"
 #include "asset/formats/ply_content.hpp"
 #include "asset/formats/ply_data.hpp"
 #include "asset/formats/ply_header.hpp"
@@ -61,18 +62,6 @@ VertexProperty vertex_property(const PlyProperty& property) {
     return skipped;
 }
 
-/// Colours stored as floats up to this value are from 0 to 1, possibly overexposed.
-constexpr double largest_unit_color = 2;
-
-/// Divides colours stored as floats from 0 to 255 by 255.
-void rescale_colors(std::vector<Vec4f>& colors) {
-    for (Vec4f& c : colors) {
-        for (std::size_t k = 0; k < 3; ++k)
-            c[k] = static_cast<float>(linear_from_srgb(srgb_from_linear(c[k]) / 255));
-        c[3] = std::min(c[3] / 255, 1.0f);
-    }
-}
-
 /// Reads the elements of a PLY file.
 /// \tparam Data  PlyAsciiData or PlyBinaryData
 template <class Data>
@@ -98,13 +87,7 @@ public:
         if (data_.remaining_bytes())
             warnings_.push_back(pluralized(data_.remaining_bytes(), "byte") +
                                 " after the last element ignored");
-        if (largest_float_color_ > largest_unit_color) {
-            warnings_.push_back("colours stored as floats up to " +
-                                std::to_string(static_cast<int>(std::ceil(largest_float_color_))) +
-                                " are divided by 255");
-            rescale_colors(part_.colors);
-            rescale_colors(faces_.colors);
-        }
+        divide_byte_colors(largest_float_color_, {&part_.colors, &faces_.colors}, warnings_);
         return std::move(content_);
     }
 

@@ -108,6 +108,20 @@ def obj_colors(runs):
     expect("COLOR_0" in runs.kept("a.obj").primitive()["attributes"], "kept")
     runs.write("a.obj", obj_vertices(" 2") + obj_faces(triangles))
     expect_repair(runs, "a.obj", "with a weight")
+    runs.write("a.obj", obj_vertices(" 204 51 0") + obj_faces(triangles))
+    expect_repair(runs, "a.obj", "divided by 255")
+    expect(runs.baked("a.obj").has_color((0.8, 0.2, 0, 1)), "from 0 to 255")
+
+
+@row("OBJ", "`#MRGB`")
+def zbrush_colors(runs):
+    positions, _, triangles = grid()
+    block = "".join("#MRGB ffcc3300\n" for _ in positions)
+    runs.write("a.obj", obj_vertices() + block + obj_faces(triangles))
+    expect_no_warning(runs, "a.obj")
+    expect(runs.baked("a.obj").has_color((0.8, 0.2, 0, 1)), "baked")
+    runs.write("a.obj", obj_vertices() + "#MRGB 0\n" + block + obj_faces(triangles))
+    expect_repair(runs, "a.obj", "1 line of #MRGB")
 
 
 @row("OBJ", "`l`, `p`, other statements")
