@@ -91,18 +91,23 @@ static void data_that_the_format_cannot_store_is_a_warning(void) {
     CHECK(faqem_asset_save(asset, file, (faqem_overwrite)5, NULL) == FAQEM_ERROR_OPTION);
     faqem_asset_destroy(asset);
 
-    FILE* coloured = fopen("test_c.obj", "w");
-    CHECK(coloured && fputs("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\ns 1\nf 1 2 3\n", coloured) >= 0);
+    FILE* coloured = fopen("test_c.ply", "w");
+    CHECK(coloured && fputs("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                            "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+                            "property uchar blue\nproperty float quality\nelement face 1\n"
+                            "property list uchar int vertex_indices\nend_header\n0 0 0 255 0 0 1\n"
+                            "1 0 0 0 255 0 1\n0 1 0 0 0 255 1\n3 0 1 2\n",
+                            coloured) >= 0);
     CHECK(fclose(coloured) == 0);
-    CHECK(faqem_asset_load("test_c.obj", &asset, NULL) == FAQEM_OK);
+    CHECK(faqem_asset_load("test_c.ply", &asset, NULL) == FAQEM_OK);
     CHECK(faqem_asset_warning_count(asset) == 0 && faqem_asset_not_understood_count(asset) == 1);
-    CHECK(strcmp(faqem_asset_not_understood(asset, 0), "'s': 1 statement") == 0);
+    CHECK(strcmp(faqem_asset_not_understood(asset, 0), "property 'quality' of vertex") == 0);
     CHECK(faqem_asset_not_understood(asset, 1) == NULL);
     CHECK(faqem_asset_save(asset, "test_c.stl", FAQEM_OVERWRITE_YES, NULL) == FAQEM_OK);
     CHECK(faqem_asset_warning_count(asset) > 0);
     CHECK(strstr(faqem_asset_warning(asset, 0), "STL") != NULL);
     faqem_asset_destroy(asset);
-    CHECK(remove("test_c.obj") == 0 && remove("test_c.stl") == 0);
+    CHECK(remove("test_c.ply") == 0 && remove("test_c.stl") == 0);
 }
 
 static void null_arguments_are_accepted(void) {

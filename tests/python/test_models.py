@@ -144,9 +144,10 @@ class Models(unittest.TestCase):
         self.assertTrue(any("STL" in warning for warning in model.warnings))
 
     def test_statements_that_were_not_understood_are_counted(self):
-        file = self.folder / "smooth.obj"
-        file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\ns 1\nf 1 2 3\n")
-        self.assertEqual(faqem.load(file).not_understood, ["'s': 1 statement"])
+        (self.folder / "shiny.mtl").write_text("newmtl m\nKs 1 1 1\n")
+        file = self.folder / "shiny.obj"
+        file.write_text("mtllib shiny.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")
+        self.assertEqual(faqem.load(file).not_understood, ["'Ks': 1 statement"])
 
     def test_errors_have_specific_types(self):
         for absent in (self.folder / "missing.glb", self.folder):

@@ -11,6 +11,7 @@
 #include "asset/formats/mtl_material.hpp"
 #include "asset/formats/obj_colors.hpp"
 #include "asset/formats/obj_libraries.hpp"
+#include "asset/formats/obj_smoothing.hpp"
 #include "asset/formats/referenced_images.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/corner_vertices.hpp"
@@ -43,6 +44,7 @@ struct ObjStatements {
     std::vector<std::string> objects;
     std::vector<Index> face_group;  // indices into groups; no_index for the default group
     std::vector<std::string> groups;
+    std::vector<std::int64_t> face_smoothing;
     IgnoredStatements ignored;
 };
 
@@ -86,7 +88,7 @@ private:
         else if (key == "g")
             group();
         else if (key == "s")
-            ++smoothing_groups_;
+            smoothing_ = smoothing_group(in_.word());
         else if (unknown_++ == 0)
             first_unknown_ = TextScanner::quoted(key) + " in line " + std::to_string(in_.line());
     }
@@ -142,6 +144,7 @@ private:
         out_.face_material.push_back(material_);
         out_.face_object.push_back(object_);
         out_.face_group.push_back(group_);
+        out_.face_smoothing.push_back(smoothing_);
     }
 
     /// Parses v, v/t, v//n or v/t/n. Some exporters write `v/` and `v/t/`, where the index after the last
@@ -202,7 +205,6 @@ private:
     }
 
     void add_warnings() {
-        if (smoothing_groups_) out_.ignored["'s'"] = smoothing_groups_;
         if (lines_and_points_)
             warnings_.push_back(pluralized(lines_and_points_, "line or point statement") +
                                 " ignored: only faces are supported");
@@ -226,7 +228,8 @@ private:
     Numbers material_numbers_, object_numbers_, group_numbers_;
     Index material_ = no_index, object_ = no_index, group_ = no_index;
     std::array<ForwardReference, 3> highest_;  // largest forward reference of each kind
-    std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0, smoothing_groups_ = 0;
+    std::uint64_t lines_and_points_ = 0, unknown_ = 0, weights_ = 0;
+    std::int64_t smoothing_ = unknown_smoothing;
     std::string first_unknown_;
 };
 
@@ -296,6 +299,8 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     ObjStatements in = ObjParser(text, file.string(), asset.warnings).run();
     check_index_count(in.positions.size(), file.string(), "v");
     check_index_count(in.sizes.size(), file.string(), "f");
+    add_smoothed_normals(in.positions, in.sizes, in.face_smoothing, in.corners, in.normals);
+    check_index_count(in.normals.size(), file.string(), "normal");
     part.name = in.objects.empty() || in.objects[0].empty() ? file.stem().string() : in.objects[0];
 
     CornerVertices corner_vertices(in.positions.size());

@@ -183,8 +183,8 @@ TEST_CASE("weights other than 1 give a warning", "[obj]") {
 }
 
 TEST_CASE("all objects and groups are one part named after the first object", "[obj]") {
-    const Asset asset = parse_obj("g group\no first one\n" + square_vertices +
-                                  "f 1 2 3\no second\ng x\ns 1\nf 1 3 4\ns off\n");
+    const Asset asset =
+        parse_obj("g group\no first one\n" + square_vertices + "f 1 2 3\no second\ng x\nf 1 3 4\n");
     REQUIRE(asset.parts.size() == 1);
     const Part& part = asset.parts[0];
     CHECK(part.name == "first one");
@@ -219,12 +219,6 @@ TEST_CASE("warnings count lines, points and unknown statements", "[obj]") {
     CHECK(any_contains(asset.warnings, "2 unknown statements ignored, first 'curv' in line 8"));
     CHECK(any_contains(asset.warnings, "1 face with fewer than three corners"));
     CHECK(asset.not_understood.empty());
-}
-
-TEST_CASE("smoothing groups of OBJ are counted, but are no reason for a warning", "[obj]") {
-    const Asset asset = parse_obj(square_vertices + "s 1\nf 1 2 3\ns off\nf 1 3 4\n");
-    CHECK(asset.warnings.empty());
-    CHECK(asset.not_understood == std::vector<std::string>{"'s': 2 statements"});
 }
 
 TEST_CASE("groups are names of faces, and the default group is none", "[obj]") {
