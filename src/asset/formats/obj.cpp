@@ -12,6 +12,7 @@
 #include "asset/formats/obj_colors.hpp"
 #include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/obj_smoothing.hpp"
+#include "asset/formats/obj_tiles.hpp"
 #include "asset/formats/referenced_images.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/corner_vertices.hpp"
@@ -265,10 +266,9 @@ void add_objects(Part& part, const ObjStatements& in, const std::vector<Index>& 
 }
 
 /// Adds the used materials in the order of their first use by a face.
-void add_materials(Asset& asset, ObjStatements& in, const std::filesystem::path& file) {
+void add_materials(Asset& asset, const ObjStatements& in, const std::map<std::string, MtlMaterial>& libraries,
+                   FileFinder& finder) {
     std::vector<Index>& of_face = asset.parts[0].face_material;
-    FileFinder finder(file.parent_path());
-    const auto libraries = read_libraries(in.libraries, file, finder, asset.warnings, in.ignored);
     ReferencedImages images(asset, finder);
     MtlMaterials materials(asset, images);
     std::vector<Index> added(in.material_names.size(), no_index);
@@ -301,6 +301,10 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     check_index_count(in.sizes.size(), file.string(), "f");
     add_smoothed_normals(in.positions, in.sizes, in.face_smoothing, in.corners, in.normals);
     check_index_count(in.normals.size(), file.string(), "normal");
+    FileFinder finder(file.parent_path());
+    auto libraries = read_libraries(in.libraries, file, finder, asset.warnings, in.ignored);
+    divide_into_tiles(in.sizes, in.corners, in.face_material, in.material_names, in.uvs, libraries,
+                      asset.warnings);
     part.name = in.objects.empty() || in.objects[0].empty() ? file.stem().string() : in.objects[0];
 
     CornerVertices corner_vertices(in.positions.size());
@@ -324,7 +328,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     set_face_names(part, group_array, gather(in.face_group, split.source_polygon), in.groups);
     if (part.group_names.empty()) part.face_group.clear();
     repair_non_finite(part, file.string(), split.non_finite, asset.warnings);
-    add_materials(asset, in, file);
+    add_materials(asset, in, libraries, finder);
     asset.not_understood = ignored_messages(in.ignored);
     return asset;
 }

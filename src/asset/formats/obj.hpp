@@ -24,8 +24,9 @@ inline constexpr const char* default_group_name = "default";
 /// the vt and vn of its first corner. Corners of position i with another vt or vn get additional vertices after all
 /// positions, in the order of the faces. Polygons are split by triangulate(). Colours after a position are sRGB values
 /// and are converted to linear: see ObjColors. UVs are converted by v' = 1 - v. Corners without a normal after an `s`
-/// get one by add_smoothed_normals(). See read_mtl() for materials; a missing library or material is a warning. Lines,
-/// points, unknown statements and faces with fewer than three corners are skipped with a counted warning.
+/// get one by add_smoothed_normals(). See read_mtl() for materials, and divide_into_tiles() for UDIM; a missing library
+/// or material is a warning. Lines, points, unknown statements and faces with fewer than three corners are skipped with
+/// a counted warning.
 /// \param file  path of the file; material libraries and images are searched in its folder
 /// \return an asset with one part, and warnings
 /// \throws ReadError   if the file cannot be read

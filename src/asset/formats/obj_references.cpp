@@ -7,6 +7,7 @@
 #include "asset/formats/mtl.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/formats/obj_libraries.hpp"
+#include "asset/formats/obj_tiles.hpp"
 #include "asset/io/file_finder.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
@@ -95,6 +96,14 @@ private:
     }
 
     void add_texture(const std::string& name, const fs::path& subfolder) {
+        for (std::uint32_t tile = first_tile; tile <= last_tile; ++tile) {
+            const std::string file = tile_file_name(name, tile);
+            add_image(file, subfolder);
+            if (file == name) break;  // it has no tiles
+        }
+    }
+
+    void add_image(const std::string& name, const fs::path& subfolder) {
         files_.add(name, ReferenceSyntax::file_name, Readable::yes, subfolder);
         try {
             files_.add_found(finder_.find(name, subfolder).file);

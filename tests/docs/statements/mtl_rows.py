@@ -171,6 +171,23 @@ def bump(runs):
     expect_repair(runs, "a.obj", "bump left out beside norm")
 
 
+@row("`<UDIM>`, `%(UDIM)d`, `<UVTILE>` in file names")
+def tiles(runs):
+    images = {"c.1001.png": GREY, "c.1002.png": WHITE, "c.u1_v1.png": GREY, "c.u2_v1.png": WHITE}
+    for mark in ("<UDIM>", "%(UDIM)d", "<UVTILE>"):
+        write_obj(runs, f"map_Kd -s 2 1 1 c.{mark}.png", images)
+        expect_no_warning(runs, "a.obj")
+        whole = runs.whole("a.obj")
+        expect([m["name"] for m in whole.list("materials")] == ["m.1001", "m.1002"], "a material for each tile")
+        expect(len(whole.list("images")) == 2, "its image")
+    write_obj(runs, "map_Kd -s 4 1 1 c.<UDIM>.png", images)
+    expect_repair(runs, "a.obj", "material 'm.1003': texture left out")
+    write_obj(runs, "map_Kd -o -1 0 c.<UDIM>.png", images)
+    expect_repair(runs, "a.obj", "outside of the UDIM tiles")
+    write_obj(runs, "map_Kd -o 0.55 0 c.<UDIM>.png", images)
+    expect_repair(runs, "a.obj", "across borders of UDIM tiles")
+
+
 @row("`-o`, `-s`, `-clamp`")
 def placement(runs):
     write_obj(runs, "map_Kd -s 2 3 -o 0.25 0.5 -clamp on c.png", {"c.png": png(lambda x, y: (60 * x, 60 * y, 0, 255))})
