@@ -128,6 +128,7 @@ class Values(unittest.TestCase):
     def test_choices_and_lengths_are_named(self):
         mesh = bumpy_grid(6)
         model = faqem.Model.from_arrays(*mesh)
+        out = faqem.simplify(*mesh, history=True)
         for wrong in (None, ["each"], 5):
             with self.assertRaisesRegex(faqem.OptionError, "^textures: "):
                 faqem.simplify_levels(model, [0.5], textures=wrong)

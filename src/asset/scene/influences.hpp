@@ -12,15 +12,15 @@
 namespace faqem::detail {
 
 /// The influences of a vertex: each joint once, with the sum of its weights.
-class Influences {
+class FAQEM_EXPORT Influences {
 public:
     /// Adds a weight to that of a joint. Weights that are not above 0 are ignored.
-    FAQEM_EXPORT void add(std::uint16_t joint, double weight);
+    void add(std::uint16_t joint, double weight);
 
     /// Sets the four joints with the largest weights, of equal ones the lower joints, in descending order of weight; the
     /// weights are scaled to the sum 1. Unused entries, and all if there is no influence, are 0. Removes all influences.
     /// \return the share of the weights that was left out, in [0, 1)
-    FAQEM_EXPORT double take_heaviest(std::array<std::uint16_t, 4>& joints, Vec4f& weights);
+    double take_heaviest(std::array<std::uint16_t, 4>& joints, Vec4f& weights);
 
 private:
     struct Influence {
