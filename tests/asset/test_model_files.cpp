@@ -43,7 +43,7 @@ TEST_CASE("the references of glTF are every uri of the document, used or not, in
                          "in/schema.json", "in/note.txt", "shared/up.png", "absolute.bin", "in/other.txt"});
     put(folder / "in/m.gltf", R"({"asset": {"version": "2.0"},
         "buffers": [{"uri": "a%20b.bin"}, {"uri": "data:application/octet-stream;base64,AAAA"},
-                    {"uri": "missing.bin"}, {"uri": "http://host/other.txt"}],
+                    {"uri": "missing.bin"}, {"uri": "http://host/gone.txt"}],
         "images": [{"uri": "used.png"}, {"uri": "./unused.png"}, {"uri": "../shared/up.png"}],
         "textures": [{"extensions": {"KHR_texture_basisu": {"uri": "t.ktx2"}}}],
         "extensions": {"VENDOR_media": {"list": [{"uri": "film.mp4#track=1"}]},
@@ -56,6 +56,15 @@ TEST_CASE("the references of glTF are every uri of the document, used or not, in
                                                    "shared/up.png", "absolute.bin"});
     CHECK(references(folder, "in/m.gltf", References::readable) ==
           Names{"in/a b.bin", "in/used.png", "in/unused.png"});
+}
+
+TEST_CASE("the references of glTF are also the files that are read in place of missing ones") {
+    const TemporaryFolder folder;
+    write_files(folder, {"in/Tex/a.bin", "in/wood.png", "in/t.ktx2"});
+    put(folder / "in/m.gltf", R"({"buffers": [{"uri": "tex\\A.bin"}], "images": [{"uri": "C:/job/Wood.png"}],
+        "extras": [{"uri": "C:/T.ktx2"}]})");
+    for (const References which : {References::readable, References::all})
+        CHECK(references(folder, "in/m.gltf", which) == Names{"in/Tex/a.bin", "in/wood.png"});
 }
 
 TEST_CASE("the references of GLB are those of its JSON, and the format is detected by content") {

@@ -33,13 +33,11 @@ public:
             warnings_.push_back(std::string("material library ignored: ") + error.what());
             return;
         }
-        const fs::path root = fs::canonical(finder_.folder().empty() ? "." : finder_.folder());
         if (!found.is_as_named)
-            warnings_.push_back(
-                "material library " + TextScanner::quoted(name) + " was not found; the file " +
-                TextScanner::quoted(found.file.lexically_relative(root).generic_string()) + " is read");
+            warnings_.push_back("material library " + TextScanner::quoted(name) +
+                                " was not found; the file " + TextScanner::quoted(found.name) + " is read");
         for (MtlMaterial& material : read_mtl(text, found.file.string(), warnings_, ignored_)) {
-            material.folder = found.file.parent_path().lexically_relative(root);
+            material.folder = fs::path(found.name).parent_path();
             materials_[material.name] = std::move(material);
         }
     }
@@ -53,7 +51,9 @@ private:
         } catch (const InputError&) {
             const std::optional<std::string> other = renamed_library(model_, finder_);
             if (!other) throw;
-            return {finder_.find(*other).file, false};
+            FoundFile found = finder_.find(*other);
+            found.is_as_named = false;
+            return found;
         }
     }
 

@@ -16,15 +16,14 @@ ReferencedImage* ReferencedImages::read(const std::string& owner, const std::str
                                         const fs::path& subfolder) {
     try {
         const FoundFile found = finder_.find(reference, subfolder);
-        const fs::path root = fs::canonical(finder_.folder().empty() ? "." : finder_.folder());
-        const std::string uri = found.file.lexically_relative(root).generic_string();
         if (!found.is_as_named && reported_.insert(reference).second)
             asset_.warnings.push_back(owner + ": " + TextScanner::quoted(reference) +
-                                      " was not found; the file " + TextScanner::quoted(uri) + " is read");
+                                      " was not found; the file " + TextScanner::quoted(found.name) +
+                                      " is read");
         std::unique_ptr<ReferencedImage>& known = images_[found.file];
         if (known) return known.get();
         Image image;
-        image.uri = uri;
+        image.uri = found.name;
         image.name = found.file.stem().string();
         image.encoded = read_file(found.file);
         image.mime_type = sniff_mime_type(image.encoded);

@@ -30,18 +30,6 @@ int hex_digit(char c) {
     return -1;
 }
 
-/// Decodes percent escapes. A percent sign that is not followed by two hexadecimal digits is kept.
-std::string percent_decoded(std::string_view text) {
-    std::string decoded;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
-        const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
-        decoded.push_back(low >= 0 ? static_cast<char>(high * 16 + low) : text[i]);
-        if (low >= 0) i += 2;
-    }
-    return decoded;
-}
-
 /// The name in a reference, with slashes as separators.
 std::string name_in(std::string_view reference, ReferenceSyntax kind) {
     if (kind == ReferenceSyntax::uri) return percent_decoded(reference);
@@ -95,6 +83,17 @@ std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_byte
         done += static_cast<std::uint64_t>(got);
     }
     return bytes;
+}
+
+std::string percent_decoded(std::string_view text) {
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+        const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+        decoded.push_back(low >= 0 ? static_cast<char>(high * 16 + low) : text[i]);
+        if (low >= 0) i += 2;
+    }
+    return decoded;
 }
 
 fs::path resolve_inside(const fs::path& folder, std::string_view reference, ReferenceSyntax kind) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,9 @@ enum class ReferenceSyntax {
     uri,       ///< glTF: percent-encoded, slashes as separators
     file_name  ///< OBJ and MTL: literal, slashes or backslashes as separators
 };
+
+/// Decodes percent escapes. A percent sign that is not followed by two hexadecimal digits is kept.
+std::string percent_decoded(std::string_view text);
 
 /// Resolves a file reference of an asset. The file must lie in the folder of the asset or below it after
 /// symbolic links are resolved. The current directory is used only if `folder` is empty.

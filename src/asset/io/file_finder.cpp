@@ -6,7 +6,6 @@
 #include <system_error>
 #include <utility>
 
-#include "asset/io/file.hpp"
 #include "asset/io/file_names.hpp"
 #include "faqem/error.hpp"
 
@@ -48,27 +47,40 @@ std::vector<std::string> steps_of(const std::string& name) {
 
 FileFinder::FileFinder(fs::path folder) : folder_(std::move(folder)) {}
 
-FoundFile FileFinder::find(const std::string& reference, const fs::path& subfolder) {
-    const auto resolve = [&](const fs::path& path) {
-        return resolve_inside(folder_, path.generic_string(), ReferenceSyntax::file_name);
-    };
-    const std::string name = without_quotes(reference);
+FoundFile FileFinder::find(const std::string& reference, const fs::path& subfolder, ReferenceSyntax syntax) {
+    const bool is_uri = syntax == ReferenceSyntax::uri;
+    const std::string name = is_uri ? reference : without_quotes(reference);
     try {
-        return {resolve(subfolder / name), true};
+        return resolve(subfolder / name, syntax, true);
     } catch (const InputError&) {
-        const Names steps = steps_of(name);
-        for (std::size_t first = 0; first < steps.size(); ++first) {
-            for (const fs::path& start : {subfolder, fs::path()}) {
-                const std::optional<fs::path> found = match(start, steps, first);
-                if (!found) continue;
-                try {
-                    return {resolve(*found), false};
-                } catch (const InputError&) {  // a folder, or a link to another folder
-                }
-            }
-        }
+        std::vector<std::string> names = {name};
+        if (is_uri)
+            names = {percent_decoded(name), name, percent_decoded(name.substr(0, name.find_first_of("?#")))};
+        for (const std::string& other : names)
+            if (const std::optional<FoundFile> found = find_end(steps_of(other), subfolder)) return *found;
         throw;
     }
+}
+
+FoundFile FileFinder::resolve(const fs::path& path, ReferenceSyntax syntax, bool is_as_named) const {
+    fs::path file = resolve_inside(folder_, path.string(), syntax);
+    std::string name =
+        file.lexically_relative(fs::canonical(folder_.empty() ? "." : folder_)).generic_string();
+    return {std::move(file), std::move(name), is_as_named};
+}
+
+std::optional<FoundFile> FileFinder::find_end(const Names& steps, const fs::path& subfolder) {
+    for (std::size_t first = 0; first < steps.size(); ++first) {
+        for (const fs::path& start : {subfolder, fs::path()}) {
+            const std::optional<fs::path> found = match(start, steps, first);
+            if (!found) continue;
+            try {
+                return resolve(*found, ReferenceSyntax::file_name, false);
+            } catch (const InputError&) {  // a folder, or a link to another folder
+            }
+        }
+    }
+    return std::nullopt;
 }
 
 std::vector<std::string> FileFinder::files_with_extension(const std::string& extension) {

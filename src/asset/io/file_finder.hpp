@@ -8,15 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "asset/io/file.hpp"
+
 namespace faqem::detail {
 
 /// A file that a reference was found to mean.
 struct FoundFile {
     std::filesystem::path file;  ///< canonical, inside the folder of the model
+    std::string name;            ///< relative to this folder, with slashes
     bool is_as_named = true;     ///< false: the reference names another path
 };
 
-/// Resolves references of one model with ReferenceSyntax::file_name. Lists each folder once, so that files which
+/// Resolves references of one model. Lists each folder once, so that files which
 /// appear later may not be found.
 class FileFinder {
 public:
@@ -25,15 +28,16 @@ public:
 
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// Finds the file that a reference names. Quotes around the name are removed. If there is no such file, or
+    /// Finds the file that a reference names. Quotes around a ReferenceSyntax::file_name are removed. If there is no such file, or
     /// not in the folder of the model or below it, the longest end of the path is used that names a file
     /// relative to `subfolder` or to the folder of the model, also one with other letter case (A to Z):
     /// `C:\job\Wood.PNG` finds `wood.png`. Of names that differ in case only, an equal one is used, else the
-    /// first in the order of bytes.
+    /// first in the order of bytes. A URI is searched percent-decoded, as written, and without query and fragment.
     /// \param reference  as written in a file in `subfolder`
     /// \param subfolder  relative to the folder of the model
     /// \throws InputError  no file was found: the error of resolve_inside() for the name as written
-    FoundFile find(const std::string& reference, const std::filesystem::path& subfolder = {});
+    FoundFile find(const std::string& reference, const std::filesystem::path& subfolder = {},
+                   ReferenceSyntax syntax = ReferenceSyntax::file_name);
 
     /// Returns the names of the files in the folder of the model with an extension, in any case, sorted.
     /// \param extension  in lower case, with its dot
@@ -43,6 +47,8 @@ private:
     using Names = std::vector<std::string>;
 
     const Names& names_in(const std::filesystem::path& subfolder);
+    FoundFile resolve(const std::filesystem::path& path, ReferenceSyntax syntax, bool is_as_named) const;
+    std::optional<FoundFile> find_end(const Names& steps, const std::filesystem::path& subfolder);
     std::optional<std::filesystem::path> match(std::filesystem::path subfolder, const Names& steps,
                                                std::size_t first);
 

@@ -307,7 +307,8 @@ TEST_CASE("textures whose only image is of an unknown kind, or KTX2 without its 
     }
 }
 
-TEST_CASE("URIs outside the folder are rejected for buffers and images") {
+TEST_CASE(
+    "URIs outside the folder are rejected for buffers, and images with them are left out with a warning") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "inside");
     put(folder / "secret.bin", std::string(60, 'x'));
@@ -318,7 +319,12 @@ TEST_CASE("URIs outside the folder are rejected for buffers and images") {
         if (array == std::string("buffers")) entry["byteLength"] = 4;
         builder.add(array, entry);
         put(folder / "inside/a.gltf", builder.text());
-        return message_of<InputError>([&] { load(folder / "inside/a.gltf"); });
+        if (array == std::string("buffers"))
+            return message_of<InputError>([&] { load(folder / "inside/a.gltf"); });
+        const std::vector<std::string> warnings = load(folder / "inside/a.gltf").warnings;
+        REQUIRE(warnings.size() == 1);
+        CHECK(contains(warnings[0], "; the textures that use it were left out"));
+        return warnings[0];
     };
     for (const char* array : {"buffers", "images"}) {
         const std::string name = array == std::string("buffers") ? "secret.bin" : "secret.png";
@@ -333,6 +339,14 @@ TEST_CASE("URIs outside the folder are rejected for buffers and images") {
         CHECK(contains(message(array, (folder / name).string()), "absolute"));
         CHECK(contains(message(array, "http://example.org/" + name), "not a relative path"));
         CHECK(contains(message(array, "."), "not a regular file"));
+    }
+}
+
+TEST_CASE("an image in a data URI that cannot be read is left out with a warning") {
+    for (const char* uri : {"data:image/svg+xml;utf8,<svg/>", "data:image/png;base64,A*", "data:"}) {
+        GltfBuilder builder = square_gltf();
+        builder.add("images", {{"uri", uri}});
+        CHECK(contains(load_glb(builder).warnings.at(0), "/images/0/uri: "));
     }
 }
 

@@ -328,6 +328,27 @@ TEST_CASE("a missing image removes its textures with a warning") {
     CHECK(any_contains(asset.warnings, "gone.png"));
 }
 
+TEST_CASE("buffers and images with paths of another machine are found with a warning") {
+    const TemporaryFolder folder;
+    GltfBuilder builder = square_gltf();
+    std::filesystem::create_directory(folder / "Data");
+    put(folder / "Data/Square.bin", std::string(builder.bin.begin(), builder.bin.end()));
+    builder.json["buffers"] = {{{"byteLength", builder.bin.size()}, {"uri", "data\\square.BIN"}}};
+    builder.bin.clear();
+    builder.json["images"] = Json::parse(R"([{"uri":"C:\\job\\Wood.PNG"}])");
+    builder.json["textures"] = Json::parse(R"([{"source":0}])");
+    builder.json["materials"] = Json::parse(R"([{"emissiveTexture":{"index":0}}])");
+    put(folder / "a.gltf", builder.text());
+    const Image png = small_png();
+    put(folder / "wood.png", std::string(png.encoded.begin(), png.encoded.end()));
+    const Asset asset = load(folder / "a.gltf");
+    CHECK(asset.images.at(0).encoded == png.encoded);
+    CHECK(asset.warnings ==
+          std::vector<std::string>{
+              R"(/buffers/0/uri: 'data\square.BIN' was not found; the file 'Data/Square.bin' is read)",
+              R"(/images/0/uri: 'C:\job\Wood.PNG' was not found; the file 'wood.png' is read)"});
+}
+
 TEST_CASE("extensions that are kept without being known are named") {
     GltfBuilder builder = square_gltf();
     builder.json["nodes"][0]["extensions"] = {{"OTHER_node", Json::object()},

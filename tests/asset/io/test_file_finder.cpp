@@ -11,13 +11,13 @@ namespace fs = std::filesystem;
 namespace {
 
 // The file that a reference finds, relative to the folder, with a `!` if it is not the named one; `-` for none.
-std::string found(const TemporaryFolder& folder, const std::string& reference,
-                  const fs::path& subfolder = {}) {
+std::string found(const TemporaryFolder& folder, const std::string& reference, const fs::path& subfolder = {},
+                  ReferenceSyntax syntax = ReferenceSyntax::file_name) {
     FileFinder finder(folder / "in");
     try {
-        const FoundFile file = finder.find(reference, subfolder);
-        const std::string name = file.file.lexically_relative(fs::canonical(folder / "in")).generic_string();
-        return file.is_as_named ? name : "!" + name;
+        const FoundFile file = finder.find(reference, subfolder, syntax);
+        CHECK(file.file == fs::canonical(folder / "in" / file.name));
+        return file.is_as_named ? file.name : "!" + file.name;
     } catch (const InputError&) {
         return "-";
     }
@@ -47,6 +47,28 @@ TEST_CASE("files are found by the end of a path and by other letter case") {
     CHECK(found(folder, "x/Tex") == "-");
     for (const std::string name : {"", "\"\"", "/", "..", "../secret.png", "x/../..", "c.png/x"})
         CHECK(found(folder, name) == "-");
+}
+
+TEST_CASE(
+    "URIs are percent-decoded before they are searched, and found as written and without a query, too") {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "in/Tex");
+    for (const char* name : {"in/my pic.png", "in/Tex/a.png", "in/b%20c.png", "in/d?.png", "secret.png"})
+        put(folder / name, name);
+    const auto found_uri = [&](const std::string& uri) {
+        return found(folder, uri, {}, ReferenceSyntax::uri);
+    };
+    CHECK(found_uri("my%20pic.png") == "my pic.png");
+    CHECK(found_uri("Tex%2Fa.png") == "Tex/a.png");
+    CHECK(found_uri("d?.png") == "d?.png");
+    CHECK(found_uri("Tex\\a.png") == "!Tex/a.png");
+    CHECK(found_uri("tex%5CA.PNG") == "!Tex/a.png");
+    CHECK(found_uri("file:///C:/job/My%20Pic.png") == "!my pic.png");
+    CHECK(found_uri("http://host/x/Tex/a.png?v=1#top") == "!Tex/a.png");
+    CHECK(found_uri("b%20c.png") == "!b%20c.png");
+    for (const char* uri :
+         {"", "'my pic.png'", "%2e%2e/secret.png", "..%5Csecret.png", "file:///secret.png", "%00"})
+        CHECK(found_uri(uri) == "-");
 }
 
 TEST_CASE("links to other folders are not followed") {

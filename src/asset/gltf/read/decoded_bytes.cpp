@@ -11,7 +11,7 @@
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/gltf/read/load.hpp"
-#include "asset/io/file.hpp"
+#include "asset/io/file_finder.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -35,9 +35,9 @@ double bytes_per_vertex(std::string_view attribute) {
 }
 
 /// Size of a file that a document refers to; 0 if it cannot be read, which load() reports.
-double referenced_bytes(const fs::path& folder, const std::string& uri) {
+double referenced_bytes(FileFinder& finder, const std::string& uri) {
     try {
-        return static_cast<double>(fs::file_size(resolve_inside(folder, uri)));
+        return static_cast<double>(fs::file_size(finder.find(uri, {}, ReferenceSyntax::uri).file));
     } catch (const Error&) {
     } catch (const fs::filesystem_error&) {
     }
@@ -47,13 +47,14 @@ double referenced_bytes(const fs::path& folder, const std::string& uri) {
 /// Memory of the files that are read more than once; the first use is counted with the sizes of all files.
 double repeated_file_bytes(const Json& document, const fs::path& folder) {
     double total = 0;
+    FileFinder finder(folder);
     std::map<std::string, double> files;
     for (const char* const key : {"buffers", "images"}) {
         for (const Json& object : member(document, key)) {
             const std::string uri = string_member(object, "uri");
             if (uri.empty() || uri.starts_with("data:")) continue;
             const auto [entry, is_new] = files.try_emplace(uri, 0);
-            if (is_new) entry->second = referenced_bytes(folder, uri);
+            if (is_new) entry->second = referenced_bytes(finder, uri);
             if (!is_new) total += file_copies * entry->second;
         }
     }

@@ -11,7 +11,8 @@
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/image/image.hpp"
-#include "asset/io/file.hpp"
+#include "asset/io/file_finder.hpp"
+#include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -27,6 +28,7 @@ struct FileContext {
     const GltfContainer& container;
     const fs::path& file;
     std::vector<std::string>& warnings;
+    FileFinder finder{file.parent_path()};
 };
 
 bool is_data_uri(const std::string& uri) { return uri.compare(0, 5, "data:") == 0; }
@@ -49,12 +51,16 @@ std::vector<std::uint8_t> decode_data_uri(const std::string& uri, const std::str
 /// Reads the file or data URI that a buffer or image refers to.
 /// \throws ReadError   if the file does not exist or cannot be read
 /// \throws InputError  if the reference is not allowed or the data URI is invalid
-std::vector<std::uint8_t> read_uri(const FileContext& context, const std::string& uri,
-                                   const std::string& where, std::uint64_t max_bytes) {
+std::vector<std::uint8_t> read_uri(FileContext& context, const std::string& uri, const std::string& where,
+                                   std::uint64_t max_bytes) {
     const std::string file = context.file.string();
     if (is_data_uri(uri)) return decode_data_uri(uri, file, where);
     try {
-        return read_file(resolve_inside(context.file.parent_path(), uri), max_bytes);
+        const FoundFile found = context.finder.find(uri, {}, ReferenceSyntax::uri);
+        if (!found.is_as_named)
+            context.warnings.push_back(where + ": " + TextScanner::quoted(uri) + " was not found; the file " +
+                                       TextScanner::quoted(found.name) + " is read");
+        return read_file(found.file, max_bytes);
     } catch (const ReadError& error) {
         throw ReadError(file, where, error.what());
     } catch (const InputError& error) {
@@ -62,7 +68,7 @@ std::vector<std::uint8_t> read_uri(const FileContext& context, const std::string
     }
 }
 
-std::vector<std::uint8_t> load_buffer(const FileContext& context, std::uint64_t index) {
+std::vector<std::uint8_t> load_buffer(FileContext& context, std::uint64_t index) {
     const Json& buffer = context.document["buffers"][index];
     if (is_fallback_buffer(buffer)) return {0};
     const std::string where = child_path("/buffers", index), file = context.file.string();
@@ -89,8 +95,8 @@ std::vector<std::uint8_t> load_buffer(const FileContext& context, std::uint64_t 
     return bytes;
 }
 
-/// Reads an image file; empty if it is missing.
-std::vector<std::uint8_t> load_image(const FileContext& context, std::uint64_t index) {
+/// Reads an image file or data URI; empty if it cannot be read.
+std::vector<std::uint8_t> load_image(FileContext& context, std::uint64_t index) {
     const std::string where = child_path("/images", index);
     try {
         std::vector<std::uint8_t> bytes =
@@ -98,14 +104,14 @@ std::vector<std::uint8_t> load_image(const FileContext& context, std::uint64_t i
                      child_path(where, "uri"), max_image_bytes);
         if (bytes.empty()) throw ReadError("", where, "is empty");
         return bytes;
-    } catch (const ReadError& error) {
+    } catch (const InputError& error) {
         context.warnings.push_back(std::string(error.what()) + "; the textures that use it were left out");
         return {};
     }
 }
 
 /// Reads the buffers and images of a document.
-void load_resources(const FileContext& context, SourceDocument& source) {
+void load_resources(FileContext context, SourceDocument& source) {
     const Json& document = context.document;
     for (std::uint64_t i = 0; i < array_size(document, "buffers"); ++i)
         source.buffers.push_back(load_buffer(context, i));
