@@ -32,8 +32,14 @@ Asset load(const fs::path& file) {
     detail::check_completely_replaced(file);  // a file of the set may not exist yet
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status)) throw ReadError(file.string(), "", "no such file");
+    if (!fs::exists(status)) {
+        const std::string name = file.string();
+        const bool is_no_path = name == "-" || name.find("://") != std::string::npos;
+        throw ReadError(name, "",
+                        is_no_path ? "only files are read, no URLs and no standard input" : "no such file");
+    }
     if (!fs::is_regular_file(status)) throw ReadError(file.string(), "", "is not a regular file");
+    detail::check_beginning(file);
     const detail::FileFormat* format = detail::format_of_file(file);
     if (format && format->read) {
         Asset asset = format->read(file);

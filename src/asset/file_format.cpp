@@ -12,6 +12,7 @@
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/io/file_names.hpp"
+#include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -91,6 +92,33 @@ const std::array<FileFormat, 7> formats = {{
     {.extension = ".off", .has_signature = is_off, .read = read_off, .min_bytes_per_face = 28},
 }};
 
+/// Beginnings of files that are no models, but are found under the names of models.
+constexpr std::array<std::pair<std::string_view, const char*>, 11> foreign_kinds = {{
+    {"<!DOCTYPE", "an HTML page"},
+    {"<!doctype", "an HTML page"},
+    {"<html", "an HTML page"},
+    {"<HTML", "an HTML page"},
+    {"<?xml", "an XML file"},
+    {"version https://git-lfs.github.com", "a Git LFS pointer; 'git lfs pull' fetches the file itself"},
+    {"PK\3\4", "a ZIP archive; unpack it first"},
+    {"\x1f\x8b", "a gzip archive; unpack it first"},
+    {"\x89PNG\r\n", "a PNG image"},
+    {"\xff\xd8\xff", "a JPEG image"},
+    {"%PDF-", "a PDF document"},
+}};
+
+/// The first bytes of a file and the same without leading blanks; none if it cannot be read.
+struct Beginning {
+    explicit Beginning(const fs::path& file) {
+        std::ifstream in(file, std::ios::binary);
+        in.read(bytes.data(), bytes.size());
+        head = {bytes.data(), static_cast<std::size_t>(in.gcount())};
+        text = head.substr(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
+    }
+    std::array<char, 64> bytes = {};
+    std::string_view head, text;
+};
+
 bool has_use(const FileFormat& format, FormatUse use) {
     switch (use) {
         case FormatUse::read:
@@ -114,12 +142,30 @@ const FileFormat* format_by_name(const fs::path& file) {
     return nullptr;
 }
 
+void check_beginning(const fs::path& file) {
+    const Beginning beginning(file);
+    std::error_code error;
+    if (fs::file_size(file, error) == 0 && !error) throw InputError(file.string(), "", "is empty");
+    const bool has_mark = beginning.head.starts_with("\xef\xbb\xbf");
+    const std::string_view text = has_mark ? beginning.head.substr(3) : beginning.text;
+    const auto kind = std::find_if(foreign_kinds.begin(), foreign_kinds.end(),
+                                   [&](const auto& k) { return text.starts_with(k.first); });
+    const FileFormat* format = format_of_file(file);
+    std::string begins;
+    if (kind != foreign_kinds.end())
+        begins = std::string("like ") + kind->second;
+    else if (format && format->is_gltf && !text.starts_with('{') && !text.starts_with("glTF"))
+        begins = "with " + TextScanner::quoted(text.substr(0, text.find_first_of("\r\n")));
+    if (begins.empty()) return;
+    if (!format) throw UnsupportedError(file.string(), "", "is not a model file: it begins " + begins);
+    std::string name(format->extension.substr(1));
+    for (char& c : name) c = static_cast<char>(c - 'a' + 'A');
+    const char* article = name[0] == 'O' || name[0] == 'S' ? "an " : "a ";
+    throw InputError(file.string(), "", "is not " + (article + name) + " file: it begins " + begins);
+}
+
 const FileFormat* format_of_file(const fs::path& file) {
-    std::array<char, 64> bytes = {};
-    std::ifstream in(file, std::ios::binary);
-    in.read(bytes.data(), bytes.size());
-    const std::string_view head(bytes.data(), static_cast<std::size_t>(in.gcount()));
-    const std::string_view text = head.substr(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
+    const auto& [bytes, head, text] = Beginning(file);
     for (const FileFormat& format : formats)
         if (format.has_signature && format.has_signature(head, text)) return &format;
     return format_by_name(file);

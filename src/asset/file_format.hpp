@@ -80,6 +80,13 @@ FAQEM_EXPORT std::span<const FileFormat> file_formats();
 /// it is unknown. Lives as long as the program.
 FAQEM_EXPORT const FileFormat* format_by_name(const std::filesystem::path& file);
 
+/// Checks that a file does not begin like one of another kind: HTML, XML, a Git LFS pointer, an archive, an image or a PDF;
+/// and, with a name of glTF, like neither a GLB nor JSON.
+/// \param file  a regular file; one that cannot be read passes
+/// \throws InputError        it is empty, or has the name of a model and begins otherwise
+/// \throws UnsupportedError  it has no name of a model and begins like another kind
+void check_beginning(const std::filesystem::path& file);
+
 /// Returns the format of an existing file: by its first bytes, or by its name if these have no signature; null if both
 /// are unknown.
 /// \param file  a regular file; one that cannot be read has the format of its name
