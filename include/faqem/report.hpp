@@ -113,6 +113,7 @@ struct ResultImage {
     std::string mime_type;                ///< for example image/jpeg; empty if the format is unknown
     std::uint32_t width = 0, height = 0;  ///< texels; 0 if the header cannot be read
     std::uint64_t bytes = 0;              ///< encoded
+    bool is_of_source = false;            ///< an image of the source has the same bytes
 };
 
 /// A buffer view of the result.
@@ -147,6 +148,16 @@ struct BudgetTrial {
     std::uint32_t image_side = 0;                ///< longest side of the images, texels; 0: not encoded
     std::optional<std::uint32_t> position_bits;  ///< QuantizeOptions::position_bits; empty: not chosen
     double psnr = 0;                             ///< of rendered pictures, dB
+};
+
+/// What holds the bytes of a result that has more than `max_share` of those of its source.
+struct LittleSaved {
+    static constexpr double max_share = 0.8;
+
+    /// Sizes in all files of the result: vertices and faces; images; animations of glTF; its JSON and other data.
+    std::uint64_t geometry = 0, images = 0, animation = 0, other = 0;
+    std::string reason;                ///< why the largest of these have so many bytes, for people
+    std::vector<std::string> options;  ///< names of options that make them fewer, as in faqem_options_set()
 };
 
 /// Summary of one run. Counts are sums if several meshes were simplified.
@@ -190,6 +201,7 @@ struct Report {
     /// Total size of the files of the model before and after, without those of history and correspondence; 0: unknown.
     /// `bytes_out` is set by simplify() of a file.
     std::uint64_t bytes_in = 0, bytes_out = 0;
+    std::optional<LittleSaved> little_saved = {};  ///< set by simplify() of a file
     PhaseSeconds seconds;
 };
 

@@ -2,6 +2,7 @@
 
 #include "result/simplify.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "bake/scene/unencoded_result.hpp"
@@ -13,11 +14,15 @@ namespace faqem {
 
 namespace {
 
-// Adds what is known of the files of the source.
+// Adds what is known of the files and images of the source.
 SimplifiedAsset with_source_report(const Asset& source, SimplifiedAsset result) {
     Report& report = result.report;
     report.warnings.insert(report.warnings.begin(), source.warnings.begin(), source.warnings.end());
     report.bytes_in = source.file_bytes;
+    for (std::size_t i = 0; i < report.images.size(); ++i)
+        report.images[i].is_of_source =
+            std::any_of(source.images.begin(), source.images.end(),
+                        [&](const Image& image) { return image.encoded == result.asset.images[i].encoded; });
     return result;
 }
 

@@ -33,9 +33,11 @@ FAQEM_EXPORT Asset load_triangles(const std::filesystem::path& file);
 FAQEM_EXPORT SimplifiedAsset simplify_file(const std::filesystem::path& file, const Options& options,
                                            const std::function<void(const Asset&)>& loaded);
 
-/// Saves a result and completes its report: the size of the files, what they cannot store, and the time.
+/// Saves a result and completes its report: the size of the files and what holds it, what they cannot
+/// store, and the time.
 /// \throws whatever save() throws
+/// \param options  of simplify_file()
 FAQEM_EXPORT void save_result(SimplifiedAsset& result, const std::filesystem::path& file,
-                              Overwrite overwrite);
+                              const Options& options, Overwrite overwrite);
 
 }  // namespace faqem::detail

@@ -136,3 +136,43 @@ TEST_CASE("options that only glTF files can hold are errors for other formats") 
     options.max_error = faqem::of_diagonal(0.1);
     CHECK_THROWS_AS(simplify(sheet(4), options), faqem::OptionError);
 }
+
+TEST_CASE("the report says what holds the bytes of a result that is hardly smaller, and what helps") {
+    const Folder folder;
+    faqem::Options options;
+    const auto saved = [&](const std::string& in, const std::string& out) {
+        return faqem::simplify(folder / in, folder / out, options, faqem::Overwrite::yes).little_saved;
+    };
+    const auto has = [](const faqem::LittleSaved& one, const std::string& option) {
+        return std::find(one.options.begin(), one.options.end(), option) != one.options.end();
+    };
+    faqem::save(sheet(60, 0.2), folder / "faces.obj");
+    options.target = faqem::ratio(0.1);
+    CHECK_FALSE(saved("faces.obj", "out.obj"));
+    options.target = faqem::ratio(0.95);
+    std::optional<faqem::LittleSaved> most = saved("faces.obj", "out.obj");
+    REQUIRE(most);
+    CHECK(most->geometry > most->images);
+    CHECK(has(*most, "ratio"));
+
+    faqem::Asset pictured = painted_sheet(4);
+    faqem::save(pictured, folder / "image.glb");
+    options.target = faqem::ratio(1);
+    most = saved("image.glb", "out.glb");
+    REQUIRE(most);
+    CHECK(most->images == pictured.images[0].encoded.size());
+    CHECK(most->images > most->geometry);
+    CHECK(most->geometry + most->images + most->animation + most->other == fs::file_size(folder / "out.glb"));
+    CHECK(has(*most, "texture-size"));
+    CHECK(most->reason == "meshes that lose no face keep the images of the source");
+    options.bake.image_format = faqem::ImageFormat::source;
+    options.bake.kind = faqem::Bake::keep;
+    options.target = faqem::ratio(0.5);
+    most = saved("image.glb", "out.glb");
+    REQUIRE(most);
+    CHECK(most->options == std::vector<std::string>{"image-format"});
+
+    const Outcome summary = run(folder, "simplify image.glb out.glb --force --ratio 1");
+    CHECK(summary.out.find("little saved: images ") != std::string::npos);
+    CHECK(summary.out.find("; less with --texture-size") != std::string::npos);
+}

@@ -84,7 +84,7 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
     entry.faces_in = report.faces_in;
     entry.faces_out = report.faces_out;
     work.record.add(file.out_name, entry);
-    detail::save_result(simplified, file.out, std::exchange(overwrite, Overwrite::yes));
+    detail::save_result(simplified, file.out, work.options, std::exchange(overwrite, Overwrite::yes));
     result.warnings = report.warnings;
     entry.result = modification_stamp({file.out});
     work.record.add(file.out_name, entry);

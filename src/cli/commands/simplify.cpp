@@ -101,6 +101,23 @@ std::string shown_bytes(std::uint64_t bytes) {
     return out.str();
 }
 
+/// What holds the bytes, in one line.
+void print_little_saved(std::ostream& out, const LittleSaved& saved) {
+    std::string_view separator = "little saved: ";
+    for (const auto& [what, bytes] : {std::pair("images", saved.images),
+                                      {"geometry", saved.geometry},
+                                      {"animation", saved.animation},
+                                      {"other data", saved.other}}) {
+        if (bytes == 0) continue;
+        out << separator << what << " " << shown_bytes(bytes);
+        separator = ", ";
+    }
+    out << "; " << saved.reason;
+    for (const std::string& option : saved.options)
+        out << (option == saved.options.front() ? "; less with --" : " or --") << option;
+    out << "\n";
+}
+
 void print_summary(const SimplifyCommandArguments& arguments, const Report& report) {
     std::ostringstream out;
     out << arguments.in << " -> " << arguments.out << "\n"
@@ -108,6 +125,7 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
         << name(report.stop) << ", preset " << name(report.preset) << "\n";
     if (report.bytes_out > 0)
         out << shown_bytes(report.bytes_in) << " -> " << shown_bytes(report.bytes_out) << "\n";
+    if (report.little_saved) print_little_saved(out, *report.little_saved);
     if (report.max_error) {
         const MeasuredError& error = *report.max_error;
         out << "distance: at least " << error.value << ", at most " << error.bound << " (allowed "
@@ -134,11 +152,11 @@ int cancelled() {
 /// Adds the model, the history and the correspondence to the set of files. The model is first: save() rejects
 /// names of images that would overwrite files of the input. The report is added later, because it has the
 /// time that saving took.
-void save_files(const SimplifyCommandArguments& arguments, SimplifiedAsset& simplified,
-                detail::FileSet& set) {
+void save_files(const SimplifyCommandArguments& arguments, const Options& options,
+                SimplifiedAsset& simplified, detail::FileSet& set) {
     const ExitOnInterrupt exit_on_interrupt;
     const detail::CollectWrites collect(set);
-    detail::save_result(simplified, arguments.out, arguments.overwrite());
+    detail::save_result(simplified, arguments.out, options, arguments.overwrite());
     if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
     if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
 }
@@ -182,7 +200,7 @@ int run(const SimplifyCommandArguments& arguments) {
     }
     const ExitCode rejection = rejection_code(simplified.report, arguments.strict_target);
     detail::FileSet set;
-    if (rejection == exit_ok) save_files(arguments, simplified, set);
+    if (rejection == exit_ok) save_files(arguments, options, simplified, set);
     simplified.report.seconds.total = watch.seconds();
     if (!arguments.report.empty()) {
         const ExitOnInterrupt exit_on_interrupt;

@@ -76,7 +76,8 @@ inline nlohmann::ordered_json images_json(const Report& report) {
                         {"mime_type", image.mime_type},
                         {"width", image.width},
                         {"height", image.height},
-                        {"bytes", image.bytes}});
+                        {"bytes", image.bytes},
+                        {"is_of_source", image.is_of_source}});
     }
     return json;
 }
@@ -144,6 +145,12 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["buffer_views"] = detail::buffer_views_json(report);
     json["bytes_in"] = report.bytes_in;
     json["bytes_out"] = report.bytes_out;
+    if (report.little_saved) {
+        const LittleSaved& saved = *report.little_saved;
+        json["little_saved"] = {{"geometry", saved.geometry},   {"images", saved.images},
+                                {"animation", saved.animation}, {"other", saved.other},
+                                {"reason", saved.reason},       {"options", saved.options}};
+    }
     json["given_up"] = report.given_up;
     json["budget_points"] = nlohmann::ordered_json::array();
     for (const BudgetPoint& point : report.budget_points)
