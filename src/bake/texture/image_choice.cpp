@@ -20,11 +20,26 @@ constexpr double coarsest_step = 2.25, finest_step = 0.35, step_ratio = 0.85;
 // By how much values of a PNG may change: more would be visible as stripes on smooth surfaces.
 constexpr int max_png_difference = 6;
 
-// Qualities of lossy WebP that are tried.
-constexpr std::array<std::uint32_t, 10> webp_qualities = {40, 55, 65, 75, 82, 87, 91, 94, 97, 100};
+// Qualities of lossy WebP: each has about webp_step dB more than the one before. An image is accepted with less than webp_slack
+// above the limit.
+constexpr std::array<int, 28> webp_qualities = {40, 47, 54, 60, 65, 69, 73, 76, 79, 82, 83, 84, 85, 86,
+                                                87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100};
+constexpr double webp_step = 0.55, webp_slack = 0.8;
+
+// Indices of them: the one where colours usually have 40 dB; the last one with which a WebP is smaller than a JPEG and than with
+// more texels; and the last one that may be smaller.
+constexpr int usual_webp = 9, last_easy_webp = 12, last_small_webp = 21;
+
+// Effort of lossy WebP: at the usual one, three times as long gives 5% fewer bytes.
+constexpr int webp_effort = 2;
 
 // Near-lossless WebP that changes values by up to 4: normals keep the resolution that lossy WebP halves.
 constexpr int near_lossless_level = 40;
+
+// Lossless encodings are tried where a sample of so many rows says that they may be the smallest. The sample is taken as a PNG
+// first: WebP has more than 40% of its bytes.
+constexpr std::uint32_t sample_rows = 64, sample_places = 8;
+constexpr double most_png_bytes = 2.5, most_webp_bytes = 1.25;
 
 // A smaller side would not have a texel for every chart of a simple model.
 constexpr std::uint32_t min_side = 8;
@@ -96,9 +111,10 @@ struct LossyEncoding {
     ImageQuality quality;
     const RunContext& context;
 
-    bool allows(const Image& image) const {
-        return is_within(shown_quality(original, decode(image), known), quality);
+    ImageQuality quality_of(const Image& image) const {
+        return shown_quality(original, decode(image), known);
     }
+    bool allows(const Image& image) const { return is_within(quality_of(image), quality); }
 
     // The first of some levels, from coarse to fine, with which encode() gives a sufficient image, and its index;
     // nothing if none does.
@@ -174,31 +190,91 @@ std::optional<Image> near_lossless_png(const LossyEncoding& lossy, const std::st
     return std::nullopt;
 }
 
-// The smallest of the encodings that are tried. Lossless ones are tried where no other is sufficient, and if
-// `tries_lossless`.
-Image smallest_at(const LossyEncoding& lossy, const std::string& name, Content content,
-                  const ImageLimits& limits, bool tries_lossless) {
-    const Pixels& pixels = lossy.pixels;
-    const auto webp = [&](WebpMode mode, std::uint32_t level) {
-        return encode_webp(pixels, name, {.mode = mode, .level = static_cast<int>(level)});
-    };
+// A sufficient lossy WebP of about the least quality and the index of this; no image if there is none. The error of a quality
+// tells about which one to try next, which takes two or three encodings.
+// \param last  index of the highest quality
+std::pair<std::optional<Image>, int> lossy_webp(const LossyEncoding& lossy, const std::string& name,
+                                                int last) {
     std::optional<Image> best;
-    if (limits.tries_core)
-        best = pixels.has_alpha ? near_lossless_png(lossy, name) : smallest_jpeg(lossy, name, content);
-    if (limits.tries_webp) {
-        const auto sufficient = [&](WebpMode mode, std::uint32_t level) {
-            Image image = webp(mode, level);
-            return lossy.allows(image) ? std::optional(std::move(image)) : std::nullopt;
-        };
-        const auto encode = [&](std::size_t i) { return sufficient(WebpMode::lossy, webp_qualities[i]); };
-        if (auto found = lossy.least(webp_qualities.size(), encode))
-            keep_smaller(best, std::move(found->first));
-        keep_smaller(best, sufficient(WebpMode::near_lossless, near_lossless_level));
+    int begin = 0, end = last + 1, i = usual_webp, jump = 0;
+    while (begin < end) {
+        lossy.context.check_now();
+        const int level = webp_qualities[static_cast<std::size_t>(i)];
+        Image image = encode_webp(lossy.pixels, name, {.level = level, .effort = webp_effort});
+        const ImageQuality shown = lossy.quality_of(image);
+        const double surplus = std::min(shown.whole - lossy.quality.whole, shown.block - lossy.quality.block);
+        const int steps = static_cast<int>(std::floor(std::clamp(surplus / webp_step, -30.0, 30.0)));
+        if (is_within(shown, lossy.quality)) {
+            best = std::move(image);
+            end = i;
+            if (!(surplus >= webp_slack)) break;
+            i = std::max(i - steps, begin);
+        } else {
+            begin = i + 1;
+            jump = std::max(2 * jump, -steps);  // the difference of colours with half the resolution stays
+            if (i + jump > last && last == last_small_webp) break;
+            i = std::min(i + jump, end - 1);
+        }
     }
-    if (!tries_lossless && best) return *std::move(best);
-    if (limits.tries_core) keep_smaller(best, encode_png(pixels, name));
-    if (limits.tries_webp) keep_smaller(best, webp(WebpMode::lossless, 100));
-    return *std::move(best);
+    return {std::move(best), end};
+}
+
+// Rows from several places of an image, or all of a small one.
+Pixels sample_of(const Pixels& pixels) {
+    if (pixels.height <= sample_rows) return pixels;
+    Pixels sample{pixels.width, sample_rows, {}, pixels.has_alpha};
+    const std::size_t row = std::size_t{4} * pixels.width;
+    for (std::size_t y = 0; y < sample_rows; ++y) {
+        constexpr std::size_t run = sample_rows / sample_places;
+        const std::size_t from = y / run * (pixels.height / sample_places) + y % run;
+        const auto first = pixels.rgba.begin() + static_cast<std::ptrdiff_t>(from * row);
+        sample.rgba.insert(sample.rgba.end(), first, first + static_cast<std::ptrdiff_t>(row));
+    }
+    return sample;
+}
+
+// The smallest of the encodings that are tried, and whether it will be smaller than one with more texels. Lossless ones are
+// tried where no other is sufficient, and if `tries_lossless`.
+std::pair<Image, bool> smallest_at(const LossyEncoding& lossy, const std::string& name, Content content,
+                                   const ImageLimits& limits, bool tries_lossless) {
+    const Pixels& pixels = lossy.pixels;
+    std::optional<Image> best;
+    bool is_easy = false;
+    if (limits.tries_webp) {
+        const bool may_be_jpeg = limits.tries_core && !pixels.has_alpha;
+        const int last = may_be_jpeg ? last_small_webp : static_cast<int>(webp_qualities.size()) - 1;
+        auto [image, quality] = lossy_webp(lossy, name, last);
+        is_easy = image && quality <= last_easy_webp;
+        best = std::move(image);
+    }
+    if (limits.tries_core && !is_easy)
+        keep_smaller(best,
+                     pixels.has_alpha ? near_lossless_png(lossy, name) : smallest_jpeg(lossy, name, content));
+    const Pixels sample = limits.tries_webp ? sample_of(pixels) : Pixels{};
+    // Whether an encoding may have at most so many times the bytes of the best one.
+    const auto may_be_small = [&](double ratio, const auto& encode) {
+        if (!best || !limits.tries_webp) return true;
+        const double rows = static_cast<double>(pixels.height) / sample.height;
+        return static_cast<double>(encode(sample).encoded.size()) * rows <=
+               ratio * static_cast<double>(best->encoded.size());
+    };
+    const auto png = [&](const Pixels& of) { return encode_png(of, name); };
+    const bool may_be_lossless = may_be_small(most_png_bytes, png);
+    const auto try_webp = [&](WebpMode mode) {
+        const auto webp = [&](const Pixels& of) {
+            return encode_webp(of, name, {.mode = mode, .level = near_lossless_level});
+        };
+        if (!limits.tries_webp || !may_be_lossless) return;
+        if (pixels.height > sample.height && !may_be_small(most_webp_bytes, webp)) return;
+        Image image = webp(pixels);
+        if (mode == WebpMode::lossless || lossy.allows(image)) keep_smaller(best, std::move(image));
+    };
+    try_webp(WebpMode::near_lossless);
+    if (tries_lossless || !best) {
+        if (limits.tries_core && may_be_lossless) keep_smaller(best, png(pixels));
+        try_webp(WebpMode::lossless);
+    }
+    return {*std::move(best), is_easy};
 }
 
 }  // namespace
@@ -295,16 +371,16 @@ Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known,
         return smallest_at({pixels, at, known, limits.quality, context}, name, content, limits,
                            tries_lossless);
     };
-    Image best = encoded(smaller.empty() ? pixels : smaller.back(), true);
-    if (smaller.empty()) return best;
+    auto [best, is_easy] = encoded(smaller.empty() ? pixels : smaller.back(), true);
+    if (smaller.empty() || is_easy) return std::move(best);
     // Lossless encodings are tried there too if one may have been the smallest: images with few colours stay so at
     // any resolution.
     const bool was_lossless = best.mime_type != "image/jpeg";
-    Image other = encoded(smaller.size() == 1 ? pixels : smaller[smaller.size() - 2], was_lossless);
+    Image other = encoded(smaller.size() == 1 ? pixels : smaller[smaller.size() - 2], was_lossless).first;
     if (bytes_for_fewer_texels * static_cast<double>(other.encoded.size()) <
         static_cast<double>(best.encoded.size()))
         best = std::move(other);
-    return best;
+    return std::move(best);
 }
 
 }  // namespace faqem::detail

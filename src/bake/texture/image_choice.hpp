@@ -65,7 +65,8 @@ Pixels halved(const Pixels& pixels);
 /// The resolution is halved as long as this alone is within the limit. At the least resolution and at
 /// twice that, PNG and the JPEG or WebP of least sufficient quality are tried (with alpha: a PNG whose colours
 /// differ by up to 6 of 255), and the result with the fewest bytes is taken; of two that differ by less than 10%,
-/// that with fewer texels.
+/// that with fewer texels. A lossy WebP of low quality is taken without these, and lossless encodings are tried beside WebP
+/// only where a sample says that they may be smaller.
 /// \param pixels   at least one texel
 /// \param known    by texel: nonzero if the texel shows a triangle
 /// \param name     Image::name of the result

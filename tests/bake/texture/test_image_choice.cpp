@@ -1,5 +1,6 @@
 #include "bake/texture/image_choice.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -223,6 +224,37 @@ TEST_CASE("WebP images are within the limit, with alpha as it was") {
                       webp.encoded.size());
             }
         }
+    }
+}
+
+TEST_CASE("few trials of WebP find about the smallest of all qualities that are within the limit") {
+    for (const Pixels& pixels : {waves(128), ramp(256), blurred(noise(64))}) {
+        for (const double quality : {30.0, 36.0, 42.0}) {
+            const ImageLimits limits{quality_of(quality), false, false, true};
+            std::size_t smallest = std::numeric_limits<std::size_t>::max();
+            for (int level = 40; level <= 100; ++level) {
+                const Image image = encode_webp(pixels, "page", {.level = level});
+                if (is_within(shown_quality(pixels, decode(image), all_known(pixels)), limits.quality))
+                    smallest = std::min(smallest, image.encoded.size());
+            }
+            if (smallest == std::numeric_limits<std::size_t>::max()) continue;
+            const Image found = encode_smallest(pixels, all_known(pixels), "page", Content::color, limits);
+            CHECK(static_cast<double>(found.encoded.size()) <= 1.25 * static_cast<double>(smallest));
+        }
+    }
+}
+
+TEST_CASE("images of few colours that no lossy encoding shows well are lossless WebP") {
+    const Pixels random = noise(256);
+    const Pixels palette = paint(256, 256, [&](std::uint32_t x, std::uint32_t y) {
+        const bool is_red = random.rgba[4 * (std::size_t{y} * 256 + x)] > 127;
+        return is_red ? Rgba{200, 30, 20, 255} : Rgba{20, 60, 190, 255};
+    });
+    for (const bool tries_core : {false, true}) {
+        const ImageLimits limits{quality_of(40), false, tries_core, true};
+        const Image image = encode_smallest(palette, all_known(palette), "page", Content::color, limits);
+        CHECK(decode(image).rgba == palette.rgba);
+        CHECK(image.encoded.size() < 256 * 256 / 8 * 1.1);  // a bit for each texel
     }
 }
 
