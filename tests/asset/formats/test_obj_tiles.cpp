@@ -10,7 +10,7 @@ using namespace faqem::testing;
 
 namespace {
 
-const std::string positions = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const std::string corner_lines = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 // A folder with a material library and images of one pixel. `tile` makes a face in a unit square of the UV plane.
 struct TiledModel {
@@ -31,7 +31,7 @@ struct TiledModel {
         faces += "f -3/-3 -2/-2 -1/-1\n";
     }
     Asset read() const {
-        put(folder / "a.obj", "mtllib a.mtl\n" + positions + "usemtl skin\n" + faces);
+        put(folder / "a.obj", "mtllib a.mtl\n" + corner_lines + "usemtl skin\n" + faces);
         return load(folder / "a.obj");
     }
 };
