@@ -10,6 +10,20 @@
 namespace faqem::detail {
 namespace {
 
+// Whether the vertex colours of a part are classes, such as the labels of a segmented scan: nearly all faces have one
+// colour, and most vertices are inside a class. A colour between two classes means nothing. O(faces)
+bool has_color_classes(const Part& part) {
+    if (part.colors.empty()) return false;
+    const auto faces = static_cast<double>(part.triangles.size());
+    const auto plain = std::count_if(part.triangles.begin(), part.triangles.end(), [&](const Triangle& t) {
+        return part.colors[t[0]] == part.colors[t[1]] && part.colors[t[0]] == part.colors[t[2]];
+    });
+    const bool has_colors = std::any_of(part.colors.begin(), part.colors.end(),
+                                        [&](const auto& color) { return color != part.colors.front(); });
+    return has_colors && static_cast<double>(plain) >= 0.95 * faces &&
+           static_cast<double>(part.positions.size()) <= 0.75 * faces;
+}
+
 // Replaces what is automatic by what the format can hold.
 void resolve_bake(const Asset& source, const FileFormat& format, BakeOptions& bake) {
     const auto no_part_has = [&](auto values) {
@@ -19,6 +33,9 @@ void resolve_bake(const Asset& source, const FileFormat& format, BakeOptions& ba
     const bool is_bare = source.materials.empty() && no_part_has(&Part::colors);
     const bool keeps_uvs = format.keeps_plain_parts && !no_part_has(&Part::uvs);
     bake.kind = !is_bare ? format.bake : keeps_uvs ? Bake::automatic : format.bare_bake;
+    if (bake.kind == Bake::vertex && source.images.empty() &&
+        std::any_of(source.parts.begin(), source.parts.end(), has_color_classes))
+        bake.kind = Bake::keep;
     if (format.is_gltf && names_objects_by_number(source)) bake.kind = Bake::keep;
     // Flat normals need no map to the original. If the source has normals, save() warns that the format cannot store
     // them.

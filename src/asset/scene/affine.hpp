@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -22,7 +23,7 @@ double transformed_bound(const std::array<double, 16>& m, double largest);
 
 /// Transforms normals by the inverse transpose of the linear part, and normalises them. Those of mirroring transforms
 /// point to the same side as the face normals of faces whose winding is reversed. Defined for singular transforms too.
-class NormalTransform {
+class FAQEM_EXPORT NormalTransform {
 public:
     explicit NormalTransform(const std::array<double, 16>& m);
 

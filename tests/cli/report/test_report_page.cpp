@@ -95,7 +95,7 @@ TEST_CASE("viewer_glb writes the model and its error surface in normalized coord
     REQUIRE(read.parts.size() == 2);
     CHECK(read.parts[0].name == "look");
     CHECK(read.parts[0].positions[0] == faqem::Vec3{-0.5, -0.5, 0});
-    CHECK(read.materials.size() == 1);
+    CHECK(read.materials.size() == 2);  // that of the model, and one that is no metal
     CHECK(read.images.size() == 1);
     CHECK(read.parts[1].name == "error");
     CHECK(read.parts[1].uvs[0][3] == faqem::Vec2f{2, 0});

@@ -203,7 +203,9 @@ def ply_texture_numbers(runs):
     write(lambda t: 1)
     expect(images_of(runs.whole("a.ply")) == ["b"], "the second one")
     write(lambda t: -1 if t else 0)
-    expect("material" not in runs.whole("a.ply").primitives()[-1], "none")
+    whole = runs.whole("a.ply")
+    plain = whole.json["materials"][whole.primitives()[-1]["material"]]
+    expect("baseColorTexture" not in plain["pbrMetallicRoughness"], "none")
     expect_no_warning(runs, "a.ply")
     write(lambda t: 7 if t else 0)
     expect_repair(runs, "a.ply", "127 faces with the number of a texture that the file does not name")
