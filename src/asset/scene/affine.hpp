@@ -12,7 +12,7 @@ namespace faqem::detail {
 /// The transform of an instance that is not moved.
 inline constexpr std::array<double, 16> identity_transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p);
+FAQEM_EXPORT Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p);
 
 /// The larger of two values, or NaN if one of them is NaN.
 double max_or_nan(double a, double b);
