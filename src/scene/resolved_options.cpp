@@ -32,7 +32,7 @@ void resolve_bake(const Asset& source, const FileFormat& format, BakeOptions& ba
     };
     const bool is_bare = source.materials.empty() && no_part_has(&Part::colors);
     const bool keeps_uvs = format.keeps_plain_parts && !no_part_has(&Part::uvs);
-    bake.kind = !is_bare ? format.bake : keeps_uvs ? Bake::automatic : format.bare_bake;
+    bake.kind = !is_bare ? format.bake : keeps_uvs ? Bake::keep : format.bare_bake;
     if (bake.kind == Bake::vertex && source.images.empty() &&
         std::any_of(source.parts.begin(), source.parts.end(), has_color_classes))
         bake.kind = Bake::keep;

@@ -58,3 +58,14 @@ TEST_CASE("resolved options: colours that are classes are kept in PLY, others ar
     CHECK(kind_for(ModelFormat::ply, plate([](Index x) { return x % 2 ? red : blue; })) == Bake::vertex);
     CHECK(kind_for(ModelFormat::glb, two_classes()) == Bake::automatic);
 }
+
+TEST_CASE("resolved options: meshes without materials keep their UVs in OBJ and PLY, and get no material") {
+    Asset asset = two_classes();
+    asset.parts[0].colors.clear();
+    CHECK(kind_for(ModelFormat::obj, asset) == Bake::none);
+    asset.parts[0].uvs.emplace_back(asset.parts[0].positions.size());
+    CHECK(kind_for(ModelFormat::obj, asset) == Bake::keep);
+    CHECK(kind_for(ModelFormat::ply, asset) == Bake::keep);
+    CHECK(kind_for(ModelFormat::stl, asset) == Bake::none);
+    CHECK(kind_for(ModelFormat::glb, asset) == Bake::automatic);
+}
