@@ -27,39 +27,40 @@ bool is_ply(std::string_view head, std::string_view /*text*/) {
     return head.starts_with("ply\n") || head.starts_with("ply\r");
 }
 
+constexpr FileFormat glb = {.extension = ".glb",
+                            .format = ModelFormat::glb,
+                            .has_signature = is_glb,
+                            .read = read_gltf,
+                            .encode = encode_gltf,
+                            .encode_levels = encode_gltf_levels,
+                            .list_references = list_gltf_references,
+                            .is_gltf = true,
+                            .document_memory = gltf_document_memory,
+                            .decoding_memory = gltf_decoding_memory,
+                            .min_bytes_per_face = 15};
+
+constexpr FileFormat gltf = [] {
+    FileFormat format = glb;
+    format.extension = ".gltf";
+    format.format = ModelFormat::gltf;
+    format.has_signature = is_json;
+    format.side_file = {.name = buffer_file_name, .is_always_written = true};
+    format.has_image_files = true;
+    return format;
+}();
+
+// A GLB with the extension VRM or VRMC_vrm.
+constexpr FileFormat vrm = [] {
+    FileFormat format = glb;
+    format.extension = ".vrm";
+    format.has_signature = nullptr;
+    return format;
+}();
+
 const std::array<FileFormat, 7> formats = {{
-    {.extension = ".glb",
-     .format = ModelFormat::glb,
-     .has_signature = is_glb,
-     .read = read_gltf,
-     .encode = encode_gltf,
-     .encode_levels = encode_gltf_levels,
-     .list_references = list_gltf_references,
-     .is_gltf = true,
-     .document_memory = gltf_document_memory,
-     .decoding_memory = gltf_decoding_memory,
-     .min_bytes_per_face = 15},
-    {.extension = ".gltf",
-     .format = ModelFormat::gltf,
-     .has_signature = is_json,
-     .read = read_gltf,
-     .encode = encode_gltf,
-     .encode_levels = encode_gltf_levels,
-     .list_references = list_gltf_references,
-     .side_file = {.name = buffer_file_name, .is_always_written = true},
-     .has_image_files = true,
-     .is_gltf = true,
-     .document_memory = gltf_document_memory,
-     .decoding_memory = gltf_decoding_memory,
-     .min_bytes_per_face = 15},
-    {.extension = ".vrm",  // a GLB with the extension VRM or VRMC_vrm
-     .format = ModelFormat::glb,
-     .read = read_gltf,
-     .encode = encode_gltf,
-     .encode_levels = encode_gltf_levels,
-     .list_references = list_gltf_references,
-     .is_gltf = true,
-     .min_bytes_per_face = 15},
+    glb,
+    gltf,
+    vrm,
     {.extension = ".obj",
      .format = ModelFormat::obj,
      .read = read_obj,

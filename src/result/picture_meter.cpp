@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "asset/image/srgb.hpp"
-#include "bake/texture/image_choice.hpp"
 #include "render/views.hpp"
 
 namespace faqem::detail {

@@ -11,7 +11,8 @@ namespace faqem::detail {
 /// Chooses what the options leave open and the format of the result decides; see docs/assets.md, "Results for a format".
 /// * Options::format becomes that of the file that the source was loaded from.
 /// * Bake::automatic becomes Bake::none or Bake::vertex where the format has no textures, and Bake::none for a source
-///   without appearance where the format needs no material. Vertex colours that are classes are kept, not baked. Normals that the format cannot hold are not transferred.
+///   without appearance where the format needs no material; Bake::keep if it has UVs, or vertex colours that are
+///   classes. Normals that the format cannot hold are not transferred.
 ///   Untouched parts are baked where the format lacks parts of the materials of the source.
 /// * Vertices are rounded for glTF only.
 /// * Images that are passed through cannot be baked: instead of new textures or vertex colours, the UVs and images of

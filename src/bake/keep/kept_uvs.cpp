@@ -14,7 +14,6 @@
 #include "bake/parts/output_part.hpp"
 #include "bake/source/page_groups.hpp"
 #include "bake/source/source_sampler.hpp"
-#include "bake/texture/image_choice.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/part_reports.hpp"

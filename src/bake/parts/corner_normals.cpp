@@ -40,12 +40,11 @@ struct RawNormals {
     std::vector<Vector3> face_normals;  // by face
     std::vector<Vector3> normals;       // by corner
     std::vector<Index> facets;          // by corner; no_index: of no facet that is as large as the face
-    std::vector<float> min_cosines;     // by corner: least cosine of the angle to the face that is accepted
+    std::vector<float> min_cosines;     // by corner: the cosine of the angle to the face must be above
 
     bool is_accepted(std::uint64_t corner, const Vector3& normal) const {
         const Vector3& of_face = face_normals[corner / 3];
-        const double limit = min_cosines[corner];
-        return of_face.isZero(0) || (limit < 0 ? normal.dot(of_face) >= limit : normal.dot(of_face) > 0);
+        return of_face.isZero(0) || normal.dot(of_face) > min_cosines[corner];
     }
 };
 

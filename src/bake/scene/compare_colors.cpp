@@ -8,7 +8,7 @@
 #include "asset/image/srgb.hpp"
 #include "asset/scene/flatten.hpp"
 #include "bake/source/source_sampler.hpp"
-#include "bake/texture/image_choice.hpp"
+#include "bake/texture/picture_difference.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"
 
