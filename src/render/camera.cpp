@@ -9,7 +9,7 @@ namespace faqem::render {
 
 namespace {
 
-constexpr double margin = 1.04;
+constexpr double frame_margin = 1.04;
 
 template <class Visit>
 void for_each_corner(std::span<const PlacedMesh> meshes, Visit&& visit) {
@@ -73,7 +73,7 @@ bool show_all(std::span<const PlacedMesh> meshes, std::span<Camera> cameras) {
     for (const Camera& camera : cameras)
         distance = std::max(distance, fitting_distance(meshes, camera, centre));
     if (!(distance > 0)) distance = 1;
-    for (Camera& camera : cameras) camera.eye = centre + margin * distance * camera.back;
+    for (Camera& camera : cameras) camera.eye = centre + frame_margin * distance * camera.back;
     return true;
 }
 
