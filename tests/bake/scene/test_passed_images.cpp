@@ -67,6 +67,17 @@ TEST_CASE("KTX2 and AVIF images are passed through, with their extensions") {
     CHECK_THROWS_AS(decode(asset.images[0]), UnsupportedError);
 }
 
+TEST_CASE("an image that is passed through keeps its type beside one of another type with the same bytes") {
+    GltfBuilder builder = passed_square("raw bytes", "EXT_texture_avif", "image/avif");
+    Json other = builder.json["images"][0];
+    other["mimeType"] = "image/other";
+    builder.json["images"] = {other, builder.json["images"][0]};
+    builder.json["textures"][0]["extensions"]["EXT_texture_avif"]["source"] = 1;
+    const Json json = json_of(saved(load_glb(builder)));
+    REQUIRE(json["images"].size() == 1);
+    CHECK(json["images"][0]["mimeType"] == "image/avif");
+}
+
 TEST_CASE("KTX2 and AVIF images as core sources are those of extensions that the file uses") {
     const bool is_ktx2 = GENERATE(true, false);
     const char* extension = is_ktx2 ? "KHR_texture_basisu" : "EXT_texture_avif";

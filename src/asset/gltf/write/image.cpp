@@ -73,7 +73,9 @@ void find_source_images(GltfWriter& writer) {
     for (const Image& image : writer.asset.images) {
         Index found = no_index;
         for (Index i = 0; i < writer.source.images.size() && found == no_index; ++i)
-            if (!image.encoded.empty() && writer.source.images[i].encoded == image.encoded) found = i;
+            if (const Image& own = writer.source.images[i];
+                !image.encoded.empty() && own.encoded == image.encoded && own.mime_type == image.mime_type)
+                found = i;
         writer.source_image_of.push_back(found);
     }
 }
