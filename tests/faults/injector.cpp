@@ -5,6 +5,8 @@
 //                      "full": as error, with ENOSPC;
 //                      "kill": SIGKILL before the call, write() after half of the bytes;
 //                      "term": SIGTERM before the call
+//   FAQEM_FAULT_FILE   instead of a call: opening a file of this name does what FAQEM_FAULT_KIND says: "segv": SIGSEGV,
+//                      "kill": SIGKILL, "hang": the call does not return
 //   FAQEM_FAULT_LOG    file that receives the name of the call that was disturbed, and the number of calls
 //                      when the process exits
 
@@ -24,12 +26,22 @@ namespace {
 
 long wanted_call, calls;
 char kind;  // first letter of FAQEM_FAULT_KIND
+const char* wanted_file;
 
 __attribute__((constructor)) void read_settings(void) {
     const char* number = getenv("FAQEM_FAULT_CALL");
     const char* name = getenv("FAQEM_FAULT_KIND");
     wanted_call = number ? atol(number) : 0;
     kind = name ? name[0] : 0;
+    wanted_file = getenv("FAQEM_FAULT_FILE");
+}
+
+void on_open(const char* path) {
+    const char* slash = strrchr(path, '/');
+    if (!wanted_file || strcmp(slash ? slash + 1 : path, wanted_file) != 0) return;
+    if (kind == 's') raise(SIGSEGV);
+    if (kind == 'k') kill(getpid(), SIGKILL);
+    while (kind == 'h') pause();
 }
 
 void log_text(const char* text) {
@@ -66,37 +78,41 @@ int is_disturbed(const char* name) {
 #define DISTURBED(name) \
     if (is_disturbed(#name)) return -1
 
-#define MODE_ARGUMENT(mode)                  \
-    mode_t mode = 0;                         \
-    if (flags & (O_CREAT | O_TMPFILE)) {     \
-        va_list arguments;                   \
-        va_start(arguments, flags);          \
-        mode = va_arg(arguments, mode_t);    \
-        va_end(arguments);                   \
+#define MODE_ARGUMENT(mode)               \
+    mode_t mode = 0;                      \
+    if (flags & (O_CREAT | O_TMPFILE)) {  \
+        va_list arguments;                \
+        va_start(arguments, flags);       \
+        mode = va_arg(arguments, mode_t); \
+        va_end(arguments);                \
     }
 
 extern "C" {
 
 int open(const char* path, int flags, ...) {
     MODE_ARGUMENT(mode)
+    on_open(path);
     DISTURBED(open);
     return NEXT(open)(path, flags, mode);
 }
 
 int open64(const char* path, int flags, ...) {
     MODE_ARGUMENT(mode)
+    on_open(path);
     DISTURBED(open64);
     return NEXT(open64)(path, flags, mode);
 }
 
 int openat(int folder, const char* path, int flags, ...) {
     MODE_ARGUMENT(mode)
+    on_open(path);
     DISTURBED(openat);
     return NEXT(openat)(folder, path, flags, mode);
 }
 
 int openat64(int folder, const char* path, int flags, ...) {
     MODE_ARGUMENT(mode)
+    on_open(path);
     DISTURBED(openat64);
     return NEXT(openat64)(folder, path, flags, mode);
 }

@@ -1,10 +1,7 @@
 #include "cli/batch/process_file.hpp"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <exception>
-#include <limits>
 #include <new>
 #include <optional>
 #include <utility>
@@ -16,8 +13,8 @@
 #include "cli/memory/memory_estimate.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/process/interrupt.hpp"
-#include "cli/process/json.hpp"
 #include "cli/process/rejection.hpp"
+#include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/error.hpp"
 #include "result/simplify_file.hpp"
@@ -28,24 +25,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Acquires memory from the semaphore and releases it at destruction.
-class MemoryReservation {
+/// Limits the memory of the process to what is granted.
+class GrantedMemory {
 public:
-    MemoryReservation(MemorySemaphore& semaphore, std::uint64_t bytes)
-        : semaphore_(semaphore), bytes_(bytes), request_(semaphore.acquire(bytes)) {}
-    ~MemoryReservation() { semaphore_.release(bytes_); }
-    MemoryReservation(const MemoryReservation&) = delete;
-    MemoryReservation& operator=(const MemoryReservation&) = delete;
+    GrantedMemory(const BatchContext& work, const BatchAttempt& attempt)
+        : ask_(attempt.ask_memory),
+          all_(std::max(work.max_memory, min_process_memory)),
+          // Image libraries start a thread per hardware thread, besides those of the model.
+          threads_(1 + work.options.threads + detail::thread_count(0)) {
+        limit(ask_ ? min_process_memory : all_);
+    }
 
-    bool was_shared() const { return semaphore_.was_shared(request_); }
+    /// Of the whole batch, bytes.
+    std::uint64_t all() const { return all_; }
+    void reserve(std::uint64_t bytes) {
+        if (ask_) limit(ask_(bytes));
+    }
+    /// Whether another attempt could get more.
+    bool is_part() const { return granted_ < all_; }
 
 private:
-    MemorySemaphore& semaphore_;
-    std::uint64_t bytes_, request_;
-};
+    void limit(std::uint64_t bytes) {
+        granted_ = std::max(bytes, min_process_memory);
+        limit_process_memory(granted_, threads_);
+    }
 
-/// A request for this many bytes is granted only when no other memory is in use.
-constexpr std::uint64_t all_memory = std::numeric_limits<std::uint64_t>::max();
+    const std::function<std::uint64_t(std::uint64_t)>& ask_;
+    std::uint64_t all_, threads_, granted_ = 0;
+};
 
 /// Returns whether the output file was written by this batch: it matches the record, or an interrupted run
 /// began it.
@@ -95,16 +102,11 @@ Result failed_result(const std::exception& problem) {
     return {exit_code_of(problem), "failed", message_of(problem), 0, 0, {}};
 }
 
-/// Whether the memory of the process is used by other models at the same time.
-enum class Sharing { allowed, none };
-
-/// Simplifies a model, in the case of Sharing::allowed as soon as there is memory for it.
 /// \param overwrite  whether the result may exist; set to yes when it is about to be written
 /// \param watch      reset after waiting for memory, so that it measures the work alone
-/// \throws std::bad_alloc if memory is exhausted while other models use it
-Result try_process(const BatchFile& file, const BatchContext& work, Sharing sharing, Overwrite& overwrite,
-                   detail::Stopwatch& watch) try {
-    if (is_interrupted()) return cancelled_result();
+/// \throws std::bad_alloc  the memory is exhausted, and another attempt could get more
+Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemory& memory,
+                   Overwrite& overwrite, detail::Stopwatch& watch) try {
     if (!file.problem.empty()) throw ReadError(file.in.string(), "", file.problem);
     std::vector<fs::path> inputs = detail::referenced_files(file.in, detail::References::readable);
     inputs.insert(inputs.begin(), file.in);
@@ -119,62 +121,43 @@ Result try_process(const BatchFile& file, const BatchContext& work, Sharing shar
     fs::create_directories(file.out.parent_path(), error);
     if (is_own) overwrite = Overwrite::yes;
     check_output(file.out, overwrite);
-    const std::uint64_t process_limit = std::max(work.memory.limit(), min_process_memory);
-    std::optional<MemoryReservation> reservation;
-    if (sharing == Sharing::allowed)
-        reservation.emplace(work.memory, estimated_document_memory(file.in, process_limit));
-    const std::uint64_t loading = estimated_model_memory(file.in, process_limit);
-    reservation.reset();  // a model that holds memory while it waits for more might wait forever
-    require_memory(file.in, loading, process_limit);
-    if (sharing == Sharing::allowed) {
-        reservation.emplace(
-            work.memory,
-            loading + estimated_work_memory(file.in, detail::total_file_size(inputs), work.options));
-        if (is_interrupted()) return cancelled_result();
-    }
+    memory.reserve(estimated_document_memory(file.in, memory.all()));
+    const std::uint64_t loading = estimated_model_memory(file.in, memory.all());
+    require_memory(file.in, loading, memory.all());
+    memory.reserve(loading + estimated_work_memory(file.in, detail::total_file_size(inputs), work.options));
+    if (is_interrupted()) return cancelled_result();
     watch = {};
-    try {
-        return simplify_and_save(file, work, entry, overwrite);
-    } catch (const std::bad_alloc& problem) {
-        if (!reservation || reservation->was_shared()) throw;
-        return failed_result(problem);
-    }
+    return simplify_and_save(file, work, entry, overwrite);
 } catch (const std::bad_alloc& problem) {
-    if (sharing == Sharing::allowed) throw;
+    if (memory.is_part()) throw;
     return failed_result(problem);
 } catch (const std::exception& problem) {
     return failed_result(problem);
 }
 
-/// One attempt at a model; see process_batch_file() and try_process().
-ExitCode process(const BatchFile& file, const BatchContext& work, Sharing sharing, Overwrite& overwrite,
-                 std::string& line) {
-    detail::Stopwatch watch;
-    const Result result = try_process(file, work, sharing, overwrite, watch);
-    line = json_line({{"path", file.name},
-                      {"result", file.out_name},
-                      {"status", result.status},
-                      {"code", static_cast<int>(result.code)},
-                      {"faces_in", result.faces_in},
-                      {"faces_out", result.faces_out},
-                      {"seconds", watch.seconds()},
-                      {"message", result.message},
-                      {"warnings", result.warnings}});
-    return result.code;
+Json line_of(const Result& result, double seconds) {
+    return {{"status", result.status},     {"code", static_cast<int>(result.code)},
+            {"faces_in", result.faces_in}, {"faces_out", result.faces_out},
+            {"seconds", seconds},          {"message", result.message},
+            {"warnings", result.warnings}};
 }
 
 }  // namespace
 
-ExitCode process_batch_file(const BatchFile& file, const BatchContext& work, std::string& line) {
-    Overwrite overwrite = work.overwrite;
+Json process_batch_file(const BatchFile& file, const BatchContext& work, const BatchAttempt& attempt) {
+    GrantedMemory memory(work, attempt);
+    Overwrite overwrite = attempt.overwrite;
+    detail::Stopwatch watch;
     try {
-        return process(file, work, Sharing::allowed, overwrite, line);
+        const Result result = try_process(file, work, memory, overwrite, watch);
+        return line_of(result, watch.seconds());
     } catch (const std::bad_alloc&) {
-        // The memory belongs to the whole process: another model may have used most of it.
+        return {{"retry", true}, {"overwrite", overwrite == Overwrite::yes}};
     }
-    const MemoryReservation alone(work.memory, all_memory);
-    malloc_trim(0);
-    return process(file, work, Sharing::none, overwrite, line);
+}
+
+Json line_without_result(ExitCode code, const std::string& status, const std::string& message) {
+    return line_of({code, status, message, 0, 0, {}}, 0);
 }
 
 }  // namespace faqem::cli

@@ -3,13 +3,13 @@
 /// Processing of one model of a batch.
 
 #include <cstdint>
-#include <string>
+#include <functional>
 
-#include "cli/batch/memory_semaphore.hpp"
 #include "cli/batch/plan.hpp"
 #include "cli/batch/record.hpp"
 #include "cli/files/input_model.hpp"
 #include "cli/process/exit_code.hpp"
+#include "cli/process/json.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/options.hpp"
 
@@ -22,17 +22,28 @@ struct BatchContext {
     Strictness strictness = Strictness::lenient;
     bool strict_target = false;
     bool resume = false;
-    Overwrite overwrite = Overwrite::no;
+    std::uint64_t max_memory = 0;  ///< bytes, of all models at the same time
     BatchRecord& record;
-    MemorySemaphore& memory;
 };
 
-/// Simplifies one model as `faqem simplify` does. With `resume`, up-to-date results are skipped, and results
-/// that the record lists and that were not changed since may be overwritten. Waits for memory. A model that
-/// fails because others use the memory is processed again when no other model is. Thread-safe.
-/// \param line  receives the JSON object that is printed for the model, with the keys documented in
-/// docs/cli.md, as a line of text
-/// \return the exit code that `faqem simplify` would return; exit_ok if skipped
-ExitCode process_batch_file(const BatchFile& file, const BatchContext& work, std::string& line);
+/// How one model is to be simplified.
+struct BatchAttempt {
+    Overwrite overwrite = Overwrite::no;
+    /// Asks for memory, which replaces that of earlier calls, and waits for it. Takes and returns bytes; less is returned
+    /// only if no other model uses memory. Empty: all memory is granted.
+    std::function<std::uint64_t(std::uint64_t)> ask_memory;
+};
+
+/// Simplifies one model as `faqem simplify` does. With BatchContext::resume, up-to-date results are skipped, and results
+/// that the record lists and that were not changed since may be overwritten. Limits the memory of the process to what
+/// is granted.
+/// \return the members of the line that is printed for the model, without its names: see docs/cli.md. If the memory that
+/// was granted is exhausted, and there is more, the member `retry`, and `overwrite` for the next attempt
+Json process_batch_file(const BatchFile& file, const BatchContext& work, const BatchAttempt& attempt);
+
+/// Returns the members of the line of a model without a result.
+/// \param status   `failed` or `cancelled`
+/// \param message  the reason
+Json line_without_result(ExitCode code, const std::string& status, const std::string& message);
 
 }  // namespace faqem::cli

@@ -2,16 +2,14 @@
 #include <cstdint>
 #include <iostream>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
-#include "cli/batch/process_file.hpp"
+#include "cli/batch/supervisor.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"
 #include "cli/memory/machine_memory.hpp"
-#include "cli/memory/memory_limit.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/builtin_profiles.hpp"
 #include "cli/options/profile.hpp"
@@ -29,6 +27,7 @@ struct BatchArguments : SimplifyArguments {
     std::string in, out, format = default_format();
     std::uint32_t jobs = 0;
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
+    double end_after = 0;          ///< seconds; 0: the default
     bool resume = false, force = false;
 };
 
@@ -53,43 +52,26 @@ int run(const BatchArguments& arguments) {
     make_folder(arguments.out);
     BatchRecord record(arguments.out);
     const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3;
-    MemorySemaphore memory(allowed);
     install_signal_handlers();
     const std::size_t jobs = std::min<std::size_t>(detail::thread_count(arguments.jobs), files.size());
     // Processing several files at a time uses the threads better than using several threads per file.
     if (options.threads == 0)
         options.threads =
             static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
-    // Image libraries start a thread per hardware thread, besides those of the models.
-    return_freed_memory();
-    limit_process_memory(allowed, jobs * (1 + options.threads) + detail::thread_count(0));
     options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
     const std::string key = std::string(version()) + " " + extension + " " + detail::options_key(options) +
                             (arguments.strict ? " strict" : "") +
                             (arguments.strict_target ? " strict-target" : "");
-    const BatchContext work = {options,
-                               key,
-                               arguments.strictness(),
-                               arguments.strict_target,
-                               arguments.resume,
-                               arguments.force ? Overwrite::yes : Overwrite::no,
-                               record,
-                               memory};
-    std::mutex mutex;
-    ExitCode code = exit_ok;  // exit_cancelled if a model was not done because of a signal
-    detail::parallel_blocks(files.size(), 1, static_cast<std::uint32_t>(jobs),
-                            [&](std::size_t i, std::size_t) {
-                                std::string line;
-                                const ExitCode one = process_batch_file(files[i], work, line);
-                                const std::lock_guard guard(mutex);
-                                if (one == exit_cancelled)
-                                    code = exit_cancelled;
-                                else if (one != exit_ok && code == exit_ok)
-                                    code = exit_batch_incomplete;
-                                // Flushed, so that a reader of a pipe gets each line immediately.
-                                std::cout << line << std::flush;
-                            });
-    return code;
+    const BatchContext work = {
+        options, key, arguments.strictness(), arguments.strict_target, arguments.resume, allowed, record};
+    const double end_after = arguments.end_after > 0 ? arguments.end_after
+                             : options.max_seconds   ? 2 * *options.max_seconds + 60
+                                                     : 3600;
+    // Flushed, so that a reader of a pipe gets each line immediately.
+    return process_batch(
+        files, work,
+        {static_cast<std::uint32_t>(jobs), end_after, arguments.force ? Overwrite::yes : Overwrite::no},
+        [](const std::string& line) { std::cout << line << std::flush; });
 }
 
 }  // namespace
@@ -111,6 +93,10 @@ CommandInfo batch_command() {
         size_option("--max-memory", arguments->max_memory,
                     "Memory of all models that run at the same time, as 8GB or 500MB; a model that may need "
                     "more runs alone (default: three quarters of the machine's memory)"),
+        number_option(
+            "--end-after", "S", arguments->end_after, {.min = 1, .max = 1e6},
+            "Seconds after which a model that has not ended is given up (default: twice --max-seconds "
+            "plus 60, or 3600)"),
         flag_option("--resume", arguments->resume,
                     "Skip results that are up to date, redo those that are not")};
     add_options(command.options, table_options(detail::in_batch, arguments->options));

@@ -76,11 +76,12 @@ void limit_process_memory(std::uint64_t bytes, std::uint64_t threads) {
     bytes = std::max(bytes, min_process_memory);
     rlimit limit{};
     if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+    static const rlim_t before = limit.rlim_cur;
     const std::uint64_t mapped = status_bytes("VmData:"), used = status_bytes("RssAnon:");
     const std::uint64_t unused = mapped > used ? mapped - used : 0;
     const std::uint64_t headroom = unused + stack_bytes(bytes, threads);
     if (bytes > std::numeric_limits<rlim_t>::max() - headroom) return;
-    limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, bytes - bytes / code_share + headroom);
+    limit.rlim_cur = std::min<rlim_t>(before, bytes - bytes / code_share + headroom);
     setrlimit(RLIMIT_DATA, &limit);
     std::set_terminate(terminate_without_memory);
 }

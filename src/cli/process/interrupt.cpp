@@ -25,6 +25,11 @@ void exit_unless_replacing() {
     if (detail::remove_temporary_files()) _exit(exit_cancelled);
 }
 
+void on_worker_signal(int number) {
+    signal_count = 1;
+    if (number == worker_end_signal) exit_unless_replacing();
+}
+
 void on_signal(int) {
     const int before = signal_count.exchange(1);
     if (outputs_are_complete) {
@@ -45,6 +50,16 @@ void install_signal_handlers() {
     // message.
     action.sa_handler = SIG_IGN;
     sigaction(SIGXFSZ, &action, nullptr);
+}
+
+void install_worker_signal_handlers() {
+    struct sigaction action = {};
+    action.sa_handler = on_worker_signal;
+    sigaction(worker_cancel_signal, &action, nullptr);
+    sigaction(worker_end_signal, &action, nullptr);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
 }
 
 bool is_interrupted() { return signal_count != 0; }

@@ -1,0 +1,233 @@
+#include "cli/batch/supervisor.hpp"
+
+#include <poll.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "asset/io/temporary_file.hpp"
+#include "cli/batch/memory_queue.hpp"
+#include "cli/batch/worker.hpp"
+#include "cli/memory/memory_limit.hpp"
+#include "cli/process/interrupt.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+constexpr int poll_milliseconds = 100;
+/// A process is replaced after this number of models, so that memory that the allocator cannot return stays bounded.
+constexpr std::size_t models_per_process = 100;
+/// A request for this many bytes is granted only when no other memory is in use.
+constexpr std::uint64_t all_memory = std::numeric_limits<std::uint64_t>::max();
+
+/// Work of a process: simplifies the models it is told to.
+void work_on_models(Channel& channel, const std::vector<BatchFile>& files, const BatchContext& work) {
+    return_freed_memory();
+    while (const std::optional<Json> request = channel.receive()) {
+        BatchAttempt attempt;
+        if (request->at("overwrite")) attempt.overwrite = Overwrite::yes;
+        if (!request->at("alone"))
+            attempt.ask_memory = [&](std::uint64_t bytes) {
+                channel.send({{"memory", bytes}});
+                const std::optional<Json> answer = channel.receive();
+                return answer ? answer->at("memory").get<std::uint64_t>() : 0;
+            };
+        channel.send(process_batch_file(files[request->at("model")], work, attempt));
+    }
+}
+
+/// A process and the model that it works on.
+struct Slot {
+    std::unique_ptr<Worker> worker;
+    std::size_t models = 0;  ///< that the process has got
+    bool has_model = false, is_waiting = false, is_cancelled = false;
+    std::size_t model = 0;
+    bool alone = false, overwrite = false;
+    detail::Stopwatch watch;  ///< since the process was told something
+};
+
+class Supervisor {
+public:
+    Supervisor(const std::vector<BatchFile>& files, const BatchContext& work, const WorkerOptions& workers,
+               const std::function<void(const std::string&)>& print)
+        : files_(files),
+          work_(work),
+          workers_(workers),
+          print_(print),
+          memory_(work.max_memory),
+          slots_(workers.jobs) {}
+
+    ExitCode run() {
+        for (;;) {
+            for (std::size_t i = 0; i < slots_.size(); ++i)
+                if (!slots_[i].has_model && next_ < files_.size()) begin(i);
+            grant_memory();
+            if (!wait_for_messages()) return code_;
+        }
+    }
+
+private:
+    /// Gives the next model to a process without one.
+    void begin(std::size_t i) {
+        if (is_interrupted()) {
+            finish(files_[next_++], line_without_result(exit_cancelled, "cancelled", "cancelled"));
+            return;
+        }
+        Slot& slot = slots_[i];
+        slot.model = next_++;
+        slot.has_model = true;
+        slot.alone = slot.is_cancelled = false;
+        slot.overwrite = workers_.overwrite == Overwrite::yes;
+        tell_model(slot);
+    }
+
+    void tell_model(Slot& slot) {
+        if (slot.worker && slot.models >= models_per_process) slot.worker.reset();
+        if (!slot.worker) {
+            slot.worker = std::make_unique<Worker>(
+                [this](Channel& channel) { work_on_models(channel, files_, work_); });
+            slot.models = 0;
+        }
+        ++slot.models;
+        tell(slot, {{"model", slot.model}, {"alone", slot.alone}, {"overwrite", slot.overwrite}});
+    }
+
+    static void tell(Slot& slot, const Json& message) {
+        slot.watch = {};
+        slot.worker->channel().send(message);
+    }
+
+    void grant_memory() {
+        while (const std::optional<MemoryQueue::Grant> grant = memory_.grant()) {
+            Slot& slot = slots_[grant->worker];
+            slot.is_waiting = false;
+            if (slot.alone)
+                tell_model(slot);
+            else
+                tell(slot, {{"memory", std::min(grant->bytes, memory_.limit())}});
+        }
+    }
+
+    /// Waits until a process says something, ends or takes too long, for a short time. \return false if there are no
+    /// more models
+    bool wait_for_messages() {
+        std::vector<pollfd> polled;
+        std::vector<std::size_t> owners;
+        for (std::size_t i = 0; i < slots_.size(); ++i) {
+            const Slot& slot = slots_[i];
+            if (!slot.has_model || slot.is_waiting) continue;
+            polled.push_back({slot.worker->channel().descriptor(), POLLIN, 0});
+            owners.push_back(i);
+        }
+        if (polled.empty()) return next_ < files_.size();
+        const int ready = ::poll(polled.data(), polled.size(), poll_milliseconds);
+        for (std::size_t k = 0; k < polled.size(); ++k) {
+            Slot& slot = slots_[owners[k]];
+            if (ready > 0 && polled[k].revents != 0)
+                on_message(owners[k]);
+            else if (slot.watch.seconds() > workers_.end_after)
+                on_end(owners[k],
+                       "did not end within " + std::to_string(std::lround(workers_.end_after)) + " seconds");
+            else if (is_interrupted() && !std::exchange(slot.is_cancelled, true))
+                slot.worker->cancel();
+        }
+        return true;
+    }
+
+    void on_message(std::size_t i) {
+        Slot& slot = slots_[i];
+        std::optional<Json> message = slot.worker->channel().receive();
+        if (!message) {
+            on_death(i);
+        } else if (message->contains("memory")) {
+            memory_.release(i);
+            // After a signal no model begins: the process sees it and needs no memory.
+            memory_.request(i, is_interrupted() ? 0 : message->at("memory").get<std::uint64_t>());
+            slot.is_waiting = true;
+        } else if (message->contains("retry")) {
+            retry_alone(i, message->at("overwrite"));
+        } else {
+            end_model(i, std::move(*message));
+        }
+    }
+
+    /// Begins the model of a process once more, in a new process, as soon as it can have all memory.
+    void retry_alone(std::size_t i, bool overwrite) {
+        Slot& slot = slots_[i];
+        slot.worker.reset();
+        slot.alone = slot.is_waiting = true;
+        slot.overwrite = overwrite;
+        memory_.release(i);
+        memory_.request(i, all_memory);
+    }
+
+    void on_death(std::size_t i) {
+        Slot& slot = slots_[i];
+        const int status = slot.worker->wait();
+        const bool is_short_of_memory =
+            WIFSIGNALED(status) ? WTERMSIG(status) == SIGKILL : WEXITSTATUS(status) == exit_no_memory;
+        remove_leftovers_of(slot);
+        if (is_short_of_memory && !slot.alone && !is_interrupted()) return retry_alone(i, slot.overwrite);
+        if (WIFSIGNALED(status))
+            on_end(i, "the process ended with signal " + std::to_string(WTERMSIG(status)) + " (" +
+                          ::strsignal(WTERMSIG(status)) + ")");
+        else if (is_short_of_memory)
+            end_model(i, line_without_result(exit_no_memory, "failed", "not enough memory"));
+        else
+            on_end(i, "the process ended with code " + std::to_string(WEXITSTATUS(status)));
+    }
+
+    /// The process of a model has ended, or is to be killed, without a result.
+    void on_end(std::size_t i, const std::string& how) {
+        Slot& slot = slots_[i];
+        slot.worker.reset();
+        remove_leftovers_of(slot);
+        end_model(i,
+                  line_without_result(exit_internal, "failed", files_[slot.model].in.string() + ": " + how));
+    }
+
+    void remove_leftovers_of(const Slot& slot) const {
+        detail::remove_leftovers(files_[slot.model].out.parent_path());
+    }
+
+    void end_model(std::size_t i, Json line) {
+        memory_.release(i);
+        slots_[i].has_model = false;
+        finish(files_[slots_[i].model], line);
+    }
+
+    void finish(const BatchFile& file, const Json& members) {
+        Json line = {{"path", file.name}, {"result", file.out_name}};
+        line.update(members);
+        const ExitCode one = members.at("code").get<ExitCode>();
+        if (one == exit_cancelled)
+            code_ = exit_cancelled;
+        else if (one != exit_ok && code_ == exit_ok)
+            code_ = exit_batch_incomplete;
+        print_(json_line(line));
+    }
+
+    const std::vector<BatchFile>& files_;
+    const BatchContext& work_;
+    const WorkerOptions& workers_;
+    const std::function<void(const std::string&)>& print_;
+    MemoryQueue memory_;
+    std::vector<Slot> slots_;
+    std::size_t next_ = 0;  // the first model that was not begun
+    ExitCode code_ = exit_ok;
+};
+
+}  // namespace
+
+ExitCode process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
+                       const WorkerOptions& workers, const std::function<void(const std::string&)>& print) {
+    return Supervisor(files, work, workers, print).run();
+}
+
+}  // namespace faqem::cli
