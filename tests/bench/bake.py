@@ -35,7 +35,7 @@ def run(program, model, out, ratio, threads, extra):
 
 def accepts(program, option):
     """Whether a build knows an option."""
-    return option in subprocess.run([str(program), "simplify", "--help"], capture_output=True, text=True).stdout
+    return option in subprocess.run([str(program), "simplify", "--help-all"], capture_output=True, text=True).stdout
 
 
 def best(runs):

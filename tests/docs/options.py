@@ -15,7 +15,7 @@ def options_of_tool(tool):
     commands = {}
     for section in re.split(r"^\.SS ", manual.split(".SH EXIT STATUS")[0], flags=re.M)[1:]:
         name = re.match(r"\\fBfaqem (\S+)\\fR", section).group(1)
-        commands[name] = set(re.findall(r"^\\fB.*?(--[a-z-]+)\\fR", section, flags=re.M)) - {"--help"}
+        commands[name] = set(re.findall(r"^\\fB.*?(--[a-z-]+)\\fR", section, flags=re.M)) - {"--help", "--help-all"}
     return commands
 
 

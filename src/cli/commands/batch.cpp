@@ -78,11 +78,10 @@ int run(const BatchArguments& arguments) {
 
 CommandInfo batch_command() {
     const auto arguments = std::make_shared<BatchArguments>();
-    CommandInfo command{
-        "batch",
-        "Simplify all models of a directory, several at a time; prints one line of JSON per model",
-        {"faqem batch scans simplified --ratio 0.02 --resume >> simplified.jsonl",
-         "faqem batch parts simplified --format stl --max-error 0.05 --jobs 4"}};
+    CommandInfo command{"batch",
+                        "Simplify all models of a directory, several at a time",
+                        {"faqem batch scans simplified --ratio 0.02 --resume >> done.jsonl",
+                         "faqem batch parts simplified --format stl --max-error 0.05 --jobs 4"}};
     command.positionals = {
         positional("DIR", arguments->in, "Directory of the models; subdirectories are included"),
         positional("OUTDIR", arguments->out, "Directory for the results; created if necessary")};
@@ -91,14 +90,14 @@ CommandInfo batch_command() {
         number_option("--jobs", "N", arguments->jobs, {.max = 1024},
                       "Models at a time; 0: the number of threads (default)"),
         size_option("--max-memory", arguments->max_memory,
-                    "Memory of all models that run at the same time, as 8GB or 500MB; a model that may need "
+                    "Memory of models that run at the same time, as 8GB; a model that may need "
                     "more runs alone (default: three quarters of the machine's memory)"),
         number_option(
             "--end-after", "S", arguments->end_after, {.min = 1, .max = 1e6},
             "Seconds after which a model that has not ended is given up (default: twice --max-seconds "
             "plus 60, or 3600)"),
         flag_option("--resume", arguments->resume,
-                    "Skip results that are up to date, redo those that are not")};
+                    "Skip results that are up to date; redo those that are not")};
     add_options(command.options, table_options(detail::in_batch, arguments->options));
     for (OptionInfo& option : command.options) {
         if (option.names.back() == "--threads")

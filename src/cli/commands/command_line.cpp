@@ -5,13 +5,17 @@
 #include <utility>
 
 #include "cli/commands/commands.hpp"
+#include "cli/options/bound_options.hpp"
 
 namespace faqem::cli {
 
 namespace {
 
-const OptionInfo help_option{
-    {"-h", "--help"}, "", "Print this help message and exit", detail::OptionKind::flag};
+/// The parser handles these two.
+std::vector<OptionInfo> help_options() {
+    return {rare({{"-h", "--help"}, "", "Print the usual options and examples", detail::OptionKind::flag}),
+            rare({{"--help-all"}, "", "Print all options", detail::OptionKind::flag})};
+}
 
 void exclude_mutually(std::vector<OptionInfo>& options) {
     for (const OptionInfo& option : options) {
@@ -33,7 +37,8 @@ void exclude_mutually(std::vector<OptionInfo>& options) {
 
 void complete_options(CommandTree& tree) {
     for (CommandInfo& command : tree.commands) {
-        command.options.insert(command.options.begin(), help_option);
+        const std::vector<OptionInfo> help = help_options();
+        command.options.insert(command.options.begin(), help.begin(), help.end());
         exclude_mutually(command.options);
     }
 }
@@ -42,13 +47,13 @@ CommandTree command_tree() {
     CommandTree tree;
     tree.description = "Simplifies textured triangle meshes.";
     tree.exit_codes =
-        "Exit codes: 0 success, 1 internal error, 2 usage, 3 bad input, 4 unsupported input,\n"
-        "5 target missed (with --strict-target), 6 --max-error exceeded, 7 cannot write, 8 cancelled,\n"
-        "9 not all models of a batch are done, 10 --max-bytes exceeded, 11 not enough memory,\n"
-        "12 --max-seconds was over before there was a result.";
-    tree.options = {
-        help_option,
-        {{"--version"}, "", "Display program version information and exit", detail::OptionKind::flag}};
+        "Exit codes: 0 success, 1 internal error, 2 usage, 3 bad input,\n"
+        "4 unsupported input, 5 target missed (with --strict-target),\n"
+        "6 --max-error exceeded, 7 cannot write, 8 cancelled, 9 not all models of a batch\n"
+        "are done, 10 --max-bytes exceeded, 11 not enough memory, 12 --max-seconds was\n"
+        "over before there was a result.";
+    tree.options = help_options();
+    tree.options.push_back({{"--version"}, "", "Print the version", detail::OptionKind::flag});
     tree.commands = {simplify_command(), lod_command(),        truncate_command(), batch_command(),
                      info_command(),     compare_command(),    render_command(),   report_command(),
                      profiles_command(), completion_command(), man_command()};

@@ -74,7 +74,7 @@ int run(const CompareArguments& arguments) {
 CommandInfo compare_command() {
     const auto arguments = std::make_shared<CompareArguments>();
     return {"compare",
-            "Print two-sided distances and colour differences between two models as JSON",
+            "Measure distances and colour differences of two models",
             {"faqem compare model.glb simplified.glb --samples 1000000"},
             {positional("A", arguments->a, "The original; *_rel values are relative to its diagonal"),
              positional("B", arguments->b, "The other model")},

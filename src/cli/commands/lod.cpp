@@ -314,27 +314,27 @@ int run(const LodArguments& arguments) {
 std::vector<OptionInfo> chain_options(LodArguments& a) {
     return {
         list_option("--levels", a.levels,
-                    "Comma-separated, from fine to coarse: 0.5 (ratio of faces), 5000 (number of faces), "
+                    "Comma-separated, from fine to coarse; 0.5 (ratio of faces), 5000 (number of faces), "
                     "error:0.01 (distance in model units), error:0.1% (of the diagonal) or pixels:1@50 (the "
                     "size of 1 pixel at distance 50) (default 0.5,0.25,0.1,0.01)"),
         flag_option("--without-original", a.without_original,
                     "LOD0 is the first level instead of the original"),
         flag_option("--one-file", a.one_file,
-                    "All levels in one file NAME_LOD (" +
+                    "All levels in one file; NAME_LOD (" +
                         detail::listed_extensions(detail::FormatUse::write_levels) +
                         "), with the extension MSFT_lod"),
         text_option("--textures", "each|shared", a.textures,
-                    "New textures: each (one for every level; default), shared (one for all levels, baked "
+                    "New textures; each (one for every level; default), shared (one for all levels, baked "
                     "for the finest)"),
         format_option(a.format),
         text_option("--history", "FILE", a.history,
-                    "Write the collapse history of all levels to this file, for faqem truncate"),
-        number_option("--pixel-error", "N", a.view_settings.pixel_error, above_zero,
-                      "Allowed error in pixels, for switch distances (default 1)"),
-        number_option("--fov", "ANGLE", a.view_settings.fov, {.min = 1, .max = 179},
-                      "Vertical field of view in degrees, for switch distances (default 60)"),
-        number_option("--screen-height", "N", a.view_settings.screen_height, from_one(1 << 20),
-                      "Screen height in pixels, for switch distances (default 1080)")};
+                    "Write the history of all levels to this file; for faqem truncate"),
+        rare(number_option("--pixel-error", "N", a.view_settings.pixel_error, above_zero,
+                           "Allowed error in pixels, for switch distances (default 1)")),
+        rare(number_option("--fov", "ANGLE", a.view_settings.fov, {.min = 1, .max = 179},
+                           "Vertical field of view in degrees, for switch distances (default 60)")),
+        rare(number_option("--screen-height", "N", a.view_settings.screen_height, from_one(1 << 20),
+                           "Screen height in pixels, for switch distances (default 1080)"))};
 }
 
 }  // namespace
@@ -342,13 +342,12 @@ std::vector<OptionInfo> chain_options(LodArguments& a) {
 CommandInfo lod_command() {
     const auto arguments = std::make_shared<LodArguments>();
     CommandInfo command{"lod",
-                        "Create a chain of levels of detail with textures and measured errors",
+                        "Create levels of detail with textures and measured errors",
                         {"faqem lod statue.glb out --levels 0.5,0.25,0.1,0.01",
-                         "faqem lod scan.ply out --levels error:0.1%,error:2% --bake vertex --format ply"}};
+                         "faqem lod scan.ply out --levels error:0.1%,error:2% --format ply"}};
     command.positionals = {
         positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read)),
-        positional("OUTDIR", arguments->out,
-                   "Directory for NAME_LOD0 ... and NAME_LOD.json; created if necessary")};
+        positional("OUTDIR", arguments->out, "Directory for NAME_LOD0 ... and NAME_LOD.json")};
     command.options = chain_options(*arguments);
     add_options(command.options, table_options(detail::in_lod, arguments->options));
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));

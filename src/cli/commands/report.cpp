@@ -132,7 +132,7 @@ int run(const ReportArguments& arguments) {
 CommandInfo report_command() {
     const auto arguments = std::make_shared<ReportArguments>();
     CommandInfo command{"report",
-                        "Compare two models on an HTML page with a 3D view, figures, pictures and a heat map",
+                        "Compare two models on an HTML page, in 3D and in figures",
                         {"faqem report model.glb simplified.glb -o report.html"}};
     command.positionals = {positional("A", arguments->a, "The original"),
                            positional("B", arguments->b, "The other model")};

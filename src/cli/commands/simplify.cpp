@@ -216,30 +216,30 @@ int run(const SimplifyCommandArguments& arguments) {
 }
 
 std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
-    return {size_option("--max-memory", a.max_memory,
-                        "Use at most this memory, as 8GB or 500MB, or end with code 11 (default: the "
-                        "machine's memory)"),
-            text_option("--report", "FILE", a.report, "Write counts, warnings and times to this JSON file"),
-            text_option("--history", "FILE", a.history, "Write the collapse history to this file"),
-            text_option("--correspondence", "FILE", a.correspondence,
-                        "Write the position of each texel of the new atlas on the original to this file"),
-            profile_option(),
-            builtin_profile_option(),
-            flag_option("--force", a.force, "Overwrite existing files"),
-            flag_option("--quiet", a.quiet, "Print no summary and no progress bar")};
+    return {
+        rare(size_option("--max-memory", a.max_memory,
+                         "Use at most this memory, as 8GB or 500MB; or end with code 11 (default: the "
+                         "machine's memory)")),
+        text_option("--report", "FILE", a.report, "Write counts, warnings and times to this JSON file"),
+        rare(text_option("--history", "FILE", a.history, "Write the collapse history to this file")),
+        rare(text_option("--correspondence", "FILE", a.correspondence,
+                         "Write the position of each texel of the new atlas on the original to this file")),
+        profile_option(),
+        builtin_profile_option(),
+        flag_option("--force", a.force, "Overwrite existing files"),
+        flag_option("--quiet", a.quiet, "Print no summary and no progress bar")};
 }
 
 }  // namespace
 
 CommandInfo simplify_command() {
     const auto arguments = std::make_shared<SimplifyCommandArguments>();
-    CommandInfo command{
-        "simplify",
-        "Simplify a model and bake its appearance into a new texture",
-        {"faqem simplify model.glb simplified.glb --ratio 0.05",
-         "faqem simplify scan.ply simplified.ply --bake vertex --faces 20000 --report simplified.json",
-         "faqem simplify part.stl simplified.stl --max-error 0.05",
-         "faqem simplify model.glb web.glb --max-bytes 2MB"}};
+    CommandInfo command{"simplify",
+                        "Simplify a model and bake its appearance into a texture",
+                        {"faqem simplify model.glb simplified.glb --ratio 0.05",
+                         "faqem simplify scan.ply simplified.ply --faces 20000 --bake vertex",
+                         "faqem simplify part.stl simplified.stl --max-error 0.05",
+                         "faqem simplify model.glb web.glb --max-bytes 2MB"}};
     command.positionals = {
         positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read)),
         positional("OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write))};

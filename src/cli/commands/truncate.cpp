@@ -129,16 +129,16 @@ int run(const TruncateArguments& arguments) {
 CommandInfo truncate_command() {
     const auto arguments = std::make_shared<TruncateArguments>();
     CommandInfo command{"truncate",
-                        "Extract a level of detail from a stored history without another run",
-                        {"faqem truncate statue.history statue-5000.glb --faces 5000 --source statue.glb"}};
+                        "Extract a level of detail from a stored history",
+                        {"faqem truncate statue.history small.glb --faces 5000 --source statue.glb"}};
     command.positionals = {
         positional("HISTORY", arguments->history, "File written by simplify --history or lod --history"),
         positional("OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write))};
     OptionInfo faces = number_option("--faces", "N", arguments->faces, from_one(), "Maximum number of faces");
     faces.is_required = true;
     command.options = {faces, text_option("--source", "FILE", arguments->source,
-                                          "The original model, from which the appearance is baked with the "
-                                          "options below. Without it: geometry only")};
+                                          "The original model, for the appearance; without it: geometry "
+                                          "only. The options of baking are about it")};
     add_options(command.options, table_options(detail::in_truncate, arguments->options));
     add_options(command.options, {strict_option(arguments->strict),
                                   flag_option("--force", arguments->force, "Overwrite an existing file"),

@@ -93,14 +93,18 @@ OptionInfo format_option(std::string& format) {
 }
 
 std::vector<OptionInfo> compare_options(CompareOptions& options) {
-    return {
-        number_option("--samples", "N", options.samples, from_one(0x1p32),
-                      "Samples on each model (default 200000)"),
-        number_option("--seed", "N", options.seed, {}, "Seed of the samples (default 1)"),
-        number_option("--tolerance", "T", options.tolerance, {.max = 1e9},
-                      "Relative difference allowed between a maximum distance and its bound (default 0.01)"),
-        number_option("--threads", "N", options.threads, {.max = 1024},
-                      "Maximum number of threads; 0: all (default). The result does not depend on it")};
+    return {number_option("--samples", "N", options.samples, from_one(0x1p32),
+                          "Samples on each model (default 200000)"),
+            number_option("--seed", "N", options.seed, {}, "Seed of the samples (default 1)"),
+            number_option("--tolerance", "T", options.tolerance, {.max = 1e9},
+                          "Relative gap of a maximum and its bound (default 0.01)"),
+            number_option("--threads", "N", options.threads, {.max = 1024},
+                          "Maximum number of threads; 0: all (default)")};
+}
+
+OptionInfo rare(OptionInfo option) {
+    option.group.clear();
+    return option;
 }
 
 void add_options(std::vector<OptionInfo>& options, std::vector<OptionInfo> more) {

@@ -51,6 +51,9 @@ OptionInfo format_option(std::string& format);
 /// The options of comparing two models (`faqem compare` and `faqem report`).
 std::vector<OptionInfo> compare_options(CompareOptions& options);
 
+/// The option without a group: --help omits it.
+OptionInfo rare(OptionInfo option);
+
 /// Appends options to those of a command.
 void add_options(std::vector<OptionInfo>& options, std::vector<OptionInfo> more);
 

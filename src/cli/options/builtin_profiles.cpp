@@ -49,8 +49,8 @@ OptionInfo builtin_profile_option() {
     OptionInfo info{
         {"--profile"},
         names("|"),
-        "Use the options of a built-in profile, which faqem profiles shows; options on the command line "
-        "and of --config take precedence",
+        "Options for web viewers or game engines; faqem profiles shows them. Those typed and those of "
+        "--config take precedence",
         detail::OptionKind::choice};
     info.read = [](const std::vector<std::string>& values) { builtin_profile(values.back()); };
     return info;

@@ -6,6 +6,7 @@
 
 #include "asset/io/file.hpp"
 #include "cli/files/protected_files.hpp"
+#include "cli/options/bound_options.hpp"
 #include "cli/options/builtin_profiles.hpp"
 #include "cli/process/json.hpp"
 #include "faqem/detail/base/closest_word.hpp"
@@ -108,9 +109,8 @@ void check_version(const Json& profile, const std::string& file) {
 }  // namespace
 
 OptionInfo profile_option() {
-    OptionInfo info{{"--config"},
-                    "FILE",
-                    "Read options from a profile (JSON file); options on the command line take precedence"};
+    OptionInfo info =
+        rare({{"--config"}, "FILE", "Read options from a profile (JSON file); those typed take precedence"});
     info.read = [](const std::vector<std::string>&) {};
     return info;
 }
@@ -122,7 +122,8 @@ bool reads_profiles(const CommandInfo& command) {
 
 std::string profile_key(const OptionInfo& option) {
     const std::string& name = option.names.back();
-    return name == "--config" || name == "--profile" || name == "--help" ? "" : name.substr(2);
+    const bool is_key = option.read && name != "--config" && name != "--profile";
+    return is_key ? name.substr(2) : "";
 }
 
 namespace {

@@ -32,6 +32,7 @@ OptionInfo option_of(const OptionRow& row, GivenOptions& given) {
     } else if (row.value_name.empty()) {
         info.value_name = row.choices;
     }
+    info.group = row.group;
     info.suffix_choice = row.suffix_choice;
     info.read = [&row, &given,
                  is_plain_flag = is_flag && info.flag_value.empty()](const std::vector<std::string>& values) {
@@ -55,14 +56,15 @@ std::vector<OptionInfo> table_options(detail::EntryPoint command, GivenOptions& 
 }
 
 OptionInfo strict_option(bool& strict) {
-    return flag_option("--strict", strict,
-                       "Exit with 3 if the input would be repaired: invalid elements, faces of zero area, "
-                       "duplicate faces");
+    return rare(flag_option("--strict", strict,
+                            "Exit with 3 if the input would be repaired; invalid elements, faces of zero "
+                            "area, duplicate faces"));
 }
 
 std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target) {
-    return {strict_option(strict), flag_option("--strict-target", strict_target,
-                                               "Exit with 5, and write no model, if the target is missed")};
+    return {strict_option(strict),
+            rare(flag_option("--strict-target", strict_target,
+                             "Exit with 5, and write no model, if the target is missed"))};
 }
 
 bool is_given(const GivenOptions& given, std::string_view name) {

@@ -15,9 +15,10 @@ namespace faqem::cli {
 struct OptionInfo {
     std::vector<std::string> names;  ///< for example `-h` and `--help`; one name without dashes: positional
     std::string value_name = {};     ///< placeholder of the value; words with bars between: its choices
-    std::string description = {};
+    std::string description = {};    ///< what precedes the first semicolon is the line in --help
     detail::OptionKind kind = detail::OptionKind::text;
     detail::OptionRange range = {};
+    std::string group = "Options";           ///< heading in help; empty: only in --help-all
     std::string flag_value = {};             ///< not empty: value of a flag that accepts `=VALUE`
     std::string suffix_choice = {};          ///< choice that a number may follow: `smooth:30`
     std::vector<std::string> excludes = {};  ///< options that cannot be given together with this one, sorted
@@ -33,6 +34,11 @@ struct OptionInfo {
 inline std::vector<std::string> choices_of(const OptionInfo& option) {
     if (option.value_name.find('|') == std::string::npos) return {};
     return detail::split_choices(option.value_name);
+}
+
+/// The line of an option in --help.
+inline std::string summary_of(const OptionInfo& option) {
+    return option.description.substr(0, option.description.find(';'));
 }
 
 /// Runs a command. Returns an exit code, or throws an exception that exit_code_of() maps to one.

@@ -68,7 +68,7 @@ std::string zsh_option(const OptionInfo& option) {
     std::ostringstream text;
     const std::vector<std::string> choices = choices_of(option);
     for (const std::string& name : option.names) {
-        text << "            '" << name << "[" << zsh_escaped(option.description) << "]";
+        text << "            '" << name << "[" << zsh_escaped(summary_of(option)) << "]";
         if (!choices.empty())
             text << ":value:(" << joined(choices) << ")";
         else if (option.kind != detail::OptionKind::flag)

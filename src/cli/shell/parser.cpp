@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
+#include "cli/shell/help.hpp"
 #include "faqem/version.hpp"
 
 namespace faqem::cli {
@@ -15,13 +16,9 @@ CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
     std::string names;
     for (const std::string& name : info.names) names.append(names.empty() ? "" : ",").append(name);
     if (info.kind == detail::OptionKind::flag) {
-        CLI::Option* flag = command.add_flag(
-            info.flag_value.empty() ? names : names + "{" + info.flag_value + "}", info.description);
-        if (!info.value_name.empty()) flag->type_name(info.value_name);
-        return flag;
+        return command.add_flag(info.flag_value.empty() ? names : names + "{" + info.flag_value + "}");
     }
-    CLI::Option* option = command.add_option(names, info.description);
-    option->type_name(option->get_positional() ? " " : info.value_name);
+    CLI::Option* option = command.add_option(names);
     option->required(info.is_required)->expected(info.min_words, info.max_words);
     option->allow_extra_args(info.max_words > 1);
     if (info.kind == detail::OptionKind::list) option->delimiter(',');
@@ -37,10 +34,7 @@ void read_values(const ParsedOption& parsed) {
 }
 
 void add_command(CLI::App& app, const CommandInfo& info, Action& action) {
-    CLI::App& command = *app.add_subcommand(info.name, info.description);
-    std::string examples = "Examples:";
-    for (const std::string& example : info.examples) examples.append("\n  ").append(example);
-    command.footer(examples);
+    CLI::App& command = *app.add_subcommand(info.name);
     std::vector<ParsedOption> options;
     for (const std::vector<OptionInfo>& group : {std::cref(info.positionals), std::cref(info.options)}) {
         for (const OptionInfo& option : group) {
@@ -59,11 +53,16 @@ void add_command(CLI::App& app, const CommandInfo& info, Action& action) {
 }  // namespace
 
 void add_to_parser(CLI::App& app, const CommandTree& tree, Action& action) {
-    app.description(tree.description);
     app.name("faqem");
     app.set_version_flag("--version", "faqem " + std::string(version()));
+    app.set_help_all_flag("--help-all");
     app.require_subcommand(1);
-    app.footer(tree.exit_codes);
+    app.formatter_fn([&tree](const CLI::App* shown, const std::string&, CLI::AppFormatMode mode) {
+        for (const CommandInfo& command : tree.commands)
+            if (command.name == shown->get_name())
+                return command_help(command, mode == CLI::AppFormatMode::All);
+        return tree_help(tree);
+    });
     for (const CommandInfo& command : tree.commands) add_command(app, command, action);
 }
 

@@ -1,9 +1,12 @@
 #include "cli/shell/command_tree.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
 
 #include "cli/commands/command_line.hpp"
 #include "cli/options/simplify_options.hpp"
+#include "cli/shell/help.hpp"
 #include "cli/shell/parser.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
@@ -95,10 +98,38 @@ TEST_CASE("enumerated options accept exactly the values of their placeholder") {
     CHECK(choices == 36);
 }
 
+TEST_CASE("help has at most 40 lines of 80 columns, and --help-all has each option") {
+    const CommandTree tree = command_tree();
+    std::vector<std::string> usual = {tree_help(tree)}, all;
+    for (const CommandInfo& command : tree.commands) {
+        usual.push_back(command_help(command, false));
+        all.push_back(command_help(command, true));
+        for (const OptionInfo& option : command.options) {
+            CAPTURE(option.names);
+            CHECK(all.back().find(option.names.back()) != std::string::npos);
+            // Each option has one line in the short help.
+            if (!option.group.empty())
+                CHECK(usual.back().find(summary_of(option) + "\n") != std::string::npos);
+        }
+    }
+    for (const std::string& help : usual) CHECK(std::count(help.begin(), help.end(), '\n') <= 40);
+    usual.insert(usual.end(), all.begin(), all.end());
+    for (const std::string& help : usual) {
+        std::istringstream lines(help);
+        for (std::string line; std::getline(lines, line);) {
+            CAPTURE(line);
+            CHECK(line.size() <= 80);
+        }
+    }
+}
+
 TEST_CASE("help shows examples and the possible values of options") {
     const tool_test::Folder folder;
     const std::string help = tool_test::run(folder, "simplify --help").out;
     CHECK(help.find("Examples:\n  faqem simplify model.glb") != std::string::npos);
-    CHECK(help.find("--preset qem|paper|stmw|fast|balanced|best") != std::string::npos);
+    CHECK(help.find("\nTarget:\n  ") != std::string::npos);
+    CHECK(help.find("--preset") == std::string::npos);
+    CHECK(tool_test::run(folder, "simplify --help-all")
+              .out.find("--preset qem|paper|stmw|fast|balanced|best") != std::string::npos);
     CHECK(tool_test::run(folder, "--help").out.find("Exit codes: 0 success") != std::string::npos);
 }

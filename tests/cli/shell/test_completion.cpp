@@ -45,7 +45,7 @@ TEST_CASE("bash completes commands, options and values") {
     CHECK(in_bash("co", 1) == WordSet{"compare", "completion"});
     CHECK(in_bash("--v", 1) == WordSet{"--version"});
     CHECK(in_bash("simplify a.glb --textu", 3) == WordSet{"--texture-size"});
-    CHECK(in_bash("info --", 2) == WordSet{"--help", "--json"});
+    CHECK(in_bash("info --", 2) == WordSet{"--help", "--help-all", "--json"});
     CHECK(in_bash("simplify --preset ''", 3) == WordSet{"qem", "paper", "stmw", "fast", "balanced", "best"});
     CHECK(in_bash("batch models simplified --format g", 5) == WordSet{"glb", "gltf"});
     CHECK(in_bash("completion ''", 2) == WordSet{"bash", "zsh"});
@@ -73,8 +73,7 @@ TEST_CASE("zsh completes commands, options and values") {
     const WordSet options =
         lines_of("zsh -f", folder, beginning + "words=(faqem simplify -) CURRENT=3\n_faqem\n");
     CHECK(options.count(
-        "--budget[How the faces are distributed among the meshes of a scene\\: scene (by error), "
-        "mesh (in proportion to their face counts); default\\: scene]:value:(scene mesh)"));
+        "--budget[How the faces are distributed among the meshes of a scene]:value:(scene mesh)"));
     CHECK(options.count("--force[Overwrite existing files]"));
     CHECK(options.count("*:argument:_files"));
 }

@@ -11,12 +11,12 @@ inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::budget>(
         {.name = "budget",
          .choices = "scene|mesh",
-         .help = "How the faces are distributed among the meshes of a scene: scene (by error), mesh (in "
+         .help = "How the faces are distributed among the meshes of a scene; scene (by error), mesh (in "
                  "proportion to their face counts)",
          .entry_points = in_all_but_truncate}),
     option_row<&Options::visibility>({.name = "visibility",
                                       .choices = "ignored|weighted",
-                                      .help = "Errors on hidden surface: ignored (visibility has no effect), "
+                                      .help = "Errors on hidden surface; ignored (visibility has no effect), "
                                               "weighted (they count less)",
                                       .entry_points = in_all_but_truncate}),
     option_row<&Options::format>({.name = "format",
@@ -32,22 +32,25 @@ inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::max_bytes>(
         {.name = "max-bytes",
          .value_name = "SIZE",
-         .help = "Maximum total size of the files of a model or level, as 2MB or 500KB: without a face "
-                 "count, faces "
-                 "and images are chosen for the best picture, otherwise images are reduced, and then faces",
+         .help = "Maximum size of all files together, as 2MB or 500KB; of a model or level. Without a face "
+                 "count, faces and images are chosen for the best picture, otherwise images are reduced, and "
+                 "then faces",
+         .group = "Target",
          .excludes = "max-error",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::kind>(
         {.name = "bake",
          .choices = "auto|atlas|per-triangle|vertex|keep|none",
-         .help = "Where colours are stored: auto (keep, atlas or per-triangle, see docs/baking.md), atlas "
+         .help = "Where colours are stored; auto (keep, atlas or per-triangle, see docs/baking.md), atlas "
                  "(charts), per-triangle, vertex, keep, none",
+         .group = "Appearance",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::texture_size>(
         {.name = "texture-size",
          .range = {.min = 64, .max = 16384, .power_of_two = true},
          .value_name = "N",
          .help = "Maximum side of a baked image in texels",
+         .group = "Appearance",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::texel_density>(
         {.name = "texel-density",
@@ -59,12 +62,12 @@ inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::bake, &BakeOptions::normal_map>(
         {.name = "normal-map",
          .choices = "auto|on|off",
-         .help = "Normal map of a new texture: auto (if the source has one or its normals differ), on, off",
+         .help = "Normal map of a new texture; auto (if the source has one or its normals differ), on, off",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::normals>(
         {.name = "normals",
          .choices = "transfer|smooth|flat|none",
-         .help = "Vertex normals: transfer (from the original), smooth or smooth:ANGLE (averaged below ANGLE "
+         .help = "Vertex normals; transfer (from the original), smooth or smooth:ANGLE (averaged below ANGLE "
                  "degrees, default 40), flat, none (only with --bake none)",
          .suffix_choice = "smooth",
          .suffix_option = "crease-angle",
@@ -78,7 +81,7 @@ inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::bake, &BakeOptions::image_format>(
         {.name = "image-format",
          .choices = "auto|png|jpeg|source|webp|png-or-jpeg",
-         .help = "Format of baked images: auto (the smallest within --image-quality), png, jpeg or "
+         .help = "Format of baked images; auto (the smallest within --image-quality), png, jpeg or "
                  "jpeg:QUALITY (1 to 100, default 90), source (that of the images they are baked from), webp "
                  "(for colours, and where it is smaller; viewers need EXT_texture_webp), png-or-jpeg (as "
                  "auto, never WebP)",
@@ -92,8 +95,7 @@ inline constexpr OptionRow appearance_rows[] = {
          .value_name = "DB",
          .default_text = "40, 38 to 44 if pictures were compared",
          .help = "Least PSNR of baked colours with --image-format auto, webp or png-or-jpeg; of data 4 dB "
-                 "less, of normals "
-                 "up to 4 dB less, where the surface is rough",
+                 "less, of normals up to 4 dB less, where the surface is rough",
          .entry_points = in_all}),
     option_row<&Options::bake, &BakeOptions::jpeg_quality>(
         {.name = "jpeg-quality",
@@ -116,7 +118,7 @@ inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::compress>(
         {.name = "compress",
          .choices = "source|none|meshopt|draco",
-         .help = "Compression of geometry in glTF files: source (as the input), none, meshopt (viewers need "
+         .help = "Compression of geometry in glTF files; source (as the input), none, meshopt (viewers need "
                  "EXT_meshopt_compression), draco (viewers need KHR_draco_mesh_compression)",
          .entry_points = in_all}),
     option_row<&Options::quantize, &QuantizeOptions::kind>(
@@ -125,7 +127,7 @@ inline constexpr OptionRow appearance_rows[] = {
          .value_name = "source|off|on",
          .flag_value = "on",
          .default_text = "source",
-         .help = "Vertices in glTF files as integers: source (as the input), off, on (viewers need "
+         .help = "Vertices in glTF files as integers; source (as the input), off, on (viewers need "
                  "KHR_mesh_quantization)",
          .entry_points = in_all}),
     option_row<&Options::quantize, &QuantizeOptions::position_bits>(
@@ -133,7 +135,7 @@ inline constexpr OptionRow appearance_rows[] = {
          .range = {.min = 8, .max = 16},
          .value_name = "N",
          .default_text = "14",
-         .help = "Bits of quantised positions: steps of the grid along the diagonal of the scene",
+         .help = "Bits of quantised positions; steps of the grid along the diagonal of the scene",
          .entry_points = in_all}),
     option_row<&Options::quantize, &QuantizeOptions::normal_bits>(
         {.name = "normal-bits",

@@ -49,7 +49,8 @@ inline constexpr OptionRow geometry_rows[] = {
      .range = {.max = 1, .excludes_min = true},
      .value_name = "R",
      .default_text = "0.1",
-     .help = "Ratio of faces to keep, also as 10%",
+     .help = "Share of faces to keep, as 0.1 or 10%",
+     .group = "Target",
      .excludes = "faces",
      .entry_points = in_simplify_and_batch,
      .get = ratio_value,
@@ -60,6 +61,7 @@ inline constexpr OptionRow geometry_rows[] = {
      .range = {.min = 1},
      .value_name = "N",
      .help = "Number of faces to keep",
+     .group = "Target",
      .excludes = "ratio",
      .entry_points = in_simplify_and_batch,
      .get = faces_value,
@@ -68,15 +70,17 @@ inline constexpr OptionRow geometry_rows[] = {
         {.name = "max-error",
          .range = {.excludes_min = true},
          .value_name = "LENGTH",
-         .help = "Maximum distance from the original, in model units or with % of the diagonal. Finds the "
-                 "smallest mesh within it; with --ratio or --faces the distance is only checked",
+         .help = "Maximum distance from the original, as 0.01 or 0.1%; in model units or with % of the "
+                 "diagonal. Finds the smallest mesh within it; with --ratio or --faces the distance is only "
+                 "checked",
+         .group = "Target",
          .entry_points = in_simplify_and_batch}),
     option_row<&Options::max_seconds>(
         {.name = "max-seconds",
          .range = {.excludes_min = true},
          .value_name = "S",
          .help =
-             "Stop after this time: the collapses end above the target, and images that are not baked yet "
+             "Stop after this time; the collapses end above the target, and images that are not baked yet "
              "are kept. Results then depend on the machine",
          .entry_points = in_simplify_and_batch}),
     option_row<&Options::preset>({.name = "preset",
@@ -101,13 +105,15 @@ inline constexpr OptionRow geometry_rows[] = {
                                                          .choices = "free|locked",
                                                          .flag_value = "locked",
                                                          .help = "Do not move boundary vertices",
+                                                         .group = "Shape",
                                                          .entry_points = in_all_but_truncate}),
     option_row<&Options::topology, &Topology::group_boundaries>(
         {.name = "group-boundaries",
          .command_name = "keep-groups",
          .choices = "free|preferred|kept",
          .flag_value = "kept",
-         .help = "Preserve boundaries between materials, even if the target is missed",
+         .help = "Preserve boundaries between materials; even if the target is missed",
+         .group = "Shape",
          .entry_points = in_all_but_truncate}),
     option_row<&Options::topology, &Topology::weld>(
         {.name = "welding",
@@ -125,8 +131,10 @@ inline constexpr OptionRow geometry_rows[] = {
         {.name = "prune",
          .range = {.excludes_min = true},
          .value_name = "LENGTH",
-         .help = "Delete connected components whose bounding box has a smaller diagonal, in model units or "
-                 "with % of the scene's diagonal; the largest of each mesh is kept",
+         .help =
+             "Delete connected components below a size, as 0.01 or 1%; in model units or with % of "
+             "the scene's diagonal, by the diagonal of the bounding box. The largest of each mesh is kept",
+         .group = "Shape",
          .entry_points = in_all_but_truncate}),
     {.name = "virtual-edges",
      .member_name = "virtual_edge_distance",

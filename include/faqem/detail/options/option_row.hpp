@@ -73,7 +73,9 @@ struct OptionRow {
     /// value_name. In C and Python the words `on` (this value) and `off` are then values, too.
     std::string_view flag_value = {};
     std::string_view default_text = {};  ///< default in help if it is not a fixed value
-    std::string_view help = {};          ///< one line without range and default
+    /// Without range and default. What precedes the first semicolon is the line in --help.
+    std::string_view help = {};
+    std::string_view group = {};  ///< heading of the option in --help; empty: only in --help-all
     /// `smooth:30` sets this choice, and the option `suffix_option` to 30.
     std::string_view suffix_choice = {}, suffix_option = {};
     std::string_view excludes = {};  ///< option that cannot be given together with this one

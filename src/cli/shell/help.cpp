@@ -1,0 +1,73 @@
+#include "cli/shell/help.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace faqem::cli {
+
+namespace {
+
+constexpr std::size_t line_width = 80, text_column = 22;
+
+/// Appends a name and a text, which begins at text_column or later and continues there.
+void add_entry(std::string& help, std::string name, const std::string& text) {
+    name.insert(0, "  ");
+    name.resize(std::max(text_column, name.size() + 2), ' ');
+    std::size_t used = name.size();
+    help += name;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const bool needs_space = help.back() != ' ';
+        if (used + needs_space + word.size() > line_width) {
+            help.append("\n").append(text_column, ' ');
+            used = text_column;
+        } else if (needs_space) {
+            help += ' ';
+            ++used;
+        }
+        help += word;
+        used += word.size();
+    }
+    help += '\n';
+}
+
+void add_option(std::string& help, const OptionInfo& option, bool all) {
+    std::string names;
+    for (const std::string& name : option.names) names.append(names.empty() ? "" : ", ").append(name);
+    if (!option.value_name.empty()) names.append(" ").append(option.value_name);
+    add_entry(help, names, all ? option.description : summary_of(option));
+}
+
+}  // namespace
+
+std::string tree_help(const CommandTree& tree) {
+    std::string help = tree.description + "\n\nUsage: faqem COMMAND [OPTIONS]\n\nCommands:\n";
+    for (const CommandInfo& command : tree.commands) add_entry(help, command.name, command.description);
+    help += "\nOptions:\n";
+    for (const OptionInfo& option : tree.options) add_option(help, option, true);
+    return help + "\n" + tree.exit_codes + "\n";
+}
+
+std::string command_help(const CommandInfo& command, bool all) {
+    std::string help = command.description + "\n\nUsage: faqem " + command.name + " [OPTIONS]";
+    for (const OptionInfo& positional : command.positionals) help.append(" ").append(positional.names.back());
+    help += "\n";
+    for (const OptionInfo& positional : command.positionals)
+        add_entry(help, positional.names.back(), positional.description);
+    std::vector<std::string> groups;
+    for (const OptionInfo& option : command.options)
+        if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
+            groups.push_back(option.group);
+    std::stable_partition(groups.begin(), groups.end(), [](const std::string& one) { return !one.empty(); });
+    for (const std::string& group : groups) {
+        if (group.empty() && !all) continue;
+        help.append("\n").append(group.empty() ? "Other options" : group).append(":\n");
+        for (const OptionInfo& option : command.options)
+            if (option.group == group) add_option(help, option, all);
+    }
+    help += "\nExamples:\n";
+    for (const std::string& example : command.examples) help.append("  ").append(example).append("\n");
+    return all ? help : help + "\nfaqem " + command.name + " --help-all lists all options.\n";
+}
+
+}  // namespace faqem::cli
