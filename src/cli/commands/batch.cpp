@@ -94,8 +94,7 @@ CommandInfo batch_command() {
                     "more runs alone (default: three quarters of the machine's memory)"),
         number_option(
             "--end-after", "S", arguments->end_after, {.min = 1, .max = 1e6},
-            "Seconds after which a model that has not ended is given up (default: twice --max-seconds "
-            "plus 60, or 3600)"),
+            "Give up a model after this many seconds; default: twice --max-seconds plus 60, or 3600"),
         flag_option("--resume", arguments->resume,
                     "Skip results that are up to date; redo those that are not")};
     add_options(command.options, table_options(detail::in_batch, arguments->options));
