@@ -23,7 +23,7 @@ def points(vertices, triangles, faces, weights):
 
 class Levels(unittest.TestCase):
     def test_levels_have_fewer_faces_and_larger_errors(self):
-        levels = faqem.simplify_levels(*hill(20), [0.5, 100, "error:5%"])
+        levels = faqem.simplify_levels(*hill(20), ["50%", 100, "error:5%"])
         self.assertEqual(len(levels), 3)
         self.assertLessEqual(len(levels[0].triangles), 400)
         self.assertLessEqual(len(levels[1].triangles), 100)

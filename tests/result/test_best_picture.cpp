@@ -136,8 +136,9 @@ TEST_CASE(
     const Folder folder;
     faqem::save(painted_sheet(40), folder / "in.glb");
     const auto written = [&](const std::string& options) {
-        REQUIRE(run(folder, "simplify in.glb out.glb --force --quantize --report r.json " + options).code ==
-                0);
+        REQUIRE(
+            run(folder, "simplify in.glb out.glb --force --quantize on --report r.json " + options).code ==
+            0);
         const nlohmann::json json = report(folder), points = json["budget_points"];
         const auto best = std::max_element(
             points.begin(), points.end(), [](const auto& a, const auto& b) { return a["psnr"] < b["psnr"]; });
@@ -163,7 +164,7 @@ TEST_CASE(
 TEST_CASE("the report of --max-bytes has the faces, positions and images that were tried alone") {
     const Folder folder;
     faqem::save(painted_sheet(40), folder / "in.glb");
-    REQUIRE(run(folder, "simplify in.glb out.glb --quantize --report r.json --max-bytes 12000").code == 0);
+    REQUIRE(run(folder, "simplify in.glb out.glb --quantize on --report r.json --max-bytes 12000").code == 0);
     std::map<std::string, std::vector<nlohmann::json>> trials;
     const nlohmann::json json = report(folder);
     for (const nlohmann::json& trial : json["budget_trials"]) trials[trial["kind"]].push_back(trial);

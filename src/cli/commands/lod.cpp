@@ -36,10 +36,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct LodArguments : SimplifyArguments {
-    std::string in, out, history, format = default_format(), textures = "each";
+    std::string in, out, history, format, textures = "each";
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     ViewSettings view_settings;
-    bool without_original = false, one_file = false, force = false, quiet = false;
+    bool without_original = false, force = false, quiet = false;
 
     Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
     LevelTextures level_textures() const {
@@ -48,20 +48,27 @@ struct LodArguments : SimplifyArguments {
 };
 
 /// Paths of the output files: a model for each level, the original first unless --without-original is given,
-/// and the manifest. With --one-file the paths of all levels are equal.
+/// and the manifest. If the output is a file, the paths of all levels are equal.
 struct Outputs {
-    explicit Outputs(const LodArguments& a) {
-        const std::string extension = extension_of_format(a.format);
-        const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string();
-        if (a.one_file && !detail::format_by_name(stem + extension)->encode_levels)
-            throw OptionError("--one-file: the extension of --format must be " +
-                              detail::listed_extensions(detail::FormatUse::write_levels));
+    explicit Outputs(const LodArguments& a) : is_file(detail::format_by_name(a.out) != nullptr) {
         const std::size_t count = a.levels.size() + (a.without_original ? 0 : 1);
-        for (std::size_t i = 0; i < count; ++i)
-            models.push_back(stem + "_LOD" + (a.one_file ? "" : std::to_string(i)) + extension);
-        manifest = stem + "_LOD.json";
+        if (is_file) {
+            if (!detail::format_by_name(a.out)->encode_levels)
+                throw OptionError(a.out + ": a file of all levels must end in " +
+                                  detail::listed_extensions(detail::FormatUse::write_levels) +
+                                  "; a name without the ending of a model is a directory");
+            if (!a.format.empty()) throw OptionError("--format: " + a.out + " determines the format");
+            models.assign(count, a.out);
+            manifest = fs::path(a.out).replace_extension(".json");
+            return;
+        }
+        const std::string extension = extension_of_format(a.format.empty() ? default_format() : a.format);
+        const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string() + "_LOD";
+        for (std::size_t i = 0; i < count; ++i) models.push_back(stem + std::to_string(i) + extension);
+        manifest = stem + ".json";
     }
 
+    bool is_file;
     std::vector<fs::path> models;
     fs::path manifest;
 };
@@ -83,12 +90,12 @@ void check_shared_textures(const LodArguments& a, const Options& options) {
 }
 
 /// Checks the options of --max-bytes.
-void check_max_bytes(const LodArguments& a, const Options& options) {
+void check_max_bytes(const LodArguments& a, const Outputs& outputs, const Options& options) {
     if (!options.max_bytes) return;
     if (a.level_textures() == LevelTextures::shared)
         throw OptionError(
             "--max-bytes: cannot be used with --textures shared, where levels have the same images");
-    if (a.one_file) throw OptionError("--max-bytes: cannot be used with --one-file");
+    if (outputs.is_file) throw OptionError("--max-bytes: cannot be used with one file of all levels");
 }
 
 /// Checks all output files and creates their folder.
@@ -96,7 +103,7 @@ void prepare_outputs(const LodArguments& a, const Outputs& outputs) {
     protect_input(a.in);
     check_models_unprotected(outputs.models);
     for (const fs::path& file : {outputs.manifest, fs::path(a.history)}) check_unprotected(file);
-    make_folder(a.out);
+    if (!outputs.is_file) make_folder(a.out);
     for (const fs::path& file : outputs.models) check_output(file, a.overwrite());
     check_output(outputs.manifest, a.overwrite());
     if (a.history.empty()) return;
@@ -135,8 +142,8 @@ void print_summary(const LodArguments& a, const std::vector<WrittenLevel>& level
     std::cout << out.str();
 }
 
-/// Creates the levels and writes each one under temporary names when it is ready; with --one-file, writes all
-/// levels at the end. All files of the folder get their names together, after the last one is written.
+/// Creates the levels and writes each one under temporary names when it is ready, or all levels of one file
+/// at the end. All files of the folder get their names together, after the last one is written.
 class LodWriter {
 public:
     LodWriter(const LodArguments& arguments, const Outputs& outputs, const Asset& source,
@@ -150,7 +157,7 @@ public:
                                   ? write_with_shared_texture()
                                   : write_with_separate_textures();
         if (code != exit_ok) return code;
-        if (arguments_.one_file) {
+        if (outputs_.is_file) {
             const ExitOnInterrupt exit_on_interrupt;
             const detail::CollectWrites collect(set_);
             append(warnings_,
@@ -245,7 +252,7 @@ private:
         all.insert(all.end(), more.begin(), more.end());
     }
 
-    /// Saves one level, or stores it for --one-file. \return warnings about data that the format cannot store
+    /// Saves one level, or stores it for the file of all. \return warnings about data that the format cannot store
     std::vector<std::string> write(Asset&& asset, double distance, double error, const Report* report) {
         const ExitOnInterrupt exit_on_interrupt;
         const detail::CollectWrites collect(set_);
@@ -256,7 +263,7 @@ private:
             level.faces += part.triangles.size();
             level.vertices += part.positions.size();
         }
-        if (!arguments_.one_file) return save(asset, file, arguments_.overwrite());
+        if (!outputs_.is_file) return save(asset, file, arguments_.overwrite());
         one_file_levels_.push_back({std::move(asset), coverage(error)});
         return {};
     }
@@ -276,7 +283,7 @@ private:
     std::vector<Report> reports_;
     std::vector<std::string> warnings_;
     std::vector<WrittenLevel> written_;
-    std::vector<SavedLevel> one_file_levels_;  // with --one-file
+    std::vector<SavedLevel> one_file_levels_;  // of a file of all levels
     detail::SceneSize size_;
     detail::FileSet set_;
 };
@@ -287,8 +294,8 @@ int run(const LodArguments& arguments) {
     for (const std::string& text : arguments.levels)
         levels.push_back(parse_lod_level(text, arguments.view_settings));
     check_shared_textures(arguments, options);
-    check_max_bytes(arguments, options);
     const Outputs outputs(arguments);
+    check_max_bytes(arguments, outputs, options);
     options.format = format_of_output(outputs.models[0]);
     prepare_outputs(arguments, outputs);
     install_signal_handlers();
@@ -313,16 +320,13 @@ int run(const LodArguments& arguments) {
 /// The options that only this command has.
 std::vector<OptionInfo> chain_options(LodArguments& a) {
     return {
-        list_option("--levels", a.levels,
-                    "Comma-separated, from fine to coarse; 0.5 (ratio of faces), 5000 (number of faces), "
-                    "error:0.01 (distance in model units), error:0.1% (of the diagonal) or pixels:1@50 (the "
-                    "size of 1 pixel at distance 50) (default 0.5,0.25,0.1,0.01)"),
+        list_option(
+            "--levels", a.levels,
+            "Comma-separated, from fine to coarse; 0.5 or 50% (ratio of faces), 5000 (number of faces), "
+            "error:0.01 (distance in model units), error:0.1% (of the diagonal) or pixels:1@50 (the "
+            "size of 1 pixel at distance 50) (default 0.5,0.25,0.1,0.01)"),
         flag_option("--without-original", a.without_original,
                     "LOD0 is the first level instead of the original"),
-        flag_option("--one-file", a.one_file,
-                    "All levels in one file; NAME_LOD (" +
-                        detail::listed_extensions(detail::FormatUse::write_levels) +
-                        "), with the extension MSFT_lod"),
         text_option("--textures", "each|shared", a.textures,
                     "New textures; each (one for every level; default), shared (one for all levels, baked "
                     "for the finest)"),
@@ -341,13 +345,16 @@ std::vector<OptionInfo> chain_options(LodArguments& a) {
 
 CommandInfo lod_command() {
     const auto arguments = std::make_shared<LodArguments>();
-    CommandInfo command{"lod",
-                        "Create levels of detail with textures and measured errors",
-                        {"faqem lod statue.glb out --levels 0.5,0.25,0.1,0.01",
-                         "faqem lod scan.ply out --levels error:0.1%,error:2% --format ply"}};
+    CommandInfo command{
+        "lod",
+        "Create levels of detail with textures and measured errors",
+        {"faqem lod statue.glb out --levels 50%,25%,10%,1%", "faqem lod statue.glb levels.glb",
+         "faqem lod scan.ply out --levels error:0.1%,error:2% --format ply"}};
     command.positionals = {
         positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read)),
-        positional("OUTDIR", arguments->out, "Directory for NAME_LOD0 ... and NAME_LOD.json")};
+        positional("OUT", arguments->out,
+                   "Directory for NAME_LOD0 ... and NAME_LOD.json, or a file for all levels: " +
+                       detail::listed_extensions(detail::FormatUse::write_levels))};
     command.options = chain_options(*arguments);
     add_options(command.options, table_options(detail::in_lod, arguments->options));
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));

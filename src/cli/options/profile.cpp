@@ -84,7 +84,7 @@ std::vector<std::string> to_words(const OptionInfo& option, const Json& value, c
     const std::string& name = option.names.back();
     if (option.kind == detail::OptionKind::flag) {
         if (value.is_boolean()) return value.get<bool>() ? std::vector{name} : std::vector<std::string>();
-        if (option.flag_value.empty()) throw OptionError(where + ": must be true or false");
+        throw OptionError(where + ": must be true or false");
     }
     if (!value.is_array()) return {name + "=" + text_of(value, where)};
     std::string list;

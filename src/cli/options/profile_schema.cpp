@@ -28,7 +28,6 @@ void add_range(Json& schema, const detail::OptionRange& range) {
 void add_choices(Json& schema, const OptionInfo& option) {
     if (option.suffix_choice.empty()) {
         schema["enum"] = choices_of(option);
-        if (option.kind == OptionKind::flag) schema["enum"].push_back(true);
         return;
     }
     std::string pattern;
@@ -49,13 +48,11 @@ Json schema_of(const OptionInfo& option, const std::string& description) {
                                                      {OptionKind::size, {"number", "string"}},
                                                      {OptionKind::list, {"string", "array"}}};
     Json schema = {{"description", description}};
-    const bool is_flag_with_choices = !option.flag_value.empty() && !choices_of(option).empty();
-    const bool is_flag_with_number = !option.flag_value.empty() && !is_flag_with_choices;
-    if (option.kind == OptionKind::choice || is_flag_with_choices)
+    if (option.kind == OptionKind::choice)
         add_choices(schema, option);
     else if (!option.range.power_of_two)
-        schema["type"] = is_flag_with_number ? Json({"boolean", "number"}) : types.at(option.kind);
-    if (option.kind < OptionKind::choice || is_flag_with_number) add_range(schema, option.range);
+        schema["type"] = types.at(option.kind);
+    if (option.kind < OptionKind::choice) add_range(schema, option.range);
     if (option.kind == OptionKind::list) schema["items"] = {{"type", {"number", "string"}}};
     return schema;
 }

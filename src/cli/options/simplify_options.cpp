@@ -23,20 +23,17 @@ std::string description_of(const OptionRow& row) {
 }
 
 OptionInfo option_of(const OptionRow& row, GivenOptions& given) {
-    const bool is_flag = !row.flag_value.empty();
+    const bool is_flag = !row.flag_value.empty() && row.value_name.empty();
     OptionInfo info{
         {command_spelling(row)}, std::string(row.value_name), description_of(row), row.kind, row.range};
-    if (is_flag) {
+    if (is_flag)
         info.kind = OptionKind::flag;
-        if (!row.value_name.empty()) info.flag_value = row.flag_value;
-    } else if (row.value_name.empty()) {
+    else if (row.value_name.empty())
         info.value_name = row.choices;
-    }
     info.group = row.group;
     info.suffix_choice = row.suffix_choice;
-    info.read = [&row, &given,
-                 is_plain_flag = is_flag && info.flag_value.empty()](const std::vector<std::string>& values) {
-        given.emplace_back(&row, is_plain_flag ? std::string(row.flag_value) : values.back());
+    info.read = [&row, &given, is_flag](const std::vector<std::string>& values) {
+        given.emplace_back(&row, is_flag ? std::string(row.flag_value) : values.back());
     };
     return info;
 }
@@ -87,9 +84,9 @@ Level parse_level(const std::string& text) {
         const detail::OptionValue length = parse(text.substr(distance.size()), OptionKind::length);
         return Length{*length.number, length.unit};
     }
-    const double value = *parse(text, OptionKind::number).number;
+    const double value = *parse(text, OptionKind::share).number;
     if (value <= 1) return ratio(value);
-    if (!(value < 1e15 && value == std::floor(value)))
+    if (!(!text.ends_with('%') && value < 1e15 && value == std::floor(value)))
         throw OptionError("--levels: '" + text + "' is neither a ratio in (0, 1] nor a number of faces");
     return faces(static_cast<std::uint64_t>(value));
 }

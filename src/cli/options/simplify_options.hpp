@@ -39,7 +39,7 @@ std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target);
 /// Tests whether an option is given. \param name  OptionRow::name
 bool is_given(const GivenOptions& given, std::string_view name);
 
-/// Parses one level: `0.5` (ratio of faces), `5000` (number of faces), `error:0.01` (distance in model units)
+/// Parses one level: `0.5` or `50%` (ratio of faces), `5000` (number of faces), `error:0.01` (distance in model units)
 /// or `error:0.1%` (distance relative to the diagonal).
 /// \throws OptionError  the text has another form
 Level parse_level(const std::string& text);

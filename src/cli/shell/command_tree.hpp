@@ -19,14 +19,12 @@ struct OptionInfo {
     detail::OptionKind kind = detail::OptionKind::text;
     detail::OptionRange range = {};
     std::string group = "Options";           ///< heading in help; empty: only in --help-all
-    std::string flag_value = {};             ///< not empty: value of a flag that accepts `=VALUE`
     std::string suffix_choice = {};          ///< choice that a number may follow: `smooth:30`
     std::vector<std::string> excludes = {};  ///< options that cannot be given together with this one, sorted
     bool is_required = false;
     int min_words = 1, max_words = 1;  ///< number of values
 
-    /// Receives the values after parsing; that of a flag is `flag_value`, or what follows the equals sign.
-    /// Throws OptionError if they are invalid. Empty: the parser itself handles the option.
+    /// Receives the values after parsing. Throws OptionError if they are invalid. Empty: the parser itself handles the option.
     std::function<void(const std::vector<std::string>& values)> read = {};
 };
 

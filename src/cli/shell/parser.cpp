@@ -15,9 +15,7 @@ using ParsedOption = std::pair<const OptionInfo*, CLI::Option*>;
 CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
     std::string names;
     for (const std::string& name : info.names) names.append(names.empty() ? "" : ",").append(name);
-    if (info.kind == detail::OptionKind::flag) {
-        return command.add_flag(info.flag_value.empty() ? names : names + "{" + info.flag_value + "}");
-    }
+    if (info.kind == detail::OptionKind::flag) return command.add_flag(names);
     CLI::Option* option = command.add_option(names);
     option->required(info.is_required)->expected(info.min_words, info.max_words);
     option->allow_extra_args(info.max_words > 1);
@@ -28,8 +26,8 @@ CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
 void read_values(const ParsedOption& parsed) {
     const auto& [info, option] = parsed;
     if (option->count() == 0) return;
-    const bool is_plain_flag = info->kind == detail::OptionKind::flag && info->flag_value.empty();
-    if (is_plain_flag && CLI::detail::to_flag_value(option->results().back()) <= 0) return;  // --quiet=false
+    const bool is_flag = info->kind == detail::OptionKind::flag;
+    if (is_flag && CLI::detail::to_flag_value(option->results().back()) <= 0) return;  // --quiet=false
     info->read(option->results());
 }
 

@@ -26,6 +26,7 @@ Target = Union[float, str]  # of a level
 Path = Union[str, "os.PathLike[str]"]
 
 _ratio, _faces, _distance = 0, 1, 2  # faqem_level_kind; 3 is a distance as a share of the diagonal
+_expected = "(expected: 0.5, '50%', 5000, 'error:0.01', 'error:0.1%')"
 
 
 def file_name(path: Path) -> str:
@@ -38,14 +39,15 @@ def file_name(path: Path) -> str:
 
 def _level(level: Target) -> Level:
     if isinstance(level, str):
-        if not level.startswith("error:"):
-            raise OptionError(f"levels: {level!r} is not a level (expected: 0.5, 5000, 'error:0.01', 'error:0.1%')")
-        value, unit = parse_length(level[len("error:"):], "levels")
-        return Level(_distance + unit, value)
+        is_share = level.endswith("%") and not level.startswith("error:")
+        if not (is_share or level.startswith("error:")):
+            raise OptionError(f"levels: {level!r} is not a level {_expected}")
+        value, unit = parse_length(level.removeprefix("error:"), "levels")
+        return Level(_ratio if is_share else _distance + unit, value)
     try:
         ratio = float(level)
     except (TypeError, ValueError, OverflowError):
-        raise OptionError(f"levels: {level!r} is not a level (expected: 0.5, 5000, 'error:0.01', 'error:0.1%')") from None
+        raise OptionError(f"levels: {level!r} is not a level {_expected}") from None
     if 0 < ratio <= 1:
         return Level(_ratio, ratio)
     return Level(_faces, checked_integer(level, "levels", 53))

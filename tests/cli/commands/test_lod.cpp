@@ -28,7 +28,7 @@ bool close_to(std::size_t faces, std::size_t target) { return faces <= target &&
 TEST_CASE("lod writes the original, one model per level and a manifest") {
     const Folder folder;
     faqem::save(sheet(30, 0.2), folder / "hill.glb");
-    const Outcome outcome = run(folder, "lod hill.glb out --levels 0.5,0.1,50 --bake none");
+    const Outcome outcome = run(folder, "lod hill.glb out --levels 50%,0.1,50 --bake none");
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
     CHECK(outcome.out.find("hill_LOD3.glb: ") != std::string::npos);
@@ -87,7 +87,7 @@ TEST_CASE("at the switch distance the error covers the allowed number of pixels"
 TEST_CASE("lod rejects invalid levels and options and writes nothing") {
     const Folder folder;
     faqem::save(sheet(8, 0.2), folder / "a.glb");
-    for (const char* levels : {"0.1,0.5", "0", "-1", "1.5", "x", "error:", "error:-1", "nan", "5%"}) {
+    for (const char* levels : {"0.1,0.5", "0", "-1", "1.5", "x", "error:", "error:-1", "nan", "0%", "150%"}) {
         const Outcome outcome = run(folder, std::string("lod a.glb out --bake none --levels=") + levels);
         CHECK(outcome.code == 2);
         CHECK(outcome.err.find("level") != std::string::npos);
@@ -107,9 +107,9 @@ TEST_CASE("levels of a mesh ten million units from the origin keep shape and pos
     faqem::save(hill, folder / "far.ply");
     const std::string rest = " --levels 0.5,0.2 --bake none --quiet";
     REQUIRE(run(folder, "lod far.ply out" + rest).code == 0);
-    REQUIRE(run(folder, "lod far.ply all --one-file" + rest).code == 0);
+    REQUIRE(run(folder, "lod far.ply all.glb" + rest).code == 0);
     const faqem::MeshView before{hill.parts[0].positions, hill.parts[0].triangles};
-    const faqem::Asset all = faqem::load(folder / "all/far_LOD.glb");
+    const faqem::Asset all = faqem::load(folder / "all.glb");
     for (std::size_t i = 0; i < 3; ++i) {
         const faqem::Asset one = faqem::load(folder / ("out/far_LOD" + std::to_string(i) + ".glb"));
         for (const faqem::Asset* asset : {&one, &all}) {
@@ -150,19 +150,19 @@ TEST_CASE("lod writes nothing if a level misses its target or maximum error") {
     CHECK(far.err.find("; out/a_LOD.json was not written\n") != std::string::npos);
 }
 
-TEST_CASE("lod --one-file writes all levels to one file whose scene has the finest") {
+TEST_CASE("lod with a file as output writes all levels to it, and its scene has the finest") {
     const Folder folder;
     faqem::save(sheet(24, 0.2), folder / "hill.glb");
     const std::string options = " --levels 0.5,0.1 --texture-size 128";
-    REQUIRE(run(folder, "lod hill.glb one --one-file" + options).code == 0);
+    REQUIRE(run(folder, "lod hill.glb one.glb" + options).code == 0);
     REQUIRE(run(folder, "lod hill.glb many" + options).code == 0);
-    CHECK_FALSE(fs::exists(folder / "one/hill_LOD0.glb"));
-    const faqem::Asset one = faqem::load(folder / "one/hill_LOD.glb");
+    CHECK_FALSE(fs::is_directory(folder / "one.glb"));
+    const faqem::Asset one = faqem::load(folder / "one.glb");
     REQUIRE(one.parts.size() == 3);
     const auto shown = faqem::instances(one);
     REQUIRE(shown.size() == 1);
     CHECK(shown[0].part == 0);
-    const std::string bytes = read(folder / "one/hill_LOD.glb");
+    const std::string bytes = read(folder / "one.glb");
     std::uint32_t length = 0;  // of the first chunk, which is the JSON
     std::memcpy(&length, bytes.data() + 12, 4);
     const nlohmann::json gltf = nlohmann::json::parse(bytes.substr(20, length));
@@ -170,28 +170,32 @@ TEST_CASE("lod --one-file writes all levels to one file whose scene has the fine
     CHECK(gltf["extensionsUsed"].dump().find("MSFT_lod") != std::string::npos);
     const nlohmann::json& ids = node["extensions"]["MSFT_lod"]["ids"];
     REQUIRE(ids.size() == 2);
-    const nlohmann::json json = manifest(folder, "one/hill_LOD.json");
+    const nlohmann::json json = manifest(folder, "one.json");
     const nlohmann::json& coverage = node["extras"]["MSFT_screencoverage"];
     REQUIRE(coverage.size() == 3);
     CHECK(coverage[2] == 0);
     for (std::size_t i = 0; i < 3; ++i) {
         const std::string name = "many/hill_LOD" + std::to_string(i) + ".glb";
         CHECK(one.parts[i].triangles == faqem::load(folder / name).parts.at(0).triangles);
-        CHECK(json["levels"][i]["file"] == "hill_LOD.glb");
+        CHECK(json["levels"][i]["file"] == "one.glb");
         CHECK(json["levels"][i]["faces"] == one.parts[i].triangles.size());
         if (i == 0) continue;
         CHECK(gltf["nodes"][ids[i - 1].get<std::size_t>()]["mesh"] == i);
         const double full = std::min(1.0, json["levels"][i]["screen_coverage"].get<double>());
         CHECK(coverage[i - 1].get<double>() == Approx(full));
     }
-    CHECK(run(folder, "lod hill.glb one --one-file --format ply").code == 2);
+    for (const char* wrong : {"levels.obj", "levels.OFF", "levels.glb --format glb"}) {
+        CAPTURE(wrong);
+        CHECK(run(folder, std::string("lod hill.glb ") + wrong).code == 2);
+    }
+    CHECK_FALSE(fs::exists(folder / "levels.obj"));
 }
 
 TEST_CASE("a file with levels is simplified from the finest one in every command") {
     const Folder folder;
     faqem::save(sheet(24, 0.2), folder / "hill.glb");
     const std::string options = " --levels 0.5,0.1 --texture-size 128 --allow-larger";
-    REQUIRE(run(folder, "lod hill.glb . --one-file" + options).code == 0);
+    REQUIRE(run(folder, "lod hill.glb hill_LOD.glb" + options).code == 0);
     const std::string warning = "2 coarser levels of 1 node (MSFT_lod) left out";
     for (const std::string bake : {"auto", "none", "keep", "atlas"}) {
         CAPTURE(bake);
@@ -208,10 +212,10 @@ TEST_CASE("a file with levels is simplified from the finest one in every command
     CHECK(strict.code == 3);
     CHECK(strict.err.find(warning) != std::string::npos);
 
-    const Outcome again = run(folder, "lod hill_LOD.glb again --one-file --history h.bin" + options);
+    const Outcome again = run(folder, "lod hill_LOD.glb again.glb --history h.bin" + options);
     CHECK(again.code == 0);
     CHECK(again.out.find(warning) != std::string::npos);
-    const bool is_same = read(folder / "again/hill_LOD_LOD.glb") == read(folder / "hill_LOD.glb");
+    const bool is_same = read(folder / "again.glb") == read(folder / "hill_LOD.glb");
     CHECK(is_same);
     const Outcome cut =
         run(folder, "truncate h.bin cut.glb --source hill_LOD.glb --faces 200 --texture-size 128");
@@ -260,8 +264,8 @@ TEST_CASE("lod meets error levels given in pixels at a distance") {
 TEST_CASE("levels with --bake keep share the original image in one file") {
     const Folder folder;
     faqem::save(sheet(20, 0.2), folder / "a.glb");
-    REQUIRE(run(folder, "lod a.glb out --levels 0.5,0.1 --bake keep --one-file --quiet").code == 0);
-    const std::string bytes = read(folder / "out/a_LOD.glb");
+    REQUIRE(run(folder, "lod a.glb all.glb --levels 0.5,0.1 --bake keep --quiet").code == 0);
+    const std::string bytes = read(folder / "all.glb");
     const nlohmann::json document = nlohmann::json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
     CHECK(document["images"].size() == 1);
     CHECK(document["meshes"].size() == 3);
@@ -272,8 +276,8 @@ TEST_CASE("levels with --textures shared share a new texture, stored once in one
     faqem::save(sheet(20, 0.2), folder / "a.glb");
     const std::string options =
         " --levels 0.5,0.1 --textures shared --texture-size 128 --normal-map off --quiet";
-    REQUIRE(run(folder, "lod a.glb one --without-original --one-file" + options).code == 0);
-    const std::string bytes = read(folder / "one/a_LOD.glb");
+    REQUIRE(run(folder, "lod a.glb one.glb --without-original" + options).code == 0);
+    const std::string bytes = read(folder / "one.glb");
     const nlohmann::json document = nlohmann::json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
     CHECK(document["images"].size() == 1);
     CHECK(document["meshes"].size() == 2);

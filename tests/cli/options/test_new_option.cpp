@@ -43,7 +43,7 @@ std::vector<std::string> table_line(const std::string& page, const std::string& 
 
 /// Range of an option in docs/cli.md.
 std::string range_cell(const OptionRow& row) {
-    if (row.kind == OptionKind::choice && (row.flag_value.empty() || !row.value_name.empty())) {
+    if (row.kind == OptionKind::choice && row.flag_value.empty()) {
         std::string words;
         for (const std::string& word : faqem::detail::split_choices(row.choices))
             words += (words.empty() ? "`" : ", `") + word + "`";

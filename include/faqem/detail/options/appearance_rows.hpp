@@ -124,9 +124,6 @@ inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::quantize, &QuantizeOptions::kind>(
         {.name = "quantize",
          .choices = "source|off|on",
-         .value_name = "source|off|on",
-         .flag_value = "on",
-         .default_text = "source",
          .help = "Vertices in glTF files as integers; source (as the input), off, on (viewers need "
                  "KHR_mesh_quantization)",
          .entry_points = in_all}),

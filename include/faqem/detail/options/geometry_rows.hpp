@@ -141,9 +141,9 @@ inline constexpr OptionRow geometry_rows[] = {
      .range = {.max = 1, .excludes_min = true},
      .value_name = "TAU",
      .flag_value = "0.01",
-     .default_text = "off; TAU 0.01",
-     .help = "Connect boundaries of different components; =TAU: across gaps of at most TAU times the "
-             "diagonal",
+     .default_text = "off",
+     .help = "Connect boundaries across gaps of at most TAU, as 0.01; times the diagonal. Those of different "
+             "components",
      .entry_points = in_all_but_truncate,
      .get = virtual_edges_value,
      .set = set_virtual_edges},

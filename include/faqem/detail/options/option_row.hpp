@@ -69,8 +69,8 @@ struct OptionRow {
     OptionRange range = {};
     std::string_view unit = {};
     std::string_view value_name = {};  ///< placeholder of the value in help; empty: the choices
-    /// Not empty: the option of the command is a flag with this value; `=VALUE` may follow if there is a
-    /// value_name. In C and Python the words `on` (this value) and `off` are then values, too.
+    /// Not empty: the words `on` (this value) and `off` are values, too. Without a value_name, the option of the
+    /// command is a flag with this value.
     std::string_view flag_value = {};
     std::string_view default_text = {};  ///< default in help if it is not a fixed value
     /// Without range and default. What precedes the first semicolon is the line in --help.

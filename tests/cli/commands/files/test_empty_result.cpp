@@ -19,7 +19,7 @@ TEST_CASE("a model of which nothing is left exits with 3 and is not written") {
     refused("simplify point.obj out.ply --max-error 1", "point.obj");
     refused("simplify point.obj out.ply --max-bytes 1MB", "point.obj");
     refused("lod point.obj levels", "point.obj");
-    refused("lod point.obj levels --textures shared --one-file", "point.obj");
+    refused("lod point.obj levels.glb --textures shared", "point.obj");
     CHECK(read(folder / "r.json").find("\"faces_out\": 0") != std::string::npos);
     for (const char* file :
          {"out.glb", "out.ply", "h.bin", "levels/point_LOD.json", "levels/point_LOD0.glb"}) {

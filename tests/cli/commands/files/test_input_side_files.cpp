@@ -159,7 +159,8 @@ TEST_CASE("files are compared by identity: links and paths do not matter") {
 TEST_CASE("lod writes no level if a file of a later level belongs to the input") {
     const Folder folder;
     save_gltf(folder, "in.gltf", "in.bin", "in.png");
-    const std::string lod = "lod in.gltf . --format gltf --levels 0.5,0.25 --texture-size 64 --image-format png --force --quiet";
+    const std::string lod =
+        "lod in.gltf . --format gltf --levels 0.5,0.25 --texture-size 64 --image-format png --force --quiet";
     for (const char* name : {"in_LOD2_0.png", "in_LOD2.bin", "in_LOD.json", "in_LOD2.gltf"}) {
         write(folder / name, "precious");
         add_member(folder / "in.gltf", "/extras", {{"uri", name}});
@@ -168,18 +169,20 @@ TEST_CASE("lod writes no level if a file of a later level belongs to the input")
     check_refused(folder, "lod in.gltf new --history in.bin --force --quiet", "in.bin", "in.gltf");
     write(folder / "in_LOD.bin", "precious");
     add_member(folder / "in.gltf", "/extras", {{"uri", "in_LOD.bin"}});
-    check_refused(folder, lod + " --one-file", "./in_LOD.bin", "in.gltf");
+    check_refused(folder, "lod in.gltf in_LOD.gltf --levels 0.5 --force --quiet", "in_LOD.bin", "in.gltf");
 
     save_obj(folder, "o.obj", "o_LOD1.mtl", "tex.png");
-    check_refused(folder, "lod o.obj . --format obj --levels 0.5 --texture-size 64 --image-format png --force --quiet",
-                  "./o_LOD1.mtl", "o.obj");
+    check_refused(
+        folder, "lod o.obj . --format obj --levels 0.5 --texture-size 64 --image-format png --force --quiet",
+        "./o_LOD1.mtl", "o.obj");
 }
 
 TEST_CASE("truncate does not overwrite the files of its source or its history") {
     const Folder folder;
     save_gltf(folder, "in.gltf", "Avocado.bin", "small_0.png");
     REQUIRE(run(folder, "simplify in.gltf a.glb --history m.bin" + quick).code == 0);
-    const std::string options = " --faces 40 --source in.gltf --force --quiet --texture-size 64 --image-format png";
+    const std::string options =
+        " --faces 40 --source in.gltf --force --quiet --texture-size 64 --image-format png";
     check_refused(folder, "truncate m.bin Avocado.gltf" + options, "Avocado.bin", "in.gltf");
     check_refused(folder, "truncate m.bin small.gltf" + options, "small_0.png", "in.gltf");
     const auto before = contents(folder);
@@ -194,7 +197,8 @@ TEST_CASE("batch writes no result if one would overwrite a file that any of its 
     fs::create_directories(folder / "in/out");
     save_gltf(folder, "in/a.gltf", "a.bin", "a.png");
     faqem::save(sheet(4), folder / "in/b.glb");
-    const std::string batch = "batch in in/out --texture-size 64 --image-format png --ratio 0.5 --force --format ";
+    const std::string batch =
+        "batch in in/out --texture-size 64 --image-format png --ratio 0.5 --force --format ";
     for (const auto& [name, format] : std::map<std::string, std::string>{{"b.bin", "gltf"},
                                                                          {"b_3.png", "gltf"},
                                                                          {"b.mtl", "obj"},
@@ -240,5 +244,6 @@ TEST_CASE("files of other models, missing files and similar names may be written
     // Results are replaced with --force, and the input may be one of the results, with other names.
     CHECK(run(folder, "simplify m_0.gltf m.gltf" + quick).code == 0);
     CHECK(run(folder, "simplify m.gltf m.glb" + quick).code == 0);
-    CHECK(run(folder, "lod m.gltf . --format gltf --levels 0.5 --texture-size 64 --image-format png --quiet").code == 0);
+    CHECK(run(folder, "lod m.gltf . --format gltf --levels 0.5 --texture-size 64 --image-format png --quiet")
+              .code == 0);
 }
