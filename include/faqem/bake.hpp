@@ -37,7 +37,7 @@ struct PageOrigins {
 };
 
 /// Writes the correspondence of all pages in the binary little-endian format of
-/// docs/correspondence-format.md.
+/// docs/history-format.md.
 /// \param out  a binary stream; the caller checks its state afterwards
 /// Complexity: O(texels).
 FAQEM_EXPORT void write(const std::vector<PageOrigins>& pages, std::ostream& out);

@@ -226,7 +226,7 @@ typedef struct faqem_report {
 
 /** Fills `report`. \return FAQEM_ERROR_OPTION if an argument is null */
 FAQEM_API faqem_status faqem_result_report(const faqem_result* result, faqem_report* report);
-/** Returns the whole report as JSON (UTF-8), with the keys documented in docs/cli.md. */
+/** Returns the whole report as JSON (UTF-8), with the keys documented in docs/reference.md. */
 FAQEM_API const char* faqem_result_report_json(const faqem_result* result);
 
 #ifdef __cplusplus

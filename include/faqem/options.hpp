@@ -81,7 +81,7 @@ struct Options {
     std::optional<MaxError> max_error = {};
     /// Time for simplification and baking in seconds of wall-clock time, finite and > 0; unset: unlimited. When it
     /// is over, the collapses stop (StopReason::reached_time_limit), and a bake that is not finished keeps the
-    /// images of the source instead; see docs/cli.md, "Time limit". The result then depends on the machine. Must be
+    /// images of the source instead; see docs/reference.md, "Time limit". The result then depends on the machine. Must be
     /// unset for levels of detail.
     std::optional<double> max_seconds = {};
     Preset preset = Preset::balanced;

@@ -9,7 +9,7 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-/// Returns a report as JSON, with the keys documented in docs/cli.md, and the peak resident memory of the
+/// Returns a report as JSON, with the keys documented in docs/reference.md, and the peak resident memory of the
 /// process. Bytes of strings that are not valid UTF-8 are replaced by U+FFFD.
 FAQEM_EXPORT std::string to_json(const Report& report);
 

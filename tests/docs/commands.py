@@ -33,7 +33,7 @@ def make_seeds(tool, model, folder):
         subprocess.run([tool, "lod", folder / name, folder / "levels.tmp", "--levels", "0.9,0.2", "--history", history,
                         "--bake", "none", "--quiet"], check=True)
         shutil.rmtree(folder / "levels.tmp")
-    _, profile = next(pages.blocks(pages.SOURCE / "docs" / "profile.md", "json"))
+    _, profile = next(pages.blocks(pages.SOURCE / "docs" / "reference.md", "json"))
     (folder / "game.json").write_text("\n".join(profile), encoding="utf-8")
 
 

@@ -1,4 +1,5 @@
-"""Checks that docs/cli.md lists exactly the options of the command. Usage: options.py TOOL"""
+"""Checks that docs/reference.md lists exactly the options of the commands, and docs/cli.md no others and all that
+`faqem simplify --help` has. Usage: options.py TOOL"""
 import re
 import subprocess
 import sys
@@ -33,12 +34,17 @@ def options_of_page(page):
     return commands
 
 
-tool, page = options_of_tool(sys.argv[1]), options_of_page(pages.SOURCE / "docs" / "cli.md")
+tool = options_of_tool(sys.argv[1])
+usual, reference = (options_of_page(pages.SOURCE / "docs" / name) for name in ["cli.md", "reference.md"])
 problems = []
 for command, existing in tool.items():
-    listed = page.get(command, set())
-    documented = listed | page["simplify"] if command in SAME_AS_SIMPLIFY else listed
-    problems += [f"faqem {command}: {option} is missing in docs/cli.md" for option in existing - documented]
-    problems += [f"faqem {command}: {option} in docs/cli.md does not exist" for option in listed - existing]
+    listed = reference.get(command, set())
+    documented = listed | reference["simplify"] if command in SAME_AS_SIMPLIFY else listed
+    problems += [f"faqem {command}: {option} is missing in docs/reference.md" for option in existing - documented]
+    for name, options in [("reference.md", listed), ("cli.md", usual.get(command, set()))]:
+        problems += [f"faqem {command}: {option} in docs/{name} does not exist" for option in options - existing]
+shown = subprocess.run([sys.argv[1], "simplify", "--help"], check=True, capture_output=True, text=True).stdout
+for option in set(re.findall(r"^  (?:-\w, )?(--[a-z-]+)", shown, flags=re.M)) - usual["simplify"]:
+    problems.append(f"faqem simplify: {option} is missing in docs/cli.md")
 print("\n".join(sorted(problems)) or f"{sum(map(len, tool.values()))} options of {len(tool)} commands")
 sys.exit(bool(problems))

@@ -37,7 +37,7 @@ struct BatchAttempt {
 /// Simplifies one model as `faqem simplify` does. With BatchContext::resume, up-to-date results are skipped, and results
 /// that the record lists and that were not changed since may be overwritten. Limits the memory of the process to what
 /// is granted.
-/// \return the members of the line that is printed for the model, without its names: see docs/cli.md. If the memory that
+/// \return the members of the line that is printed for the model, without its names: see docs/reference.md. If the memory that
 /// was granted is exhausted, and there is more, the member `retry`, and `overwrite` for the next attempt
 Json process_batch_file(const BatchFile& file, const BatchContext& work, const BatchAttempt& attempt);
 

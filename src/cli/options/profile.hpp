@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Profiles: JSON files with options, see docs/profile.md.
+/// Profiles: JSON files with options, see docs/reference.md.
 
 #include <string>
 #include <vector>

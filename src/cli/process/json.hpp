@@ -11,7 +11,7 @@ namespace faqem::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the members of a MeshInfo as a JSON object with the keys documented in docs/cli.md.
+/// Returns the members of a MeshInfo as a JSON object with the keys documented in docs/reference.md.
 Json info_json(const MeshInfo& info);
 
 /// Prints indented JSON. File and material names need not be UTF-8: invalid bytes are printed as U+FFFD.

@@ -64,7 +64,7 @@ def compare(
     tolerance  largest relative difference between the maximum distance and its bound, >= 0
     threads    maximum; 0: all
 
-    Returns a dict with the keys of `faqem compare` (docs/cli.md) but the names of the files: `hausdorff_bound_rel`,
+    Returns a dict with the keys of `faqem compare` (docs/reference.md) but the names of the files: `hausdorff_bound_rel`,
     `chamfer_rel`, `mean_normal_degrees`, `colors` (None if a model has no colours) and others. Raises InputError,
     OptionError.
     """

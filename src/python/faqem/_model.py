@@ -85,7 +85,7 @@ class Model:
 
     @property
     def report(self) -> dict[str, Any] | None:
-        """Report of simplify(), with the keys documented in docs/cli.md; None for other models."""
+        """Report of simplify(), with the keys documented in docs/reference.md; None for other models."""
         text = library.faqem_asset_report_json(self._handle)
         return None if text is None else json.loads(text)
 

@@ -40,7 +40,7 @@ class Simplified:
     uvs: NDArray[numpy.float32] | None  #: (f, 3, n) float32, or None if the input has no uvs
     vertex_origin: NDArray[numpy.uint32]  #: (v,) uint32: source vertex of each vertex; empty after History.truncate()
     face_origin: NDArray[numpy.uint32]  #: (f,) uint32: input triangle of each triangle
-    report: dict[str, Any]  #: with the keys documented in docs/cli.md
+    report: dict[str, Any]  #: with the keys documented in docs/reference.md
     error: float | None  #: upper bound of the distance of a level from the original; None for other results
 
     def __init__(

@@ -1,4 +1,4 @@
-// The interfaces and documents follow from the table of options: docs/cli.md agrees with it, and a row that is
+// The interfaces and documents follow from the table of options: docs/reference.md agrees with it, and a row that is
 // added to the table appears in all of them.
 
 #include <CLI/CLI.hpp>
@@ -41,7 +41,7 @@ std::vector<std::string> table_line(const std::string& page, const std::string& 
     return {};
 }
 
-/// Range of an option in docs/cli.md.
+/// Range of an option in docs/reference.md.
 std::string range_cell(const OptionRow& row) {
     if (row.kind == OptionKind::choice && row.flag_value.empty()) {
         std::string words;
@@ -53,9 +53,9 @@ std::string range_cell(const OptionRow& row) {
     return range.starts_with("in ") ? range.substr(3) : range;
 }
 
-/// How the table of `faqem simplify` in docs/cli.md differs from the table of options.
+/// How the table of `faqem simplify` in docs/reference.md differs from the table of options.
 std::vector<std::string> documentation_problems(OptionTable table) {
-    const std::string page = read(fs::path(source_path) / "docs/cli.md");
+    const std::string page = read(fs::path(source_path) / "docs/reference.md");
     std::vector<std::string> problems;
     for (const OptionRow& row : table) {
         if (!(row.entry_points & faqem::detail::in_simplify)) continue;
@@ -119,7 +119,7 @@ bool contains_text(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("the table of options in docs/cli.md agrees with the options") {
+TEST_CASE("the table of options in docs/reference.md agrees with the options") {
     CHECK(documentation_problems(faqem::detail::option_table()) == std::vector<std::string>());
 }
 
