@@ -292,6 +292,10 @@ def image_extensions(runs):
                 view = gltf.json["bufferViews"][gltf.json["images"][0]["bufferView"]]
                 expect(gltf.buffer[view["byteOffset"]:][:len(data)] == data, f"{name}: its bytes")
             expect(gltf.warns("cannot be baked"), "a warning instead of a new texture")
+            for command in (("compare", "a.glb", "a.glb", "--samples", 10), ("render", "a.glb", "a.png", "--force"),
+                            ("report", "a.glb", "a.glb", "-o", "a.html", "--force", "--samples", 10)):
+                done = runs.run(*command)
+                expect(done.returncode == 0 and b"not supported" in done.stderr, f"{command[0]}: a warning: {done.stderr}")
     write(runs, textured(png(lambda x, y: (x * 3 % 256, y * 5 % 256, (x * y) % 256, 255), size=64)))
     webp = runs.baked("a.glb", "--image-format", "webp")
     expect("EXT_texture_webp" in webp.json["textures"][0]["extensions"], "a WebP texture")

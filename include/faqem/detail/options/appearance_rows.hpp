@@ -68,7 +68,7 @@ inline constexpr OptionRow appearance_rows[] = {
         {.name = "normals",
          .choices = "transfer|smooth|flat|none",
          .help = "Vertex normals; transfer (from the original), smooth or smooth:ANGLE (averaged below ANGLE "
-                 "degrees, default 40), flat, none (only with --bake none)",
+                 "degrees, default 40), flat, none (only with --bake none and keep)",
          .suffix_choice = "smooth",
          .suffix_option = "crease-angle",
          .entry_points = in_all}),
