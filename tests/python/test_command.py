@@ -48,7 +48,7 @@ class Command(unittest.TestCase):
         model = self.folder / "model.obj"
         model.write_text("mtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         with contextlib.redirect_stderr(io.StringIO()) as said:
-            faqem.command("report", model, model, "--out", self.folder / "a.html", "--size", "32", "--without-view")
+            faqem.command("report", model, model, "-o", self.folder / "a.html", "--size", "32", "--without-view")
         self.assertIn("missing.mtl", said.getvalue())
 
 

@@ -83,28 +83,25 @@ CommandInfo batch_command() {
                         {"faqem batch scans simplified --ratio 0.02 --resume >> done.jsonl",
                          "faqem batch parts simplified --format stl --max-error 0.05 --jobs 4"}};
     command.positionals = {
-        positional("DIR", arguments->in, "Directory of the models; subdirectories are included"),
-        positional("OUTDIR", arguments->out, "Directory for the results; created if necessary")};
-    command.options = {
-        format_option(arguments->format),
-        number_option("--jobs", "N", arguments->jobs, {.max = 1024},
-                      "Models at a time; 0: the number of threads (default)"),
-        size_option("--max-memory", arguments->max_memory,
-                    "Memory of models that run at the same time, as 8GB; a model that may need "
-                    "more runs alone (default: three quarters of the machine's memory)"),
-        number_option(
-            "--end-after", "S", arguments->end_after, {.min = 1, .max = 1e6},
-            "Give up a model after this many seconds; default: twice --max-seconds plus 60, or 3600"),
-        flag_option("--resume", arguments->resume,
-                    "Skip results that are up to date; redo those that are not")};
+        positional("DIR", arguments->in, "Directory of the models; subdirectories are included")};
+    add_output(command, "OUTDIR", arguments->out, "Directory for the results; created if necessary");
+    add_options(command.options,
+                {format_option(arguments->format),
+                 number_option("-j,--jobs", "N", arguments->jobs, {.max = 1024},
+                               "Models at a time; 0: the number of threads (default)"),
+                 size_option("--max-memory", arguments->max_memory,
+                             "Memory of models that run at the same time, as 8GB; a model that may need "
+                             "more runs alone (default: three quarters of the machine's memory)"),
+                 flag_option("--resume", arguments->resume,
+                             "Skip results that are up to date; redo those that are not")});
     add_options(command.options, table_options(detail::in_batch, arguments->options));
     for (OptionInfo& option : command.options) {
         if (option.names.back() == "--threads")
             option.description = "Maximum number of threads per model; 0: all, divided by the jobs (default)";
     }
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
-    add_options(command.options, {profile_option(), builtin_profile_option(),
-                                  flag_option("--force", arguments->force, "Overwrite existing files")});
+    add_options(command.options,
+                {profile_option(), builtin_profile_option(), force_option(arguments->force)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -53,7 +53,7 @@ CommandTree command_tree() {
         "are done, 10 --max-bytes exceeded, 11 not enough memory, 12 --max-seconds was\n"
         "over before there was a result.";
     tree.options = help_options();
-    tree.options.push_back({{"--version"}, "", "Print the version", detail::OptionKind::flag});
+    tree.options.push_back({{"-V", "--version"}, "", "Print the version", detail::OptionKind::flag});
     tree.commands = {simplify_command(), lod_command(),        truncate_command(), batch_command(),
                      info_command(),     compare_command(),    render_command(),   report_command(),
                      profiles_command(), completion_command(), man_command()};

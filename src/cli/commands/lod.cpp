@@ -351,17 +351,15 @@ CommandInfo lod_command() {
         {"faqem lod statue.glb out --levels 50%,25%,10%,1%", "faqem lod statue.glb levels.glb",
          "faqem lod scan.ply out --levels error:0.1%,error:2% --format ply"}};
     command.positionals = {
-        positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read)),
-        positional("OUT", arguments->out,
-                   "Directory for NAME_LOD0 ... and NAME_LOD.json, or a file for all levels: " +
-                       detail::listed_extensions(detail::FormatUse::write_levels))};
-    command.options = chain_options(*arguments);
+        positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read))};
+    add_output(command, "OUT", arguments->out,
+               "Directory for NAME_LOD0 ... and NAME_LOD.json, or a file for all levels: " +
+                   detail::listed_extensions(detail::FormatUse::write_levels));
+    add_options(command.options, chain_options(*arguments));
     add_options(command.options, table_options(detail::in_lod, arguments->options));
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
-    add_options(command.options,
-                {profile_option(), builtin_profile_option(),
-                 flag_option("--force", arguments->force, "Overwrite existing files"),
-                 flag_option("--quiet", arguments->quiet, "Print no summary and no progress bar")});
+    add_options(command.options, {profile_option(), builtin_profile_option(), force_option(arguments->force),
+                                  quiet_option(arguments->quiet)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -33,12 +33,25 @@ int run(const Action& action) try {
     return fail(error);
 }
 
+/// Returns the command line that a short form stands for: `faqem`, `faqem help [COMMAND]`, `faqem IN OUT`.
+std::vector<std::string> without_short_form(const CommandTree& tree, std::vector<std::string> words) {
+    if (!words.empty() && words[0] == "help") {
+        words.erase(words.begin());
+        for (const CommandInfo& command : tree.commands)
+            if (!words.empty() && command.name == words[0]) words = {command.name, "--help"};
+    }
+    if (words.empty()) words = {"--help"};
+    const bool is_file = !words[0].starts_with('-') && words[0].find_first_of("./") != std::string::npos;
+    if (is_file) words.insert(words.begin(), "simplify");
+    return words;
+}
+
 int parse_and_run(int argc, char** argv) {
     CLI::App app;
     Action action;
     const CommandTree tree = command_tree();
     add_to_parser(app, tree, action);
-    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    const std::vector<std::string> words = without_short_form(tree, {argv + std::min(argc, 1), argv + argc});
     try {
         std::vector<std::string> all = expand_profile(tree, words);
         std::reverse(all.begin(), all.end());  // CLI11 expects the words in reverse order

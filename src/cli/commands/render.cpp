@@ -17,14 +17,21 @@ namespace faqem::cli {
 namespace {
 
 struct RenderArguments {
-    std::vector<std::string> files;  ///< the models, then the output image
+    std::vector<std::string> models;  ///< then the output image, unless it is `out`
+    std::string out;
     std::uint32_t size = 480, views = 4;
     bool unlit = false, wireframe = false, force = false;
 };
 
 int run(const RenderArguments& arguments) {
-    const std::vector<std::string> models(arguments.files.begin(), arguments.files.end() - 1);
-    const std::string& out = arguments.files.back();
+    std::vector<std::string> models = arguments.models;
+    std::string out = arguments.out;
+    if (out.empty()) {
+        out = models.back();
+        models.pop_back();
+    }
+    if (models.empty() || models.size() > 16)
+        throw OptionError("render: 1 to 16 models and an image are required");
     const Overwrite overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
     check_extension(out, {".png"});
     for (const std::string& model : models) protect_input(model);
@@ -54,22 +61,22 @@ int run(const RenderArguments& arguments) {
 CommandInfo render_command() {
     const auto arguments = std::make_shared<RenderArguments>();
     OptionInfo files =
-        list_option("FILES", arguments->files, "Models, then the output image: A [B ...] OUT.png");
+        list_option("FILES", arguments->models, "Models, then the output image: A [B ...] OUT.png");
     files.kind = detail::OptionKind::text;  // commas do not separate names
     files.is_required = true;
-    files.min_words = 2;
     files.max_words = 17;
     return {
         "render",
         "Render models below each other with the same cameras",
         {"faqem render model.glb simplified.glb before-after.png --views 3"},
         {files},
-        {number_option("--size", "N", arguments->size, {.min = 16, .max = 2048},
+        {rare(text_option("-o,--output", "OUT", arguments->out, "The image, instead of the last word")),
+         number_option("--size", "N", arguments->size, {.min = 16, .max = 2048},
                        "Side of one view, pixels (default 480)"),
          number_option("--views", "N", arguments->views, from_one(16), "Views around the models (default 4)"),
          flag_option("--unlit", arguments->unlit, "Colours without lighting"),
          flag_option("--wireframe", arguments->wireframe, "Draw the mesh edges"),
-         flag_option("--force", arguments->force, "Overwrite an existing image")},
+         force_option(arguments->force)},
         [arguments] { return run(*arguments); }};
 }
 

@@ -133,20 +133,18 @@ CommandInfo report_command() {
     const auto arguments = std::make_shared<ReportArguments>();
     CommandInfo command{"report",
                         "Compare two models on an HTML page, in 3D and in figures",
-                        {"faqem report model.glb simplified.glb -o report.html"}};
+                        {"faqem report model.glb simplified.glb report.html"}};
     command.positionals = {positional("A", arguments->a, "The original"),
                            positional("B", arguments->b, "The other model")};
-    OptionInfo page = text_option("-o,--out", "FILE", arguments->out, "The page, .html or .htm");
-    page.is_required = true;
-    command.options = {
-        page,
-        number_option("--size", "N", arguments->size, {.min = 16, .max = 2048},
-                      "Side of one view of a picture, pixels (default 320)"),
-        number_option("--views", "N", arguments->views, from_one(16), "Views of a picture (default 4)"),
-        flag_option("--without-view", arguments->without_view,
-                    "Figures and pictures only, without the 3D view")};
+    add_output(command, "PAGE", arguments->out, ".html or .htm");
+    add_options(command.options, {number_option("--size", "N", arguments->size, {.min = 16, .max = 2048},
+                                                "Side of one view of a picture, pixels (default 320)"),
+                                  number_option("--views", "N", arguments->views, from_one(16),
+                                                "Views of a picture (default 4)"),
+                                  flag_option("--without-view", arguments->without_view,
+                                              "Figures and pictures only, without the 3D view")});
     add_options(command.options, compare_options(arguments->options));
-    add_options(command.options, {flag_option("--force", arguments->force, "Overwrite an existing page")});
+    add_options(command.options, {force_option(arguments->force)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -226,8 +226,8 @@ std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
                          "Write the position of each texel of the new atlas on the original to this file")),
         profile_option(),
         builtin_profile_option(),
-        flag_option("--force", a.force, "Overwrite existing files"),
-        flag_option("--quiet", a.quiet, "Print no summary and no progress bar")};
+        force_option(a.force),
+        quiet_option(a.quiet)};
 }
 
 }  // namespace
@@ -241,9 +241,9 @@ CommandInfo simplify_command() {
                          "faqem simplify part.stl simplified.stl --max-error 0.05",
                          "faqem simplify model.glb web.glb --max-bytes 2MB"}};
     command.positionals = {
-        positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read)),
-        positional("OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write))};
-    command.options = table_options(detail::in_simplify, arguments->options);
+        positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read))};
+    add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write));
+    add_options(command.options, table_options(detail::in_simplify, arguments->options));
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
     add_options(command.options, run_options(*arguments));
     command.run = [arguments] { return run(*arguments); };

@@ -132,17 +132,17 @@ CommandInfo truncate_command() {
                         "Extract a level of detail from a stored history",
                         {"faqem truncate statue.history small.glb --faces 5000 --source statue.glb"}};
     command.positionals = {
-        positional("HISTORY", arguments->history, "File written by simplify --history or lod --history"),
-        positional("OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write))};
+        positional("HISTORY", arguments->history, "File written by simplify --history or lod --history")};
+    add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write));
     OptionInfo faces = number_option("--faces", "N", arguments->faces, from_one(), "Maximum number of faces");
     faces.is_required = true;
-    command.options = {faces, text_option("--source", "FILE", arguments->source,
-                                          "The original model, for the appearance; without it: geometry "
-                                          "only. The options of baking are about it")};
+    add_options(command.options,
+                {faces, text_option("--source", "FILE", arguments->source,
+                                    "The original model, for the appearance; without it: geometry "
+                                    "only. The options of baking are about it")});
     add_options(command.options, table_options(detail::in_truncate, arguments->options));
-    add_options(command.options, {strict_option(arguments->strict),
-                                  flag_option("--force", arguments->force, "Overwrite an existing file"),
-                                  flag_option("--quiet", arguments->quiet, "Print no summary")});
+    add_options(command.options, {strict_option(arguments->strict), force_option(arguments->force),
+                                  quiet_option(arguments->quiet)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -16,10 +16,11 @@ using detail::OptionKind;
 template <class Number>
 OptionInfo bound_number(const std::string& name, const std::string& value_name, Number& value,
                         const detail::OptionRange& range, const std::string& description) {
-    OptionInfo info{{name}, value_name, description};
+    OptionInfo info{CLI::detail::split(name, ','), value_name, description};
     info.kind = std::is_integral_v<Number> ? OptionKind::integer : OptionKind::number;
     info.range = range;
-    info.read = [&value, name, range, kind = info.kind](const std::vector<std::string>& values) {
+    info.read = [&value, name = info.names.back(), range,
+                 kind = info.kind](const std::vector<std::string>& values) {
         value =
             static_cast<Number>(*detail::parse_option_number(values.back(), kind, range, "", name).number);
     };
@@ -28,8 +29,8 @@ OptionInfo bound_number(const std::string& name, const std::string& value_name, 
 
 }  // namespace
 
-OptionInfo flag_option(const std::string& name, bool& value, const std::string& description) {
-    OptionInfo info{{name}, "", description, OptionKind::flag};
+OptionInfo flag_option(const std::string& names, bool& value, const std::string& description) {
+    OptionInfo info{CLI::detail::split(names, ','), "", description, OptionKind::flag};
     info.read = [&value](const std::vector<std::string>&) { value = true; };
     return info;
 }
@@ -85,6 +86,19 @@ OptionInfo positional(const std::string& name, std::string& value, const std::st
     OptionInfo info = text_option(name, choices, value, description);
     info.is_required = true;
     return info;
+}
+
+void add_output(CommandInfo& command, const std::string& name, std::string& value,
+                const std::string& description) {
+    command.positionals.push_back({{name}, "", description});
+    OptionInfo& output = command.options.emplace_back(
+        rare(text_option("-o,--output", name, value, "The same as " + name + " as the last word")));
+    output.is_positional = true;
+}
+
+OptionInfo force_option(bool& force) { return flag_option("-f,--force", force, "Overwrite existing files"); }
+OptionInfo quiet_option(bool& quiet) {
+    return flag_option("-q,--quiet", quiet, "Print no summary and no progress bar");
 }
 
 OptionInfo format_option(std::string& format) {

@@ -17,8 +17,8 @@ inline constexpr detail::OptionRange above_zero = {.excludes_min = true};
 /// A number of pixels, faces or others that must not be 0. \param max  largest number
 constexpr detail::OptionRange from_one(double max = 0x1p53) { return {.min = 1, .max = max}; }
 
-/// A flag, which sets the variable to true.
-OptionInfo flag_option(const std::string& name, bool& value, const std::string& description);
+/// A flag, which sets the variable to true. \param names  one name, or two with a comma between
+OptionInfo flag_option(const std::string& names, bool& value, const std::string& description);
 
 /// A text, such as a file name. If `value_name` has bars, it lists the possible values.
 /// \param names  one name, or two with a comma between
@@ -44,6 +44,16 @@ OptionInfo list_option(const std::string& name, std::vector<std::string>& words,
 /// A required positional argument. \param choices  its possible values with bars between; empty: any text
 OptionInfo positional(const std::string& name, std::string& value, const std::string& description,
                       const std::string& choices = "");
+
+/// Adds the output file or directory, which is the last word of a command or follows -o.
+/// \param name  in help
+void add_output(CommandInfo& command, const std::string& name, std::string& value,
+                const std::string& description);
+
+/// -f and --force.
+OptionInfo force_option(bool& force);
+/// -q and --quiet.
+OptionInfo quiet_option(bool& quiet);
 
 /// --format of the commands that write several models.
 OptionInfo format_option(std::string& format);

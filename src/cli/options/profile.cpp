@@ -21,7 +21,7 @@ constexpr const char* schema_key = "$schema";  // used by editors, ignored by fa
 constexpr int profile_version = 1;
 constexpr std::uint64_t max_file_size = 1'000'000;
 
-/// Returns the value of an option on the command line; empty if the option is the last word; nothing if it is
+/// Returns the value of an option with a long name on the command line; empty if the option is the last word; nothing if it is
 /// not given.
 std::optional<std::string> value_of(const std::string& option, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
@@ -92,10 +92,30 @@ std::vector<std::string> to_words(const OptionInfo& option, const Json& value, c
     return {name + "=" + list};
 }
 
-bool is_overridden(const OptionInfo& option, const std::vector<std::string>& words) {
-    if (value_of(option.names.back(), words)) return true;
-    return std::any_of(option.excludes.begin(), option.excludes.end(),
-                       [&](const std::string& other) { return value_of(other, words).has_value(); });
+/// Tests whether a word has the short name of an option, which letters of flags may precede: `-fr.2`.
+bool has_letter(const CommandInfo& command, const OptionInfo& option, const std::string& word) {
+    for (std::size_t i = 1; word.starts_with('-') && i < word.size(); ++i) {
+        const auto found = std::find_if(
+            command.options.begin(), command.options.end(),
+            [name = std::string("-") + word[i]](const OptionInfo& one) { return one.names.front() == name; });
+        if (found == command.options.end()) return false;
+        if (&*found == &option) return true;
+        if (found->kind != detail::OptionKind::flag) return false;
+    }
+    return false;
+}
+
+bool is_overridden(const CommandInfo& command, const OptionInfo& option,
+                   const std::vector<std::string>& words) {
+    const auto end = std::find(words.begin(), words.end(), "--");
+    return std::any_of(command.options.begin(), command.options.end(), [&](const OptionInfo& other) {
+        const std::string& name = other.names.back();
+        if (&other != &option && !std::binary_search(option.excludes.begin(), option.excludes.end(), name))
+            return false;
+        return value_of(name, words) || std::any_of(words.begin(), end, [&](const std::string& word) {
+                   return has_letter(command, other, word);
+               });
+    });
 }
 
 void check_version(const Json& profile, const std::string& file) {
@@ -122,7 +142,7 @@ bool reads_profiles(const CommandInfo& command) {
 
 std::string profile_key(const OptionInfo& option) {
     const std::string& name = option.names.back();
-    const bool is_key = option.read && name != "--config" && name != "--profile";
+    const bool is_key = option.read && !option.is_positional && name != "--config" && name != "--profile";
     return is_key ? name.substr(2) : "";
 }
 
@@ -144,7 +164,7 @@ void add_profile_file(const CommandTree& tree, const CommandInfo& command, const
         const OptionInfo* option = find_option(command, key);
         if (!option) throw_unknown_key(tree, command, file, key);
         const std::vector<std::string> more = to_words(*option, value, file + ": " + key);
-        if (!is_overridden(*option, words)) added.insert(added.end(), more.begin(), more.end());
+        if (!is_overridden(command, *option, words)) added.insert(added.end(), more.begin(), more.end());
     }
     insert_options(words, added);
 }
@@ -154,7 +174,7 @@ void add_builtin_profile(const CommandInfo& command, const BuiltinProfile& profi
     std::vector<std::string> added;
     for (const auto& [key, value] : profile.options) {
         const OptionInfo* option = find_option(command, std::string(key));
-        if (option && !is_overridden(*option, words))
+        if (option && !is_overridden(command, *option, words))
             added.push_back(option->names.back() + "=" + std::string(value));
     }
     insert_options(words, added);

@@ -30,6 +30,7 @@ OptionInfo option_of(const OptionRow& row, GivenOptions& given) {
         info.kind = OptionKind::flag;
     else if (row.value_name.empty())
         info.value_name = row.choices;
+    if (!row.letter.empty()) info.names.insert(info.names.begin(), "-" + std::string(row.letter));
     info.group = row.group;
     info.suffix_choice = row.suffix_choice;
     info.read = [&row, &given, is_flag](const std::vector<std::string>& values) {

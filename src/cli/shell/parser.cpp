@@ -15,6 +15,7 @@ using ParsedOption = std::pair<const OptionInfo*, CLI::Option*>;
 CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
     std::string names;
     for (const std::string& name : info.names) names.append(names.empty() ? "" : ",").append(name);
+    if (info.is_positional) names.append(",").append(info.value_name);
     if (info.kind == detail::OptionKind::flag) return command.add_flag(names);
     CLI::Option* option = command.add_option(names);
     option->required(info.is_required)->expected(info.min_words, info.max_words);
@@ -25,6 +26,8 @@ CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
 
 void read_values(const ParsedOption& parsed) {
     const auto& [info, option] = parsed;
+    // CLI11 would say that --output is missing.
+    if (option->count() == 0 && info->is_positional) throw CLI::RequiredError(info->value_name);
     if (option->count() == 0) return;
     const bool is_flag = info->kind == detail::OptionKind::flag;
     if (is_flag && CLI::detail::to_flag_value(option->results().back()) <= 0) return;  // --quiet=false
@@ -52,7 +55,7 @@ void add_command(CLI::App& app, const CommandInfo& info, Action& action) {
 
 void add_to_parser(CLI::App& app, const CommandTree& tree, Action& action) {
     app.name("faqem");
-    app.set_version_flag("--version", "faqem " + std::string(version()));
+    app.set_version_flag("-V,--version", "faqem " + std::string(version()));
     app.set_help_all_flag("--help-all");
     app.require_subcommand(1);
     app.formatter_fn([&tree](const CLI::App* shown, const std::string&, CLI::AppFormatMode mode) {

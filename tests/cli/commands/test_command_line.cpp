@@ -6,8 +6,9 @@ using namespace tool_test;
 
 TEST_CASE("help and version are printed to stdout with exit code 0") {
     const Folder folder;
-    for (const char* arguments : {"--help", "--version", "simplify --help", "batch --help", "info --help",
-                                  "compare --help", "render --help", "man", "completion bash"}) {
+    for (const char* arguments :
+         {"", "help", "help simplify", "-V", "--help", "--version", "simplify --help", "batch --help",
+          "info --help", "compare --help", "render --help", "man", "completion bash"}) {
         const Outcome outcome = run(folder, arguments);
         CHECK(outcome.code == 0);
         CHECK(!outcome.out.empty());
@@ -23,8 +24,9 @@ TEST_CASE("faqem --version prints the version of the library") {
 TEST_CASE("an invalid command line exits with 2 and an error on stderr") {
     const Folder folder;
     faqem::save(sheet(4), folder / "in.glb");
-    for (const char* arguments : {"",
-                                  "dance",
+    for (const char* arguments : {"dance",
+                                  "help dance",
+                                  "in.glb out.glb -o other.glb",
                                   "simplify",
                                   "simplify in.glb",
                                   "simplify in.glb out.glb --frobnicate",
@@ -108,6 +110,27 @@ TEST_CASE("a ratio may be a percentage") {
     CHECK(run(folder, "simplify in.glb a.glb --ratio 0.3 --bake none --quiet").code == 0);
     CHECK(run(folder, "simplify in.glb b.glb --ratio 30% --bake none --quiet").code == 0);
     CHECK(read(folder / "a.glb") == read(folder / "b.glb"));
+}
+
+TEST_CASE("short forms give the same as long ones") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.glb");
+    REQUIRE(run(folder, "simplify in.glb out.glb --ratio 0.2 --bake none --quiet").code == 0);
+    const std::string expected = read(folder / "out.glb");
+    for (const char* words : {"in.glb out.glb -fqr.2", "./in.glb -f -r 20% -q -o out.glb",
+                              "-o out.glb simplify", "simplify --output out.glb in.glb -fqr0.2"}) {
+        CAPTURE(words);
+        const bool is_short = !std::string(words).starts_with("-o");
+        const Outcome outcome = run(folder, std::string(words) + " --bake none");
+        CHECK(outcome.code == (is_short ? 0 : 2));
+        CHECK(outcome.out.empty());
+        CHECK(read(folder / "out.glb") == expected);
+    }
+    CHECK(run(folder, "help lod").out == run(folder, "lod --help").out);
+    CHECK(run(folder, "").out == run(folder, "--help").out);
+    REQUIRE(run(folder, "render in.glb in.glb -o a.png --size 32").code == 0);
+    REQUIRE(run(folder, "render in.glb in.glb b.png --size 32").code == 0);
+    CHECK(read(folder / "a.png") == read(folder / "b.png"));
 }
 
 TEST_CASE("an option of the table takes its value after a space, as the tables print it") {

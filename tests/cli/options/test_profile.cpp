@@ -53,6 +53,10 @@ TEST_CASE("the command line takes precedence over the profile, also for options 
     const std::string profile = R"({"faqem-profile": 1, "ratio": 0.25, "preset": "fast"})";
     CHECK(added(profile, {"simplify", "a", "b", "--ratio", "0.5"}) == Words{"--preset=fast"});
     CHECK(added(profile, {"simplify", "a", "b", "--ratio=0.5"}) == Words{"--preset=fast"});
+    for (const char* letters : {"-r.5", "-r", "-fr.5", "-qfr"})
+        CHECK(added(profile, {"simplify", "a", "b", letters}) == Words{"--preset=fast"});
+    for (const char* letters : {"-f", "-or.glb", "-", "-fq"})  // r is a letter of a file name, or missing
+        CHECK(added(profile, {"simplify", "a", letters}) == Words{"--ratio=0.25", "--preset=fast"});
     CHECK(added(profile, {"simplify", "a", "b", "--faces", "7"}) == Words{"--preset=fast"});
     CHECK(added(profile, {"batch", "a", "b", "--preset", "qem"}) == Words{"--ratio=0.25"});
 }
@@ -122,7 +126,7 @@ TEST_CASE("docs/profile.schema.json is the schema of all options of simplify, lo
     CHECK(properties["normals"]["pattern"] == "^(transfer|smooth(:[0-9.]+)?|flat|none)$");
     CHECK(properties["virtual-edges"]["type"] == "number");
     CHECK(properties["report"]["description"].get<std::string>().starts_with("simplify: "));
-    for (const char* other : {"help", "config", "source"}) CHECK(!properties.contains(other));
+    for (const char* other : {"help", "config", "output", "source"}) CHECK(!properties.contains(other));
     write("profile.schema.json", schema);  // to be copied to docs after a change of the options
     CHECK(schema == read(fs::path(source_path) / "docs/profile.schema.json"));
 }

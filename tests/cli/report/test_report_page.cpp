@@ -56,7 +56,7 @@ TEST_CASE("a report page contains figures and pictures and loads no external res
 TEST_CASE("a report page with --without-view is small and has no script") {
     const Folder folder;
     save_two(folder);
-    REQUIRE(run(folder, std::string("report a.glb b.glb --out page.html --without-view") + small).code == 0);
+    REQUIRE(run(folder, std::string("report a.glb b.glb page.html --without-view") + small).code == 0);
     const std::string page = read(folder / "page.html");
     CHECK(!has(page, "<script"));
     CHECK(!has(page, "id=\"canvas\""));

@@ -44,6 +44,7 @@ constexpr OptionRow weight_row(std::string_view name, std::string_view member, s
 
 inline constexpr OptionRow geometry_rows[] = {
     {.name = "ratio",
+     .letter = "r",
      .member_name = "target ratio",
      .kind = OptionKind::share,
      .range = {.max = 1, .excludes_min = true},

@@ -62,6 +62,7 @@ struct OptionRow {
     /// `command_name` is set.
     std::string_view name;
     std::string_view command_name = {};
+    std::string_view letter = {};  ///< short name in the command
     /// Name in messages of the library; empty: `name` with underscores.
     std::string_view member_name = {};
     OptionKind kind = OptionKind::number;
