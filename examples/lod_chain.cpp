@@ -42,7 +42,8 @@ int main(int argc, char** argv) try {
     histories.reserve(levels.size());
     for (const faqem::SimplifiedPartsLevel& level : levels)
         histories.push_back(level.result.parts[0].history);
-    const std::uint64_t wanted = (histories[0].kept_faces.size() + histories[1].kept_faces.size()) / 2;
+    const std::uint64_t wanted =
+        (histories[0].remaining_faces.size() + histories[1].remaining_faces.size()) / 2;
     const faqem::SimplifyResult restored =
         faqem::restore(faqem::truncate_to_faces(faqem::join(histories), wanted));
     std::cout << restored.mesh.triangles.size() << " faces restored from the history\n";

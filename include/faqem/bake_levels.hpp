@@ -56,7 +56,7 @@ FAQEM_EXPORT std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset
 /// \return one result per level. If the progress callback cancels, report.stop of the last result is
 ///         StopReason::cancelled, and results may be missing
 /// \throws OptionError  with `shared`: BakeOptions::kind is neither `automatic` nor `atlas`, the history or
-///                      kept group boundaries are requested, or welding is off
+///                      preserved group boundaries are requested, or welding is off
 /// \throws OptionError, InputError, UnsupportedError  as simplify_parts_levels() and bake()
 FAQEM_EXPORT std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& source,
                                                                const std::vector<Level>& levels,

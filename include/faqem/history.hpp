@@ -44,21 +44,21 @@ struct CollapseHistory {
     std::vector<std::uint64_t> patch_begin;
     std::vector<Index> patch_faces;          ///< see patch_begin
     std::vector<DeletedFace> deleted_faces;  ///< by ascending time
-    std::vector<Index> kept_versions;        ///< version of each simplified vertex
-    std::vector<Index> kept_faces;           ///< input face of each simplified face
+    std::vector<Index> remaining_versions;   ///< version of each simplified vertex
+    std::vector<Index> remaining_faces;      ///< input face of each simplified face
     /// Empty, or the final position of each simplified vertex, if vertices moved after the last collapse
     /// (Preset::best). The positions of the versions are those before that.
-    std::vector<Vec3> kept_positions;
+    std::vector<Vec3> final_positions;
 
-    bool empty() const { return kept_faces.empty(); }
+    bool empty() const { return remaining_faces.empty(); }
     /// Number of patches: collapses, then edge flips.
     std::size_t patch_count() const { return patch_begin.empty() ? 0 : patch_begin.size() - 1; }
     std::span<const Index> patch(std::size_t k) const {
         return {patch_faces.data() + patch_begin[k], patch_begin[k + 1] - patch_begin[k]};
     }
     /// Position of a simplified vertex. O(1)
-    const Vec3& kept_position(std::size_t vertex) const {
-        return kept_positions.empty() ? position(kept_versions[vertex]) : kept_positions[vertex];
+    const Vec3& final_position(std::size_t vertex) const {
+        return final_positions.empty() ? position(remaining_versions[vertex]) : final_positions[vertex];
     }
     /// Position of a version. O(1)
     const Vec3& position(Index version) const {
@@ -68,7 +68,7 @@ struct CollapseHistory {
 };
 
 /// Checks that all positions are finite and all indices in range, that every collapse merges two existing
-/// versions that were not merged before, and that kept vertices, kept faces and edge flips are consistent.
+/// versions that were not merged before, and that remaining vertices and faces and edge flips are consistent.
 /// \throws InputError  names the first invalid element
 /// Complexity: O(size of the history).
 FAQEM_EXPORT void validate(const CollapseHistory& history);

@@ -163,19 +163,19 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
     }
     delete_faces_until(history.collapses.size());
     // Faces of zero area that remain are not part of the result.
-    std::vector<std::uint8_t> kept(arrays.faces.size(), 0);
-    for (const Index f : history.kept_faces) kept[f] = 1;
-    for (std::size_t f = 0; f < kept.size(); ++f) {
-        if (!kept[f] && !mesh.status(arrays.faces[f]).deleted()) mesh.delete_face(arrays.faces[f], true);
+    std::vector<std::uint8_t> remains(arrays.faces.size(), 0);
+    for (const Index f : history.remaining_faces) remains[f] = 1;
+    for (std::size_t f = 0; f < remains.size(); ++f) {
+        if (!remains[f] && !mesh.status(arrays.faces[f]).deleted()) mesh.delete_face(arrays.faces[f], true);
     }
     std::vector<typename Mesh::FaceHandle> faces = arrays.faces;
     for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k) {
         flip_edge(mesh, faces[history.patch(k)[0]], faces[history.patch(k)[1]]);
     }
-    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
-        const Index version = history.kept_versions[i];
+    for (std::size_t i = 0; i < history.remaining_versions.size(); ++i) {
+        const Index version = history.remaining_versions[i];
         const bool original = version < history.positions.size();
-        const Vec3& final_position = history.kept_position(i);
+        const Vec3& final_position = history.final_position(i);
         if (!original || final_position != history.position(version))
             move(mesh, handle[version], final_position);
     }

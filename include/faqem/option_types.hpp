@@ -95,8 +95,8 @@ enum class Boundary { free, locked };
 /// How boundaries between faces of different groups (for an asset: materials) are treated.
 enum class GroupBoundaries {
     free,       ///< without effect; for an asset, as `preferred`
-    preferred,  ///< preserved as by `kept` while the target can be reached, and then only part of the costs
-    kept,       ///< preserved as surface boundaries are, never torn or merged, even if the target is missed
+    preferred,  ///< preserved as by `preserved` while the target can be reached, and then only part of the costs
+    preserved,  ///< preserved as surface boundaries are, never torn or merged, even if the target is missed
 };
 
 /// Whether nearby boundary vertices of different components may be collapsed (FA-QEM, supplementary

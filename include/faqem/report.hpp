@@ -124,7 +124,7 @@ struct ResultView {
 };
 
 /// A result that was made and compared with others for Options::max_bytes.
-struct BudgetPoint {
+struct ComparedResult {
     Bake kind = Bake::keep;  ///< `keep`: with the UVs of the source
     std::uint64_t faces = 0;
     std::uint64_t bytes = 0;       ///< of all files
@@ -134,15 +134,15 @@ struct BudgetPoint {
 };
 
 /// What a trial for Options::max_bytes changes; the rest is as in the source.
-enum class BudgetTrialKind {
+enum class SizeTrialKind {
     faces,
     positions,  ///< their bits
     images,
 };
 
 /// One trial for Options::max_bytes, on all faces unless it is about them.
-struct BudgetTrial {
-    BudgetTrialKind kind = BudgetTrialKind::faces;
+struct SizeTrial {
+    SizeTrialKind kind = SizeTrialKind::faces;
     std::uint64_t faces = 0;
     std::uint64_t bytes = 0;                     ///< of the geometry, or of the images
     std::uint32_t image_side = 0;                ///< longest side of the images, texels; 0: not encoded
@@ -196,8 +196,8 @@ struct Report {
     /// What was given up so that the result has no more bytes than the input, also in a warning.
     std::vector<std::string> given_up;
     /// For Options::max_bytes without a face target: the results that were compared, in the order in which they were made.
-    std::vector<BudgetPoint> budget_points;
-    std::vector<BudgetTrial> budget_trials;  ///< in the order in which they were made
+    std::vector<ComparedResult> compared_results;
+    std::vector<SizeTrial> size_trials;  ///< in the order in which they were made
     /// Total size of the files of the model before and after, without those of history and correspondence; 0: unknown.
     /// `bytes_out` is set by simplify() of a file.
     std::uint64_t bytes_in = 0, bytes_out = 0;

@@ -58,7 +58,7 @@ public:
     SurfaceMap& operator=(SurfaceMap&&) noexcept;
 
     /// Maps one point.
-    /// \param face         face of the simplified mesh, < history.kept_faces.size()
+    /// \param face         face of the simplified mesh, < history.remaining_faces.size()
     /// \param barycentric  weights of its three corners, >= 0, sum 1
     /// \return a point on the original; its face is never no_index
     /// Complexity: O(log n) typically.

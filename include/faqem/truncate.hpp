@@ -19,9 +19,9 @@ struct HistoryLevel {
     std::uint64_t collapses = 0;  ///< number of collapses before the end of the level
     std::uint64_t deleted = 0;    ///< number of CollapseHistory::deleted_faces before the end of the level
     std::vector<std::array<Index, 2>> flips;  ///< pairs of faces whose edge is flipped in this level only
-    std::vector<Index> kept_versions;         ///< as CollapseHistory::kept_versions
-    std::vector<Index> kept_faces;            ///< as CollapseHistory::kept_faces
-    std::vector<Vec3> kept_positions;         ///< as CollapseHistory::kept_positions
+    std::vector<Index> remaining_versions;    ///< as CollapseHistory::remaining_versions
+    std::vector<Index> remaining_faces;       ///< as CollapseHistory::remaining_faces
+    std::vector<Vec3> final_positions;        ///< as CollapseHistory::final_positions
 };
 
 /// The history of a chain of levels: that of the last level, and the states at the ends of the previous

@@ -124,13 +124,13 @@ private:
 
     /// By element of a top-level array: whether nodes refer to it under `key`, but only removed ones.
     Marks used_by_removed_only(const char* array, const char* key) const {
-        Marks by_removed(array_size(document_, array), 0), by_kept = by_removed;
+        Marks by_removed(array_size(document_, array), 0), by_remaining = by_removed;
         for (Index n = 0; n < removed_.size(); ++n) {
             const Index used = index_member(node(n), key);
-            if (used != no_index) (removed_[n] ? by_removed : by_kept)[used] = 1;
+            if (used != no_index) (removed_[n] ? by_removed : by_remaining)[used] = 1;
         }
         for (std::size_t i = 0; i < by_removed.size(); ++i)
-            if (by_kept[i]) by_removed[i] = 0;
+            if (by_remaining[i]) by_removed[i] = 0;
         return by_removed;
     }
 
@@ -164,18 +164,18 @@ private:
     /// Renumbers the nodes in a list, which is erased if none is left.
     void update_list(Json& holder, const char* key) const {
         if (!holder.contains(key)) return;
-        Json kept = Json::array();
+        Json remaining = Json::array();
         for (const Json& n : holder[key])
-            if (number_[n.get<Index>()] != no_index) kept.push_back(number_[n.get<Index>()]);
-        if (kept.empty() && !holder[key].empty())
+            if (number_[n.get<Index>()] != no_index) remaining.push_back(number_[n.get<Index>()]);
+        if (remaining.empty() && !holder[key].empty())
             holder.erase(key);
         else
-            holder[key] = std::move(kept);
+            holder[key] = std::move(remaining);
     }
 
     void remove_skins(const Marks& removed) {
         if (!document_.contains("skins")) return;
-        Json kept = Json::array();
+        Json remaining = Json::array();
         std::vector<Index> number(removed.size(), no_index);
         for (std::size_t s = 0; s < removed.size(); ++s) {
             if (removed[s]) continue;
@@ -184,16 +184,16 @@ private:
             const Index skeleton = index_member(skin, "skeleton");
             if (skeleton != no_index && number_[skeleton] == no_index) skin.erase("skeleton");
             if (skin.contains("skeleton")) skin["skeleton"] = number_[skeleton];
-            number[s] = static_cast<Index>(kept.size());
-            kept.push_back(std::move(skin));
+            number[s] = static_cast<Index>(remaining.size());
+            remaining.push_back(std::move(skin));
         }
         for (Index n = 0; n < removed_.size(); ++n)
             if (!removed_[n] && node(n).contains("skin"))
                 document_["nodes"][n]["skin"] = number[index_member(node(n), "skin")];
-        if (kept.empty())
+        if (remaining.empty())
             document_.erase("skins");
         else
-            document_["skins"] = std::move(kept);
+            document_["skins"] = std::move(remaining);
     }
 
     /// Returns whether the target of a channel stays.
@@ -259,10 +259,10 @@ private:
         for (Index n = 0; n < removed_.size(); ++n) {
             if (removed_[n] && keeps_numbers_) nodes.push_back(Json::object());
             if (removed_[n]) continue;
-            Json& kept = document_["nodes"][n];
-            update_list(kept, "children");
-            erase_levels(kept);
-            nodes.push_back(std::move(kept));
+            Json& remaining = document_["nodes"][n];
+            update_list(remaining, "children");
+            erase_levels(remaining);
+            nodes.push_back(std::move(remaining));
         }
         document_["nodes"] = std::move(nodes);
     }

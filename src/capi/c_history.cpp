@@ -24,7 +24,7 @@ const CollapseHistory& history_of(const faqem_result* result) {
 
 void check_point(const CollapseHistory& history, Index face, const Vec3& weights, std::size_t i) {
     const std::string where = "point " + std::to_string(i);
-    if (face >= history.kept_faces.size())
+    if (face >= history.remaining_faces.size())
         throw InputError("", where, "face index is out of range: " + std::to_string(face));
     const double sum = weights[0] + weights[1] + weights[2];
     if (!(weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0 && sum > 1 - 1e-6 && sum < 1 + 1e-6))

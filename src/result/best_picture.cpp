@@ -12,9 +12,9 @@
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/simplify/run.hpp"
-#include "result/budget_choices.hpp"
 #include "result/image_trials.hpp"
 #include "result/model_size.hpp"
+#include "result/result_choices.hpp"
 #include "scene/position_grids.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/simplify_parts.hpp"
@@ -190,15 +190,15 @@ private:
         set_quantization(source_, own, asset, unused);
     }
 
-    // Bytes of the budget for geometry and encoded images.
-    std::uint64_t bytes_to_share() const { return limit_ - std::min(limit_, images_->kept_bytes()); }
+    // Bytes of the limit for geometry and encoded images.
+    std::uint64_t bytes_to_share() const { return limit_ - std::min(limit_, images_->passed_bytes()); }
 
     // The best choices, whose images have different numbers of bytes.
-    std::vector<BudgetChoice> different_choices() const {
-        std::vector<BudgetChoice> result;
-        for (BudgetChoice& choice :
-             budget_choices(tried_faces_, images_->tried(), tried_roundings_, bytes_to_share())) {
-            const auto is_similar = [&](const BudgetChoice& other) {
+    std::vector<ResultChoice> different_choices() const {
+        std::vector<ResultChoice> result;
+        for (ResultChoice& choice :
+             result_choices(tried_faces_, images_->tried(), tried_roundings_, bytes_to_share())) {
+            const auto is_similar = [&](const ResultChoice& other) {
                 const auto [less, more] = std::minmax(choice.image_bytes, other.image_bytes);
                 return static_cast<double>(more) <= different_bytes * static_cast<double>(less);
             };
@@ -211,8 +211,8 @@ private:
 
     void try_choices() {
         double done = 0;
-        const std::vector<BudgetChoice> all = different_choices();
-        for (const BudgetChoice& choice : all) {
+        const std::vector<ResultChoice> all = different_choices();
+        for (const ResultChoice& choice : all) {
             context_.report(Phase::bake, begin_of_choices + (1 - begin_of_choices) * done++ /
                                                                 static_cast<double>(all.size()));
             try_choice(choice);
@@ -222,31 +222,31 @@ private:
     std::optional<SimplifiedAsset> reported_best() {
         if (!best_) return std::nullopt;
         Report& report = best_->report;
-        report.budget_points = points_;
-        report.budget_trials = trials();
+        report.compared_results = points_;
+        report.size_trials = trials();
         report.seconds.simplify = seconds_of_simplify_;
         report.seconds.map = 0;
         report.seconds.bake = std::max(0.0, watch_.seconds() - seconds_of_simplify_);
         return std::move(best_);
     }
 
-    std::vector<BudgetTrial> trials() const {
-        std::vector<BudgetTrial> result;
+    std::vector<SizeTrial> trials() const {
+        std::vector<SizeTrial> result;
         for (const TriedFaces& tried : tried_faces_)
             result.push_back(
-                {BudgetTrialKind::faces, tried.faces, tried.bytes, 0, {}, picture_psnr(tried.error)});
+                {SizeTrialKind::faces, tried.faces, tried.bytes, 0, {}, picture_psnr(tried.error)});
         for (const TriedRounding& tried : tried_roundings_)
-            result.push_back({BudgetTrialKind::positions, faces_, tried.bytes, 0, tried.position_bits,
+            result.push_back({SizeTrialKind::positions, faces_, tried.bytes, 0, tried.position_bits,
                               picture_psnr(tried.error)});
         if (!images_->are_encoded()) return result;
         for (const ImagesPoint& point : images_curve(images_->tried(), reported_images))
             result.push_back(
-                {BudgetTrialKind::images, faces_, point.bytes, point.side, {}, picture_psnr(point.error)});
+                {SizeTrialKind::images, faces_, point.bytes, point.side, {}, picture_psnr(point.error)});
         return result;
     }
 
     // Makes as many faces as fit beside the images of the choice.
-    void try_choice(const BudgetChoice& choice) {
+    void try_choice(const ResultChoice& choice) {
         const std::vector<Image> images = images_->chosen_images(choice.images);
         const std::uint64_t bytes = encoded_bytes(images);
         options_.quantize.position_bits = tried_roundings_[choice.rounding].position_bits;
@@ -279,7 +279,7 @@ private:
         }
     }
 
-    std::uint32_t longest_side(const BudgetChoice& choice) const {
+    std::uint32_t longest_side(const ResultChoice& choice) const {
         std::uint32_t result = 0;
         for (std::size_t i = 0; i < choice.images.size(); ++i)
             result = std::max(result, images_->tried()[i][choice.images[i]].side);
@@ -315,7 +315,7 @@ private:
     std::vector<TriedFaces> tried_faces_;
     std::vector<TriedRounding> tried_roundings_;  // at least one after try_faces()
     std::optional<ImageTrials> images_;           // after try_faces()
-    std::vector<BudgetPoint> points_;
+    std::vector<ComparedResult> points_;
     std::optional<SimplifiedAsset> best_;
     double best_psnr_ = 0;
 };

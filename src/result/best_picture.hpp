@@ -21,9 +21,9 @@ FAQEM_EXPORT bool searches_best_picture(const Options& options);
 ///    of the source, for its error. If the source has no normals, they are left out where that looks better.
 ///    Where new grids of positions are used, and QuantizeOptions::position_bits is unset, 13 to 16 bits are tried.
 /// 2. ImageTrials has the bytes and errors of the images.
-/// 3. Errors of faces, images and rounding are assumed to add up, see budget_choices().
-/// 4. The two most promising choices are made, saved and rendered; the better one is returned. Report::budget_points
-///    has these, budget_trials those of 1 and 2.
+/// 3. Errors of faces, images and rounding are assumed to add up, see result_choices().
+/// 4. The two most promising choices are made, saved and rendered; the better one is returned. Report::compared_results
+///    has these, size_trials those of 1 and 2.
 /// Images stay as they are with Bake::keep and ImageFormat::source. BakeOptions::texture_size limits their sides, and
 /// BakeOptions::image_quality is ignored.
 /// \param options  resolved, searches_best_picture() must be true

@@ -60,7 +60,7 @@ ModelSize fit_images(UnencodedResult& result, const Options& options, const RunC
     };
     bool is_found = false;
     for (int i = 0; i < most_choices && !is_found; ++i) {
-        const std::vector<BudgetChoice> choices = budget_choices(faces, trials.tried(), exact, wanted);
+        const std::vector<ResultChoice> choices = result_choices(faces, trials.tried(), exact, wanted);
         if (choices.empty()) break;
         is_found = fits(choices.front().images);
         if (!is_found) wanted -= std::min(wanted, size.total() - bytes);

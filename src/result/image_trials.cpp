@@ -18,7 +18,7 @@ constexpr std::uint32_t measured_fineness = 2 * fineness_step;
 // An image is not tried in a larger size, or finer, if its error has less than this share of the error of all.
 constexpr double least_share = 0.02;
 
-// Images with a smaller share of the budget than one of these are not refined.
+// Images with a smaller share of the limit than one of these are not refined.
 constexpr std::uint64_t many_images = 50;
 
 // Most times that encodings next to the best choice are tried.
@@ -95,11 +95,11 @@ void ImageTrials::try_all(std::span<const TriedFaces> faces, std::span<const Tri
             ++size;
         requests.push_back({i, size, 0, sizes_[i][size].encodings.back().fineness});
     }
-    const auto best_choice = [&]() -> std::optional<BudgetChoice> {
-        std::vector<BudgetChoice> found = budget_choices(faces, tried_, roundings, bytes);
+    const auto best_choice = [&]() -> std::optional<ResultChoice> {
+        std::vector<ResultChoice> found = result_choices(faces, tried_, roundings, bytes);
         if (found.empty()) return std::nullopt;
         measure_choice(found.front());
-        return std::move(budget_choices(faces, tried_, roundings, bytes).front());
+        return std::move(result_choices(faces, tried_, roundings, bytes).front());
     };
     const auto try_requests = [&] {
         encode(requests);
@@ -109,11 +109,11 @@ void ImageTrials::try_all(std::span<const TriedFaces> faces, std::span<const Tri
     for (int round = 0; round < most_rounds && !requests.empty(); ++round) {
         context_.report(Phase::bake, begin + (end - begin) * round / most_rounds);
         try_requests();
-        const std::optional<BudgetChoice> best = best_choice();
+        const std::optional<ResultChoice> best = best_choice();
         requests = best ? next_requests(*best) : smaller_requests();
     }
     for (std::uint32_t distance = fineness_step / 2; distance > 0; distance /= 2) {
-        const std::optional<BudgetChoice> best = best_choice();
+        const std::optional<ResultChoice> best = best_choice();
         if (!best) return;
         requests = refining_requests(*best, distance, bytes / many_images);
         try_requests();
@@ -131,7 +131,7 @@ std::vector<ImageTrials::Request> ImageTrials::smaller_requests() const {
     return result;
 }
 
-std::vector<ImageTrials::Request> ImageTrials::next_requests(const BudgetChoice& choice) const {
+std::vector<ImageTrials::Request> ImageTrials::next_requests(const ResultChoice& choice) const {
     std::vector<Request> result;
     const double least_error = least_share * mean_square_of(choice.psnr);
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
@@ -150,7 +150,7 @@ std::vector<ImageTrials::Request> ImageTrials::next_requests(const BudgetChoice&
 
 // What is between the chosen encodings and their neighbours.
 // \param least_bytes  of images whose encoding matters
-std::vector<ImageTrials::Request> ImageTrials::refining_requests(const BudgetChoice& choice,
+std::vector<ImageTrials::Request> ImageTrials::refining_requests(const ResultChoice& choice,
                                                                  std::uint32_t distance,
                                                                  std::uint64_t least_bytes) const {
     std::vector<Request> result;
@@ -235,7 +235,7 @@ void ImageTrials::measure_sizes(std::span<const Request> requests) {
 
 // The errors of a choice, where they were not measured: those of fine encodings are not in proportion to those of
 // coarse ones, since pictures average what changes from texel to texel.
-void ImageTrials::measure_choice(const BudgetChoice& choice) {
+void ImageTrials::measure_choice(const ResultChoice& choice) {
     std::vector<Pixels> encoded(sizes_.size());
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const Trial& trial = trials_[i][choice.images[i]];

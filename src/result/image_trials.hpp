@@ -10,8 +10,8 @@
 
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/image_encodings.hpp"
-#include "result/budget_choices.hpp"
 #include "result/image_error.hpp"
+#include "result/result_choices.hpp"
 
 namespace faqem::detail {
 
@@ -26,9 +26,9 @@ public:
     ImageTrials(UnencodedResult full, const BakeOptions& bake, const RunContext& context);
 
     /// Tries each image in a small size with every fineness. Then it tries what is next to the choices that are
-    /// best for the budget: larger images, and finer encodings.
+    /// best for the limit: larger images, and finer encodings.
     /// \param faces, roundings  tried geometry
-    /// \param bytes             the budget
+    /// \param bytes             the limit
     /// \param begin, end        of the progress, shares of Phase::bake
     /// \throws engine::Cancelled
     /// Complexity: about ten encodings of each image, on several threads, and pictures for each size.
@@ -42,9 +42,9 @@ public:
     bool are_encoded() const { return !sizes_.empty(); }
 
     /// Bytes of the images that stay as they are.
-    std::uint64_t kept_bytes() const { return encoded_bytes(full_.asset.asset.images); }
+    std::uint64_t passed_bytes() const { return encoded_bytes(full_.asset.asset.images); }
 
-    /// All images of the result, with the encodings of a choice. \param chosen  BudgetChoice::images
+    /// All images of the result, with the encodings of a choice. \param chosen  ResultChoice::images
     std::vector<Image> chosen_images(const std::vector<std::size_t>& chosen) const;
 
 private:
@@ -84,13 +84,13 @@ private:
     void make_sizes();
     void encode(std::span<const Request> requests);
     void measure_sizes(std::span<const Request> requests);
-    void measure_choice(const BudgetChoice& choice);
+    void measure_choice(const ResultChoice& choice);
     static void add_sample(SizeError& error, const PictureDifference& both, double difference);
     static PictureDifference estimated_error(const SizeError& error, double difference);
     void update_errors();
     std::vector<Request> smaller_requests() const;
-    std::vector<Request> next_requests(const BudgetChoice& choice) const;
-    std::vector<Request> refining_requests(const BudgetChoice& choice, std::uint32_t distance,
+    std::vector<Request> next_requests(const ResultChoice& choice) const;
+    std::vector<Request> refining_requests(const ResultChoice& choice, std::uint32_t distance,
                                            std::uint64_t least_bytes) const;
     PictureDifference unseen_error(double error) const;
 

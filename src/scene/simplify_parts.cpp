@@ -60,7 +60,7 @@ std::vector<Index> face_groups(const Part& part, const std::optional<detail::Mat
 
 // A part as the input of the engine. Materials that are baked into one page form one group, so that
 // boundaries between them need no faces and samples can cross them; only coincident faces of different
-// appearance are separated. Otherwise, and if group boundaries are to be kept, the groups are the materials.
+// appearance are separated. Otherwise, and if group boundaries are to be preserved, the groups are the materials.
 struct PartInput {
     std::vector<Index> groups;
     CornerAttributes attributes;
@@ -238,10 +238,10 @@ private:
         return !context_.is_late();
     }
 
-    bool keeps_groups() const { return options_.topology.group_boundaries == GroupBoundaries::kept; }
+    bool keeps_groups() const { return options_.topology.group_boundaries == GroupBoundaries::preserved; }
 
     // Restores the material groups, which determine the pages. The groups for the simplification also
-    // separate coincident faces and, with kept boundaries, materials.
+    // separate coincident faces and, with preserved boundaries, materials.
     void restore_face_groups(std::size_t p, SimplifyResult& result) const {
         result.history.face_groups = face_groups(source_.parts[p], groups_);
         result.mesh.face_groups.clear();

@@ -73,7 +73,7 @@ def lines(file, panels, title, ylabel):
     save(figure, file)
 
 
-def budget(file, trials, results):
+def byte_limits(file, trials, results):
     """Draws PSNR over bytes. trials: name -> [(bytes, dB)], each tried alone; results: [(bytes, dB)] of both together."""
     figure, axis = plt.subplots(figsize=(6.4, 3.6))
     for name, points in trials.items():

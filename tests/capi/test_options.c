@@ -29,7 +29,7 @@ static void every_option_can_be_set(void) {
         CHECK(faces_with(options) <= 80);
     }
     static const char* const values[][2] = {
-        {"link", "strict"},        {"boundary", "locked"},    {"group-boundaries", "kept"},
+        {"link", "strict"},        {"boundary", "locked"},    {"group-boundaries", "preserved"},
         {"weld-distance", "1e-9"}, {"virtual-edges", "0.01"}, {"prune", "0.1"},
         {"threads", "2"},          {"w-area", "100"}};
     for (size_t i = 0; i < sizeof values / sizeof *values; ++i)

@@ -121,13 +121,13 @@ TEST_CASE("vertex fitting: the history stores the final positions and keeps thos
         simplify(mesh.view(), {.target = ratio(0.1), .preset = Preset::best, .history = Recording::on});
     const SimplifyResult plain =
         simplify(mesh.view(), {.target = ratio(0.1), .preset = Preset::balanced, .history = Recording::on});
-    REQUIRE(r.history.kept_versions == plain.history.kept_versions);
-    CHECK(r.history.kept_positions == r.mesh.positions);
-    CHECK(plain.history.kept_positions.empty());
+    REQUIRE(r.history.remaining_versions == plain.history.remaining_versions);
+    CHECK(r.history.final_positions == r.mesh.positions);
+    CHECK(plain.history.final_positions.empty());
     CHECK(replay(r.history).positions == r.mesh.positions);
     CHECK(replay(r.history).triangles == r.mesh.triangles);
     CHECK(r.history.patch_count() == r.history.collapses.size() + r.report.edges_flipped);
     for (std::size_t i = 0; i < plain.mesh.positions.size(); ++i) {
-        CHECK(r.history.position(r.history.kept_versions[i]) == plain.mesh.positions[i]);
+        CHECK(r.history.position(r.history.remaining_versions[i]) == plain.mesh.positions[i]);
     }
 }

@@ -23,7 +23,7 @@ inline Options options_of(Input& in) {
     if (bits & 32) o.topology.weld = Weld::none;
     if (bits & 64) o.topology.virtual_edges = VirtualEdges::on, o.topology.virtual_edge_distance = 0.5;
     if (bits & 128) o.topology.boundary = Boundary::locked;
-    if (more & 1) o.topology.group_boundaries = GroupBoundaries::kept;
+    if (more & 1) o.topology.group_boundaries = GroupBoundaries::preserved;
     if (more & 2) o.topology.weld_distance = std::abs(in.real());
     if (more & 4) o.topology.prune = of_diagonal(0.25);
     if (more & 16) o.visibility = Visibility::weighted;

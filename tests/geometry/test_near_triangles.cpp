@@ -101,7 +101,7 @@ TEST_CASE(
     NearTriangles near;
     near.reset({0.5, 0.5, 0}, 2, strip);
     NearTriangles::Recent recent;
-    std::size_t kept = 0;
+    std::size_t unchanged = 0;
     for (int i = 0; i <= 100; ++i) {
         const Vector3 p(0.01 * i, 0.01 * i, 0.1);
         const NearTriangles::Recent before = recent;
@@ -109,9 +109,9 @@ TEST_CASE(
         REQUIRE(hit);
         CHECK(hit->entry->face == (i < 50 ? 3u : 2u));
         CHECK(hit->at.distance_squared == brute_force(strip, p).at.distance_squared);
-        if (recent.at == before.at && i > 0) ++kept;
+        if (recent.at == before.at && i > 0) ++unchanged;
     }
-    CHECK(kept > 50);
+    CHECK(unchanged > 50);
     CHECK(recent.others > 0);
 }
 

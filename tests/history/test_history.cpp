@@ -26,8 +26,8 @@ CollapseHistory small() {
     h.collapses = {{0, 1, {0.5, 0, 0}}};
     h.patch_begin = {0, 2};
     h.patch_faces = {0, 1};
-    h.kept_versions = {4, 2, 3};
-    h.kept_faces = {1};
+    h.remaining_versions = {4, 2, 3};
+    h.remaining_faces = {1};
     return h;
 }
 
@@ -37,7 +37,7 @@ CollapseHistory with_deleted_part() {
     h.positions.insert(h.positions.end(), {{5, 5, 5}, {6, 5, 5}, {5, 6, 5}});
     h.triangles.push_back({4, 5, 6});
     h.face_groups.push_back(9);
-    h.kept_versions[0] = 7;
+    h.remaining_versions[0] = 7;
     h.deleted_faces = {{1, 2}};
     return h;
 }
@@ -49,8 +49,8 @@ CollapseHistory flipped() {
     h.triangles = test::quad().triangles;
     h.patch_begin = {0, 2};
     h.patch_faces = {0, 1};
-    h.kept_versions = {0, 1, 2, 3};
-    h.kept_faces = {0, 1};
+    h.remaining_versions = {0, 1, 2, 3};
+    h.remaining_faces = {0, 1};
     return h;
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("history: writing and reading restores the same bytes") {
         CHECK(file_bytes(again) == text);
         CHECK(again.positions == h.positions);
         CHECK(again.triangles == h.triangles);
-        CHECK(again.kept_versions == h.kept_versions);
+        CHECK(again.remaining_versions == h.remaining_versions);
         CHECK(again.collapses.size() == h.collapses.size());
         CHECK(again.deleted_faces.size() == h.deleted_faces.size());
     }
@@ -122,7 +122,7 @@ TEST_CASE("history: a truncated file is an error that names the section") {
     CHECK(error_message([&] { read(text.substr(0, 5)); }) == "history: header: ends too early");
     CHECK(error_message([&] { read(text.substr(0, 20)); }) == "history: positions: ends too early");
     CHECK(error_message([&] { read(text.substr(0, text.size() - 1)); }) ==
-          "history: kept_faces: ends too early");
+          "history: remaining_faces: ends too early");
 }
 
 TEST_CASE("history: a file of another format is an error") {
@@ -149,18 +149,18 @@ TEST_CASE("history: an invalid element count does not allocate memory") {
     CHECK(at == text.size());
 }
 
-TEST_CASE("history: kept positions are written and read, and a wrong number of them is an error") {
+TEST_CASE("history: final positions are written and read, and a wrong number of them is an error") {
     CollapseHistory history = with_deleted_part();
-    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
-        history.kept_positions.push_back({1.0 + i, 2, 3});
+    for (std::size_t i = 0; i < history.remaining_versions.size(); ++i) {
+        history.final_positions.push_back({1.0 + i, 2, 3});
     }
     std::istringstream in(file_bytes(history));
     const CollapseHistory again = read_history(in);
-    CHECK(again.kept_positions == history.kept_positions);
-    CHECK(replay(again).positions == history.kept_positions);
-    history.kept_positions.pop_back();
+    CHECK(again.final_positions == history.final_positions);
+    CHECK(replay(again).positions == history.final_positions);
+    history.final_positions.pop_back();
     CHECK(error_message([&] { validate(history); }) ==
-          "history: kept_positions: needs one entry per kept version or none");
+          "history: final_positions: needs one entry per remaining version or none");
 }
 
 TEST_CASE("history: edge flips are written, read and replayed") {
@@ -176,25 +176,25 @@ TEST_CASE("history: edge flips are written, read and replayed") {
     CHECK(replay(history).triangles == std::vector<Triangle>{{3, 0, 2}, {1, 2, 0}});
 }
 
-TEST_CASE("history: an edge flip needs two kept faces with a common edge") {
+TEST_CASE("history: an edge flip needs two remaining faces with a common edge") {
     CollapseHistory history = flipped();
     history.patch_faces = {0, 0};
     CHECK(error_message([&] { validate(history); }) ==
-          "history: patch_begin[0]: faces of an edge flip must be kept and share an edge");
+          "history: patch_begin[0]: faces of an edge flip must remain and share an edge");
     history.patch_faces = {0};
     history.patch_begin = {0, 1};
     CHECK(error_message([&] { validate(history); }) ==
           "history: patch_begin[0]: an edge flip must have two faces");
-    history = small();  // face 0 is not kept
+    history = small();  // face 0 is not in the simplified mesh
     history.patch_faces.insert(history.patch_faces.end(), {0, 1});
     history.patch_begin.push_back(4);
     CHECK(error_message([&] { validate(history); }) ==
-          "history: patch_begin[1]: faces of an edge flip must be kept and share an edge");
+          "history: patch_begin[1]: faces of an edge flip must remain and share an edge");
 }
 
 TEST_CASE("history: arrays of different lengths are an error, also empty ones") {
     const std::string text = file_bytes(with_deleted_part());
-    // From the end: kept_faces 1, kept_versions 3, deleted faces 1, their times 1.
+    // From the end: remaining_faces 1, remaining_versions 3, deleted faces 1, their times 1.
     const std::size_t times = text.size() - (8 + 4) - (8 + 12) - (8 + 4) - (8 + 8);
     std::string forged = text;
     forged.erase(times + 8, 8);
@@ -238,13 +238,14 @@ TEST_CASE("history: invalid indices are errors that name the first invalid eleme
           "history: deleted_faces[0]: time or face index out of range");
     CHECK(changed([](H& h) { h.deleted_faces[0].time = 2; }) ==
           "history: deleted_faces[0]: time or face index out of range");
-    CHECK(changed([](H& h) { h.kept_versions[1] = 8; }) ==
-          "history: kept_versions[1]: version does not exist or was merged");
-    CHECK(changed([](H& h) { h.kept_versions[1] = 0; }) ==
-          "history: kept_versions[1]: version does not exist or was merged");
-    CHECK(changed([](H& h) { h.kept_faces[0] = 3; }) == "history: kept_faces[0]: face does not exist");
-    CHECK(changed([](H& h) { h.kept_faces[0] = 2; }) ==
-          "history: kept_faces[0]: refers to a vertex that is not kept");
+    CHECK(changed([](H& h) { h.remaining_versions[1] = 8; }) ==
+          "history: remaining_versions[1]: version does not exist or was merged");
+    CHECK(changed([](H& h) { h.remaining_versions[1] = 0; }) ==
+          "history: remaining_versions[1]: version does not exist or was merged");
+    CHECK(changed([](H& h) { h.remaining_faces[0] = 3; }) ==
+          "history: remaining_faces[0]: face does not exist");
+    CHECK(changed([](H& h) { h.remaining_faces[0] = 2; }) ==
+          "history: remaining_faces[0]: refers to a vertex that is not in the simplified mesh");
     CHECK(changed([](H& h) { h.triangles[0].fill(no_index); }) ==
           "history: patch_faces[0]: face does not exist");
 }
@@ -257,8 +258,8 @@ TEST_CASE("history: positions that are not finite are errors in all arrays") {
     CHECK(changed([&](H& h) { h.collapses[0].position[0] = nan; }) ==
           "history: collapses[0]: position is not finite");
     CHECK(changed([&](H& h) {
-              h.kept_positions.assign(h.kept_versions.size(), {0, -infinite, 0});
-          }) == "history: kept_positions[0]: position is not finite");
+              h.final_positions.assign(h.remaining_versions.size(), {0, -infinite, 0});
+          }) == "history: final_positions[0]: position is not finite");
 }
 
 TEST_CASE("history: an empty history must not have elements that refer to others") {
@@ -269,8 +270,8 @@ TEST_CASE("history: an empty history must not have elements that refer to others
         return error_message([&] { validate(h); });
     };
     CHECK(empty_but([](H&) {}) == "accepted");
-    CHECK(empty_but([](H& h) { h.kept_versions = {5}; }) != "accepted");
-    CHECK(empty_but([](H& h) { h.kept_faces = {0}; }) != "accepted");
+    CHECK(empty_but([](H& h) { h.remaining_versions = {5}; }) != "accepted");
+    CHECK(empty_but([](H& h) { h.remaining_faces = {0}; }) != "accepted");
     CHECK(empty_but([](H& h) { h.collapses = {{0, 1, {}}}; }) != "accepted");
     CHECK(empty_but([](H& h) { h.patch_faces = {0}; }) != "accepted");
     CHECK(empty_but([](H& h) { h.deleted_faces = {{0, 0}}; }) != "accepted");
@@ -316,7 +317,7 @@ TEST_CASE("history: the history of a run replays to its result, also after writi
                 CHECK(same_mesh(replay(result.history), result.mesh));
                 CHECK(same_mesh(replay(read(file_bytes(result.history))), result.mesh));
                 CHECK(result.history.collapses.size() == result.report.collapses);
-                CHECK(result.history.kept_faces == result.face_origin);
+                CHECK(result.history.remaining_faces == result.face_origin);
             }
         }
     }

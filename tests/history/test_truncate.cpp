@@ -91,9 +91,9 @@ TEST_CASE("truncate: between levels, the history is valid and has at most the re
     for (const std::uint64_t faces : {1279, 900, 303, 123}) {
         const CollapseHistory truncated = truncate_to_faces(chain, faces);
         validate(truncated);
-        CHECK(truncated.kept_faces.size() <= faces);
-        CHECK(truncated.kept_faces.size() + 2 > faces);
-        CHECK(truncated.kept_positions.empty());
+        CHECK(truncated.remaining_faces.size() <= faces);
+        CHECK(truncated.remaining_faces.size() + 2 > faces);
+        CHECK(truncated.final_positions.empty());
     }
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("truncate: counts above the original give the original, counts below t
     CHECK(file_bytes(truncate_to_faces(chain, 4)) == file_bytes(chain.last));
 }
 
-TEST_CASE("truncate: deleted faces are not kept") {
+TEST_CASE("truncate: deleted faces are not in the simplified mesh") {
     const TriangleMesh mesh =
         test::both(test::lump(3), test::moved(test::scaled(test::tetrahedron(), 0.1), {3, 0, 0}));
     Options options;
@@ -117,7 +117,7 @@ TEST_CASE("truncate: deleted faces are not kept") {
     CHECK(chain.last.deleted_faces.size() == 4);
     for (const SimplifiedLevel& level : levels)
         check_same_restored(restore(truncate_to_faces(chain, level.result.report.faces_out)), level.result);
-    CHECK(truncate_to_faces(chain, 1'000'000).kept_faces.size() == 1280);
+    CHECK(truncate_to_faces(chain, 1'000'000).remaining_faces.size() == 1280);
 }
 
 TEST_CASE("truncate: several parts are truncated to the same level, and in proportion between levels") {
@@ -134,7 +134,7 @@ TEST_CASE("truncate: several parts are truncated to the same level, and in propo
         CHECK(file_bytes(truncated[1]) == file_bytes(b[i].result.history));
     }
     const auto between = truncate_to_faces(parts, 600);
-    const std::size_t faces[] = {between[0].kept_faces.size(), between[1].kept_faces.size()};
+    const std::size_t faces[] = {between[0].remaining_faces.size(), between[1].remaining_faces.size()};
     CHECK(faces[0] + faces[1] <= 600);
     CHECK(faces[0] + faces[1] + 4 > 600);
     CHECK(faces[1] <= 160);
@@ -174,9 +174,9 @@ TEST_CASE("truncate: truncated and invalid files are errors") {
     forged.before[0].collapses = 1'000'000;
     CHECK(chain_error(file_bytes(forged)).find("history: level 0: ") == 0);
     forged = chain;
-    forged.before[1].kept_versions[0] = chain.last.collapses[0].first;
+    forged.before[1].remaining_versions[0] = chain.last.collapses[0].first;
     CHECK(chain_error(file_bytes(forged)) ==
-          "history: kept_versions[0]: version does not exist or was merged");
+          "history: remaining_versions[0]: version does not exist or was merged");
     forged = chain;
     forged.before[1].flips.push_back({0, 1});
     CHECK(chain_error(file_bytes(forged)).find("history: patch_begin") == 0);

@@ -27,7 +27,7 @@ void check_same_level(const SimplifyResult& a, const SimplifyResult& b) {
     CHECK(a.face_origin == b.face_origin);
     CHECK(a.report.collapses == b.report.collapses);
     CHECK(a.report.refusals == b.report.refusals);
-    CHECK(a.history.kept_versions == b.history.kept_versions);
+    CHECK(a.history.remaining_versions == b.history.remaining_versions);
     CHECK(a.history.patch_faces == b.history.patch_faces);
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("levels: vertex fitting of one level does not affect the next one") {
         CHECK(fitted[i].result.report.vertices_fitted > 0);
         CHECK(fitted[i].result.face_origin == unfitted[i].result.face_origin);
         for (std::size_t v = 0; v < unfitted[i].result.mesh.positions.size(); ++v) {
-            const Index version = fitted[i].result.history.kept_versions[v];
+            const Index version = fitted[i].result.history.remaining_versions[v];
             CHECK(fitted[i].result.history.position(version) == unfitted[i].result.mesh.positions[v]);
         }
     }
@@ -154,7 +154,7 @@ TEST_CASE("levels: attributes, groups and vertex weights are kept in all levels"
     view.vertex_weights = weights;
     for (const Preset preset : {Preset::fast, Preset::balanced}) {
         Options options = with(preset, Recording::on);
-        options.topology.group_boundaries = GroupBoundaries::kept;
+        options.topology.group_boundaries = GroupBoundaries::preserved;
         const auto levels = simplify_levels(view, {ratio(0.5), ratio(0.2)}, options);
         for (const SimplifiedLevel& level : levels) {
             const TriangleMesh& out = level.result.mesh;

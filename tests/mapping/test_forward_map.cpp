@@ -77,7 +77,7 @@ TEST_CASE("forward map: vertex_map() gives the vertex that each vertex was colla
     HandHistory hand(positions, grid_faces(2, [](Index i, Index j) { return 3 * j + i; }));
     hand.collapse(hand.collapse(4, 5, {1.5, 1, 0}), 7, {1.25, 1.5, 0});
     const CollapseHistory history = hand.finish();
-    REQUIRE(history.kept_versions == std::vector<Index>{0, 1, 2, 3, 6, 10});
+    REQUIRE(history.remaining_versions == std::vector<Index>{0, 1, 2, 3, 6, 10});
     // Both faces of vertex 8 were removed.
     CHECK(vertex_map(history) == std::vector<Index>{0, 1, 2, 3, 5, 5, 4, 5, no_index});
 }

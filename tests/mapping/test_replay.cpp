@@ -55,17 +55,17 @@ TEST_CASE("the tables of a replay grow linearly with the number of faces that sh
             const bool is_small = history.patch(k).size() <= largest;
             if (replay.has_entries(history, k) != is_small) FAIL("patch " << k);
         }
-        CHECK(replay.kept_last == std::vector<Index>(2, static_cast<Index>(history.patch_count() - 1)));
+        CHECK(replay.last_patches == std::vector<Index>(2, static_cast<Index>(history.patch_count() - 1)));
     }
 }
 
 TEST_CASE("points are mapped to the original where patches are too large for a walk") {
     const CollapseHistory history = collapsed_pages(3000);
     const detail::SuccessiveProjection map(history);
-    REQUIRE(history.kept_faces.size() == 2);
+    REQUIRE(history.remaining_faces.size() == 2);
     for (Index face = 0; face < 2; ++face) {
         const SurfacePoint point = map.map(face, {0.2, 0.2, 0.6});
-        CHECK(point.face == history.kept_faces[face]);
+        CHECK(point.face == history.remaining_faces[face]);
         CHECK(std::abs(point.barycentric[2] - 0.6) < 1e-9);
     }
 }

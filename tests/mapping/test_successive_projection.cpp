@@ -66,9 +66,9 @@ TEST_CASE("successive projection: points are mapped to their material group") {
     hand.collapse(5, 6, {1.9, 1, 0});  // moves the group boundary into the other group
     const CollapseHistory history = hand.finish();
     const SurfaceMap map(history);
-    for (Index f = 0; f < history.kept_faces.size(); ++f) {
+    for (Index f = 0; f < history.remaining_faces.size(); ++f) {
         for (const Vec3& w : spread(4)) {
-            CHECK(history.face_groups[map.map(f, w).face] == history.face_groups[history.kept_faces[f]]);
+            CHECK(history.face_groups[map.map(f, w).face] == history.face_groups[history.remaining_faces[f]]);
         }
     }
 }
@@ -90,7 +90,7 @@ TEST_CASE("successive projection: if the walk ends on an opposite face, the clos
     const Index d = hand.collapse(p, q, {0.5, -0.6, 0});
     hand.collapse(d, e, {0.5, 1, 0});
     const CollapseHistory history = hand.finish();
-    REQUIRE(history.kept_faces == std::vector<Index>{0, 1});
+    REQUIRE(history.remaining_faces == std::vector<Index>{0, 1});
     const SurfaceMap map(history);
     const SurfacePoint hit = map.map(0, {0.4, 0.3, 0.3});
     CHECK(hit.face == 2);
@@ -127,7 +127,7 @@ TEST_CASE("successive projection: points are mapped to their plate if two plates
     REQUIRE(small.triangles.size() < welded.size());
     const SurfaceMap map(history, unwelded);
     for (Index f = 0; f < small.triangles.size(); ++f) {
-        const bool first = history.kept_faces[f] < count;
+        const bool first = history.remaining_faces[f] < count;
         for (const Vec3& w : spread(6)) {
             const SurfacePoint q = map.map(f, w);
             CHECK((q.face < count) == first);
@@ -166,7 +166,7 @@ TEST_CASE("successive projection: walks that are too long fall back to the surfa
             const SurfacePoint q = map.map(f, w);
             aborted += q.step == MapStep::closest;
             const Vec3 p = small_point(small, f, w);
-            if (p[1] != 0) CHECK(q.face % 2 == history.kept_faces[f] % 2);
+            if (p[1] != 0) CHECK(q.face % 2 == history.remaining_faces[f] % 2);
             CHECK(distance(original_point(history, q), p) <= 2 * bump + 1e-12);
         }
     }
@@ -198,7 +198,7 @@ TEST_CASE("successive projection: points stay on a plane with a fin on every edg
     REQUIRE(small.triangles.size() < faces.size());
     const SurfaceMap map(history);
     for (Index f = 0; f < small.triangles.size(); ++f) {
-        const Index original = history.kept_faces[f];
+        const Index original = history.remaining_faces[f];
         SurfacePoint before = map.map(f, {0.98, 0.01, 0.01});
         for (int i = 0; i < 50; ++i) {
             const Vec3 w{0.98 - 0.0192 * i, 0.01, 0.01 + 0.0192 * i};
@@ -235,7 +235,7 @@ TEST_CASE("successive projection: map_near() is exact in flat regions") {
 TEST_CASE("successive projection: the map does not depend on the number of threads that make it") {
     const CollapseHistory history = collapsed_grid(12);
     const detail::SuccessiveProjection one(history, {}, 1), several(history, {}, 3);
-    for (Index f = 0; f < history.kept_faces.size(); ++f) {
+    for (Index f = 0; f < history.remaining_faces.size(); ++f) {
         for (const Vec3& w : {Vec3{1, 0, 0}, Vec3{0.2, 0.5, 0.3}, Vec3{0, 0.5, 0.5}}) {
             const SurfacePoint a = one.map(f, w), b = several.map(f, w);
             CHECK(a.face == b.face);

@@ -150,7 +150,7 @@ TEST_CASE("surface map: points are not mapped to the other side of a thin plate"
     REQUIRE(small.triangles.size() < p.faces.size());
     const SurfaceMap map(history);
     for (Index f = 0; f < small.triangles.size(); ++f) {
-        const bool top = history.kept_faces[f] < p.top_faces();
+        const bool top = history.remaining_faces[f] < p.top_faces();
         for (const Vec3& w : spread(6)) {
             const SurfacePoint q = map.map(f, w);
             CHECK((q.face < p.top_faces()) == top);
@@ -196,7 +196,7 @@ TEST_CASE("surface map: projection gives the closest preimage face of the same o
         const Vec3 n0 =
             normal(small.positions[corners[0]], small.positions[corners[1]], small.positions[corners[2]]);
         std::set<Index> ends;
-        for (const Index v : faces[history.kept_faces[f]]) ends.insert(last[v]);
+        for (const Index v : faces[history.remaining_faces[f]]) ends.insert(last[v]);
         SurfacePoint near;
         for (const Vec3& w : spread(5)) {
             const Vec3 p0 = small_point(small, f, w);
@@ -225,7 +225,7 @@ TEST_CASE("surface map: concurrent calls give the same results") {
     const SurfaceMap map(history);
     const auto all = [&] {
         std::vector<SurfacePoint> result;
-        for (Index f = 0; f < history.kept_faces.size(); ++f) {
+        for (Index f = 0; f < history.remaining_faces.size(); ++f) {
             for (const Vec3& w : spread(5)) result.push_back(map.map(f, w));
         }
         return result;

@@ -255,7 +255,7 @@ TEST_CASE("weights and groups from properties give the same result as weights an
         mesh.property(properties.group, f) = groups.back();
     }
     faqem::Options options{.target = faqem::ratio(0.1)};
-    options.topology.group_boundaries = faqem::GroupBoundaries::kept;
+    options.topology.group_boundaries = faqem::GroupBoundaries::preserved;
     const faqem::Report report = faqem::simplify(mesh, options, faqem::Region::all, properties);
     CHECK(report.faces_out <= report.target_faces);
     options.topology.link = faqem::LinkCondition::strict;

@@ -106,7 +106,7 @@ TEST_CASE("every member that affects the result changes the key of the options")
             auto& [link, border, groups, weld, weld_distance, edges, edge_distance, prune] = o.topology;
             if (k == 0) link = LinkCondition::on;
             if (k == 1) border = Boundary::locked;
-            if (k == 2) groups = GroupBoundaries::kept;
+            if (k == 2) groups = GroupBoundaries::preserved;
             if (k == 3) weld = Weld::none;
             if (k == 4) weld_distance = 0;
             if (k == 5) edges = VirtualEdges::on;

@@ -160,7 +160,7 @@ class Arrays(unittest.TestCase):
         for preset in ("qem", "paper", "stmw", "fast", "balanced", "best"):
             out = faqem.simplify(vertices, triangles, preset=preset, threads=1)
             self.assertEqual(out.report["preset"], preset)
-        out = faqem.simplify(vertices, triangles, link="strict", boundary="locked", group_boundaries="kept",
+        out = faqem.simplify(vertices, triangles, link="strict", boundary="locked", group_boundaries="preserved",
                              weld_distance=1e-9, virtual_edges=0.01, prune="1%")
         self.assertEqual(len(out.triangles), 38)  # a triangulation of the polygon with the 40 boundary vertices
 

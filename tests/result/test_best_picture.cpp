@@ -55,7 +55,7 @@ TEST_CASE("the report of --max-bytes has the results that were compared, and the
     const Folder folder;
     faqem::save(painted_sheet(24), folder / "in.glb");
     REQUIRE(run(folder, "simplify in.glb out.glb --max-bytes 12000 --report r.json").code == 0);
-    const nlohmann::json json = report(folder), points = json["budget_points"];
+    const nlohmann::json json = report(folder), points = json["compared_results"];
     REQUIRE(!points.empty());
     std::size_t best = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -71,11 +71,11 @@ TEST_CASE("the report of --max-bytes has the results that were compared, and the
     REQUIRE(
         run(folder, "simplify in.glb few.glb --ratio 0.5 --max-bytes 120000 --report r.json --force").code ==
         0);
-    CHECK(report(folder)["budget_points"].empty());
+    CHECK(report(folder)["compared_results"].empty());
     CHECK(report(folder)["target_faces"] == 576);
 }
 
-TEST_CASE("a budget that the smallest result exceeds is refused with the size of that result") {
+TEST_CASE("a limit that the smallest result exceeds is refused with the size of that result") {
     const Folder folder;
     faqem::save(sheet(20), folder / "in.glb");
     const std::string before = "the smallest result has ";
@@ -105,7 +105,7 @@ TEST_CASE("--max-bytes keeps the options of images and the kind of baking that w
     REQUIRE(run(folder, "simplify in.glb none.glb --max-bytes 12000 --bake none --report r.json").code == 0);
     CHECK(faqem::load(folder / "none.glb").images.empty());
     CHECK(fs::file_size(folder / "none.glb") > 10000);
-    CHECK(report(folder)["budget_points"][0]["kind"] == "none");
+    CHECK(report(folder)["compared_results"][0]["kind"] == "none");
 
     const std::uintmax_t image = faqem::load(folder / "in.glb").images[0].encoded.size();
     const std::string enough = std::to_string(image + 10000);
@@ -139,7 +139,7 @@ TEST_CASE(
         REQUIRE(
             run(folder, "simplify in.glb out.glb --force --quantize on --report r.json " + options).code ==
             0);
-        const nlohmann::json json = report(folder), points = json["budget_points"];
+        const nlohmann::json json = report(folder), points = json["compared_results"];
         const auto best = std::max_element(
             points.begin(), points.end(), [](const auto& a, const auto& b) { return a["psnr"] < b["psnr"]; });
         CHECK(std::abs((*best)["psnr"].get<double>() - psnr_of(folder, "out.glb")) < 0.1);
@@ -158,7 +158,7 @@ TEST_CASE(
     CHECK(spacing(given_json) == 64 * spacing(many_json));
 
     REQUIRE(run(folder, "simplify in.glb out.glb --force --report r.json --max-bytes 12000").code == 0);
-    CHECK(report(folder)["budget_points"][0]["position_bits"].is_null());
+    CHECK(report(folder)["compared_results"][0]["position_bits"].is_null());
 }
 
 TEST_CASE("the report of --max-bytes has the faces, positions and images that were tried alone") {
@@ -167,7 +167,7 @@ TEST_CASE("the report of --max-bytes has the faces, positions and images that we
     REQUIRE(run(folder, "simplify in.glb out.glb --quantize on --report r.json --max-bytes 12000").code == 0);
     std::map<std::string, std::vector<nlohmann::json>> trials;
     const nlohmann::json json = report(folder);
-    for (const nlohmann::json& trial : json["budget_trials"]) trials[trial["kind"]].push_back(trial);
+    for (const nlohmann::json& trial : json["size_trials"]) trials[trial["kind"]].push_back(trial);
     REQUIRE(trials["faces"].size() == 7);
     for (std::size_t i = 1; i < 7; ++i) {
         CHECK(trials["faces"][i]["bytes"] < trials["faces"][i - 1]["bytes"]);

@@ -51,7 +51,7 @@ TEST_CASE(
     CHECK(read(folder / "out/in_LOD1.glb") == unlimited);
 }
 
-TEST_CASE("lod and truncate refuse a budget below the smallest result, and take its size") {
+TEST_CASE("lod and truncate refuse a limit below the smallest result, and take its size") {
     const Folder folder;
     faqem::save(painted_sheet(24), folder / "in.glb");
     const std::string lod = "lod in.glb out --force --levels 200 --history h.bin --max-bytes ";

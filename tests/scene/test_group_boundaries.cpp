@@ -37,7 +37,7 @@ TEST_CASE("boundaries between materials that stay are preserved without being as
     CHECK(few.report.rungs[static_cast<std::size_t>(Rung::group_boundaries)] == 1);
 }
 
-TEST_CASE("kept group boundaries are preserved even if the materials share a page") {
+TEST_CASE("group boundaries are preserved even if the materials share a page") {
     // A flat grid with two materials: the boundary between them has no geometric error, so that only the
     // option preserves it.
     Asset asset;
@@ -48,7 +48,7 @@ TEST_CASE("kept group boundaries are preserved even if the materials share a pag
     Options options;
     options.target = ratio(0.05);
     options.bake.kind = GENERATE(Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none);
-    options.topology.group_boundaries = GroupBoundaries::kept;
+    options.topology.group_boundaries = GroupBoundaries::preserved;
     const SimplifiedParts simplified = simplify_parts(asset, options);
     const SimplifyResult& part = simplified.parts[0];
     CHECK(part.report.faces_out <= 40);

@@ -47,7 +47,8 @@ TEST_CASE("every part of an asset is within max_error and the report gives the d
         const DistanceBound own = hausdorff(view(asset.parts[p]), simplified.parts[p].mesh.view());
         value = std::max(value, own.value);
         bound = std::max(bound, own.bound);
-        CHECK(simplified.parts[p].history.kept_faces.size() == simplified.parts[p].mesh.triangles.size());
+        CHECK(simplified.parts[p].history.remaining_faces.size() ==
+              simplified.parts[p].mesh.triangles.size());
     }
     // The report has the result of another search for the same distance. Both have an accuracy of 1%.
     CHECK(value <= allowed);

@@ -119,7 +119,8 @@ TEST_CASE("the budget per mesh is proportional to face counts and tiny parts kee
     CHECK(simplified.report.collapses ==
           simplified.parts[0].report.collapses + simplified.parts[1].report.collapses);
     for (std::size_t p = 0; p < 3; ++p) {
-        CHECK(simplified.parts[p].history.kept_faces.size() == simplified.parts[p].mesh.triangles.size());
+        CHECK(simplified.parts[p].history.remaining_faces.size() ==
+              simplified.parts[p].mesh.triangles.size());
     }
 }
 

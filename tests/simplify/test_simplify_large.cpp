@@ -64,9 +64,10 @@ TEST_CASE("large meshes: replaying the history collapse by collapse gives the re
     for (const Triangle& t : faces) left += t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
     CHECK(left == result.mesh.triangles.size());
     bool same = true;
-    for (std::size_t f = 0; f < h.kept_faces.size(); ++f) {
+    for (std::size_t f = 0; f < h.remaining_faces.size(); ++f) {
         for (std::size_t k = 0; k < 3; ++k)
-            same = same && faces[h.kept_faces[f]][k] == h.kept_versions[result.mesh.triangles[f][k]];
+            same =
+                same && faces[h.remaining_faces[f]][k] == h.remaining_versions[result.mesh.triangles[f][k]];
     }
     CHECK(same);
     bool in_order = true;

@@ -53,7 +53,7 @@ std::vector<Edge> naive(const TriangleMesh& mesh, double distance, double least)
     for (const auto& [edge, faces] : test::edges(mesh.triangles)) {
         if (faces == 1) boundary.insert({edge.first, edge.second});
     }
-    std::set<std::tuple<double, Index, Index>> kept;
+    std::set<std::tuple<double, Index, Index>> edges;
     const std::ptrdiff_t unused = std::count(part.begin(), part.end(), no_index);
     const std::size_t used = part.size() - static_cast<std::size_t>(unused);
     for (const Index v : boundary) {
@@ -71,11 +71,11 @@ std::vector<Edge> naive(const TriangleMesh& mesh, double distance, double least)
             bool common = mesh.face_groups.empty();
             for (const Index group : a.second) common = common || b.second.count(group);
             if (squared >= least * least && common && boundary.count(w) && a.first.dot(b.first) > 0)
-                kept.insert({squared, std::min(v, w), std::max(v, w)});
+                edges.insert({squared, std::min(v, w), std::max(v, w)});
         }
     }
     std::set<Edge> result;
-    for (const auto& [squared, a, b] : kept) {
+    for (const auto& [squared, a, b] : edges) {
         if (result.size() < used) result.insert({a, b});
     }
     return {result.begin(), result.end()};
@@ -127,7 +127,7 @@ TEST_CASE("virtual edges connect boundary vertices only") {
     }
 }
 
-TEST_CASE("there are at most as many virtual edges as vertices and the shortest ones are kept") {
+TEST_CASE("there are at most as many virtual edges as vertices and the shortest ones are taken") {
     // Six parallel quads at distances of 0.1: each of 24 vertices has up to 4 candidates, 24 pairs are
     // allowed.
     TriangleMesh mesh;

@@ -42,11 +42,11 @@ public:
         std::vector<bool> used(history_.positions.size() + history_.collapses.size(), false);
         for (Index f = 0; f < now_.size(); ++f) {
             if (!alive_[f]) continue;
-            history_.kept_faces.push_back(f);
+            history_.remaining_faces.push_back(f);
             for (Index v : now_[f]) used[v] = true;
         }
         for (Index v = 0; v < used.size(); ++v) {
-            if (used[v]) history_.kept_versions.push_back(v);
+            if (used[v]) history_.remaining_versions.push_back(v);
         }
         return history_;
     }
@@ -64,11 +64,11 @@ private:
 inline TriangleMesh small_mesh(const CollapseHistory& history) {
     TriangleMesh mesh;
     std::vector<Index> number(history.positions.size() + history.collapses.size(), no_index);
-    for (Index v : history.kept_versions) {
+    for (Index v : history.remaining_versions) {
         number[v] = static_cast<Index>(mesh.positions.size());
         mesh.positions.push_back(history.position(v));
     }
-    for (Index f : history.kept_faces) {
+    for (Index f : history.remaining_faces) {
         Triangle t = history.triangles[f];
         for (std::size_t k = 0; k < history.collapses.size(); ++k) {
             const Collapse& c = history.collapses[k];

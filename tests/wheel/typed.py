@@ -21,7 +21,7 @@ for level in faqem.simplify_levels(vertices, triangles, [0.5, 1000, "error:1%"],
 points, faces = faqem.simplify(vertices, triangles, 0.5, agg=3, verbose=True)
 points, faces, collapses = faqem.simplify(vertices, triangles, target_count=1, return_collapses=True)
 points, faces, mapping = faqem.replay_simplification(points=vertices, triangles=triangles, collapses=collapses)
-print(points.dtype, faces.dtype, collapses.kept, mapping.dtype)
+print(points.dtype, faces.dtype, collapses.remaining, mapping.dtype)
 
 small = faqem.simplify(trimesh.load_mesh("statue.glb"), faces=100, texture_size=512)
 print(small.metadata["faqem"], len(small.faces))

@@ -369,7 +369,7 @@ private:
                 return delete_components(
                     options, {options.tiny_component_diagonal, visible_area_share * mesh_.area()});
             case Rung::any_component:
-                // Seams and groups are kept like locks. Only tiny components are deleted to compensate.
+                // Seams and groups are treated like locks. Only tiny components are deleted to compensate.
                 return wedges_.empty() && !keeps_groups() && delete_components(options, {});
             default:
                 return relax_rule(rules_, rung);
@@ -393,7 +393,7 @@ private:
         return any;
     }
 
-    bool keeps_groups() const { return curves_ && rules_.groups == GroupBoundaries::kept; }
+    bool keeps_groups() const { return curves_ && rules_.groups == GroupBoundaries::preserved; }
 
     // Deletes removable components, smallest first, until the target is reached. The largest component is
     // never deleted.

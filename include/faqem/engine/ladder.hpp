@@ -36,9 +36,9 @@ inline bool relax_rule(Rules& rules, Rung rung) {
             return lower_min_normal_cosine(0);
         case Rung::flip_half:
             // Flipped faces could overlap faces of another group.
-            return rules.groups != GroupBoundaries::kept && lower_min_normal_cosine(-0.5);
+            return rules.groups != GroupBoundaries::preserved && lower_min_normal_cosine(-0.5);
         case Rung::flip_any:
-            if (rules.groups == GroupBoundaries::kept) return false;
+            if (rules.groups == GroupBoundaries::preserved) return false;
             rules.min_pair_length = 0;
             return lower_min_normal_cosine(-1);
         case Rung::reseed:

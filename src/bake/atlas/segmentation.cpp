@@ -105,15 +105,15 @@ private:
         std::sort(neighbours.begin(), neighbours.end(), [](const SharedBoundary& a, const SharedBoundary& b) {
             return std::tuple(a.region, a.length) < std::tuple(b.region, b.length);
         });
-        std::size_t kept = 0;
+        std::size_t count = 0;
         for (const SharedBoundary& s : neighbours) {
-            if (kept > 0 && neighbours[kept - 1].region == s.region) {
-                neighbours[kept - 1].length += s.length;
+            if (count > 0 && neighbours[count - 1].region == s.region) {
+                neighbours[count - 1].length += s.length;
             } else {
-                neighbours[kept++] = s;
+                neighbours[count++] = s;
             }
         }
-        neighbours.resize(kept);
+        neighbours.resize(count);
     }
 
     static double shared_length(const FaceRegion& region, Index other) {
@@ -141,7 +141,7 @@ private:
     // Returns the number of operations: about one per 16 entries of the changed lists of neighbours.
     std::uint64_t merge(Index i, Index j) {
         std::size_t visited = 16;
-        // The region with more neighbours is kept, so that fewer neighbour lists have to be updated.
+        // The region with more neighbours survives, so that fewer neighbour lists have to be updated.
         if (regions_[i].neighbours.size() < regions_[j].neighbours.size()) std::swap(i, j);
         FaceRegion &a = regions_[i], &b = regions_[j];
         a.perimeter += b.perimeter - 2 * shared_length(a, j);

@@ -52,9 +52,9 @@ private:
 };
 
 // The part with the faces that the result has.
-Part part_with_kept_faces(const Part& source, const std::vector<Index>& kept) {
+Part part_with_faces(const Part& source, const std::vector<Index>& faces) {
     Part part = source;
-    if (kept.size() != source.triangles.size()) select_faces(source, kept, part);
+    if (faces.size() != source.triangles.size()) select_faces(source, faces, part);
     return part;
 }
 
@@ -69,7 +69,7 @@ std::vector<KeptPart> add_kept_parts(const Asset& source, std::span<const BakePa
         if (!part.is_kept) continue;
         const bool keeps_vertices = untouched[part.index] != 0;
         Part& to = result.asset.parts[part.index];
-        to = keeps_vertices ? part_with_kept_faces(*part.source, part.simplified->history.kept_faces)
+        to = keeps_vertices ? part_with_faces(*part.source, part.simplified->history.remaining_faces)
                             : std::move(with_uvs.parts[part.index]);
         for (Index& material : to.face_material) material = materials(material);
         for (const Index material : variant_materials(source, *part.source)) materials(material);

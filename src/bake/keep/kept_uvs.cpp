@@ -86,7 +86,7 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
         const TriangleMesh& mesh = part.simplified->mesh;
         for (Index f = 0; f < part.faces(); ++f) {
             const Index group =
-                groups.group_of(face_material(*part.source, part.simplified->history.kept_faces[f]));
+                groups.group_of(face_material(*part.source, part.simplified->history.remaining_faces[f]));
             faces[group].push_back({part.index, f});
             const double own = area_vector(mesh.positions, mesh.triangles[f]).norm() / 2;
             constexpr double third = 1.0 / 3;

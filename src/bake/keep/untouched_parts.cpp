@@ -25,7 +25,7 @@ bool is_untouched(const Part& part, const SimplifyResult& simplified) {
         history.patch_count() > 0 || !history.deleted_faces.empty())
         return false;
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        const Triangle &own = mesh.triangles[f], &from = part.triangles[history.kept_faces[f]];
+        const Triangle &own = mesh.triangles[f], &from = part.triangles[history.remaining_faces[f]];
         for (std::size_t c = 0; c < 3; ++c)
             if (mesh.positions[own[c]] != part.positions[from[c]]) return false;
     }

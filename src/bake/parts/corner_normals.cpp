@@ -105,7 +105,7 @@ std::vector<std::uint8_t> faces_with_reversed_winding(const BakePart& part) {
     }
     if (!(total > 0)) return result;
     for (std::size_t f = 0; f < result.size(); ++f) {
-        result[f] = normal_winding_agreement(*part.source, part.simplified->history.kept_faces[f]) < 0;
+        result[f] = normal_winding_agreement(*part.source, part.simplified->history.remaining_faces[f]) < 0;
     }
     return result;
 }

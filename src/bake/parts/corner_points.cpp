@@ -138,7 +138,7 @@ private:
 
     bool is_accepted(Index candidate, const Query& q) const {
         const std::vector<Index>& groups = history_.face_groups;
-        if (!groups.empty() && groups[candidate] != groups[history_.kept_faces[q.face]]) return false;
+        if (!groups.empty() && groups[candidate] != groups[history_.remaining_faces[q.face]]) return false;
         if (q.normal.isZero(0)) return true;
         const Vector3 area = area_vector(history_.positions, history_.triangles[candidate]);
         return area.dot(q.normal) >= min_facing_cosine * area.norm();

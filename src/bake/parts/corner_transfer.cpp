@@ -214,7 +214,8 @@ KeptCorners kept_corners(const BakePart& part, const RunContext& context) {
     const std::vector<float>& attributes =
         has_own ? part.simplified->mesh.attributes.values : transferred.values;
     KeptCorners result;
-    result.materials = has_own ? kept_materials(part) : materials_of_faces(*part.source, transferred.faces);
+    result.materials =
+        has_own ? remaining_materials(part) : materials_of_faces(*part.source, transferred.faces);
     result.crossing_faces = transferred.crossing_faces;
     const std::size_t sets = part.source->uvs.size();
     result.values.uvs.resize(sets);

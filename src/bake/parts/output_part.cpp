@@ -25,8 +25,8 @@ std::vector<Index> materials_of_faces(const Part& part, std::span<const Index> f
     return result;
 }
 
-std::vector<Index> kept_materials(const BakePart& part) {
-    return materials_of_faces(*part.source, part.simplified->history.kept_faces);
+std::vector<Index> remaining_materials(const BakePart& part) {
+    return materials_of_faces(*part.source, part.simplified->history.remaining_faces);
 }
 
 std::vector<std::uint8_t> kept_flags(std::span<const BakePart> parts) {

@@ -23,7 +23,7 @@ Part make_output_part(const BakePart& part, CornerValues values, std::vector<Ind
 std::vector<Index> materials_of_faces(const Part& part, std::span<const Index> faces);
 
 /// By face of the simplified mesh: the material of the source face that it was.
-std::vector<Index> kept_materials(const BakePart& part);
+std::vector<Index> remaining_materials(const BakePart& part);
 
 /// By part: BakePart::is_kept.
 std::vector<std::uint8_t> kept_flags(std::span<const BakePart> parts);

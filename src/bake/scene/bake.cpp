@@ -39,7 +39,7 @@ void check_parts_match(const Asset& source, const SimplifiedParts& simplified) {
     }
     for (std::size_t p = 0; p < source.parts.size(); ++p) {
         const SimplifyResult& part = simplified.parts[p];
-        const bool history_fits = part.history.kept_faces.size() == part.mesh.triangles.size() &&
+        const bool history_fits = part.history.remaining_faces.size() == part.mesh.triangles.size() &&
                                   (part.mesh.triangles.empty() ||
                                    part.history.triangles.size() == source.parts[p].triangles.size());
         if (!history_fits) {
@@ -110,7 +110,7 @@ void keep_file_records(std::span<const BakePart> parts, std::span<const std::uin
         to.file_order = lost_faces ? FileOrder::for_gpu : part.source->file_order;
         for (const FaceArray& array : face_arrays) {
             if (!array.names) continue;
-            to.*array.values = gather(part.source->*array.values, part.simplified->history.kept_faces);
+            to.*array.values = gather(part.source->*array.values, part.simplified->history.remaining_faces);
             to.*array.names = part.source->*array.names;
         }
     }

@@ -72,9 +72,9 @@ void check_shared_texture(const Options& options) {
             "boundaries");
     if (options.max_bytes)
         throw OptionError("shared textures: max_bytes must be unset, since all levels have the same images");
-    if (options.topology.group_boundaries == GroupBoundaries::kept)
+    if (options.topology.group_boundaries == GroupBoundaries::preserved)
         throw OptionError(
-            "shared textures: group boundaries cannot be kept, since the new atlas may merge materials");
+            "shared textures: group boundaries cannot be preserved, since the new atlas may merge materials");
 }
 
 std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source,

@@ -77,7 +77,7 @@ std::vector<Page> plan_pages(const BakeJob& job, const MaterialGroups& groups) {
     for (const BakePart& part : job.parts) {
         if (part.is_kept) continue;
         const bool colors = has_non_white_colors(*part.source);
-        const std::vector<Index> materials = kept_materials(part);
+        const std::vector<Index> materials = remaining_materials(part);
         for (Index f = 0; f < part.faces(); ++f) {
             Page& page = pages[groups.group_of(materials[f])];
             page.mesh.faces.push_back({part.index, f});
@@ -256,7 +256,7 @@ void add_parts(const BakeJob& job, const MaterialGroups& groups, PartUvs& from, 
         Part& to = out.asset.asset.parts.emplace_back();
         if (part.is_kept) continue;
         CornerValues values;
-        std::vector<Index> materials = kept_materials(part);
+        std::vector<Index> materials = remaining_materials(part);
         if (from.uvs[part.index].empty() && part.faces() > 0 &&
             has_spare_uvs_only(job.source, *part.source)) {
             KeptCorners kept = kept_corners(part, job.context);

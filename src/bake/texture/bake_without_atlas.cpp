@@ -32,10 +32,10 @@ std::string texture_names(const Material& m, bool with_base) {
 
 // Removes all textures of a material, with a warning. The emissive factor is reset if there was an emissive
 // texture: without it the whole surface would emit light.
-Material without_textures(const Asset& source, Index index, bool base_is_kept_elsewhere,
+Material without_textures(const Asset& source, Index index, bool base_is_stored_elsewhere,
                           std::vector<std::string>& warnings) {
     Material result = material_or_default(source, index);
-    const std::string names = texture_names(result, !base_is_kept_elsewhere);
+    const std::string names = texture_names(result, !base_is_stored_elsewhere);
     if (!names.empty()) warnings.push_back(material_title(source, index) + ": textures left out: " + names);
     if (result.emissive_texture) result.emissive = {0, 0, 0};
     remove_textures(result);  // save() warns about those of extensions
@@ -104,7 +104,7 @@ void bake_vertex(const BakeJob& job, UnencodedResult& out) {
         if (part.is_kept) continue;
         CornerValues values;
         if (part.map) values.colors = corner_colors(part, sampler, job.context);
-        std::vector<Index> materials = kept_materials(part);
+        std::vector<Index> materials = remaining_materials(part);
         for (Index& m : materials) m = groups.group_of(m);
         to = make_output_part(part, std::move(values), std::move(materials), job.context);
     }
@@ -133,7 +133,7 @@ void bake_none(const BakeJob& job, UnencodedResult& out) {
         if (part.is_kept) continue;
         if (!part.source->colors.empty())
             warnings.push_back(part_title(job.source, part.index) + ": vertex colours left out");
-        to = make_output_part(part, {}, kept_materials(part), job.context);
+        to = make_output_part(part, {}, remaining_materials(part), job.context);
     }
 }
 

@@ -84,7 +84,7 @@ void check_shared_textures(const LodArguments& a, const Options& options) {
     const Bake kind = options.bake.kind;
     if (kind != Bake::automatic && kind != Bake::atlas)
         throw OptionError("--textures shared: requires --bake auto or atlas");
-    if (options.topology.group_boundaries == GroupBoundaries::kept)
+    if (options.topology.group_boundaries == GroupBoundaries::preserved)
         throw OptionError(
             "--keep-groups: cannot be used with --textures shared, where the new atlas may merge materials");
 }

@@ -133,7 +133,7 @@ def simplify(
 
     points     (v, 3) positions; float32 and float64 are used without a copy
     triangles  (f, 3) vertex indices; uint32 and uint16 are used without a copy. Or the array `faces` of pyvista
-    groups     (f,) integers, for group_boundaries="kept"
+    groups     (f,) integers, for group_boundaries="preserved"
     locks      (v,) booleans: true for vertices that must not move
     weights    (v,) factors on the costs, in [1e-6, 1e6]
     uvs        (f, 3, n) attributes of the corners, which are preserved

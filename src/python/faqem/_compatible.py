@@ -34,11 +34,11 @@ class Collapses(_IntArray):
     """
 
     points: Points | None  #: (v, 3) the simplified points; None for arrays made from this one
-    kept: NDArray[numpy.int64] | None  #: (v,) the vertex of the input that stands for each
+    remaining: NDArray[numpy.int64] | None  #: (v,) the vertex of the input that stands for each
     source: bytes  #: digest of the points of the input
 
     def __array_finalize__(self, _other: object) -> None:
-        self.points, self.kept, self.source = None, None, b""
+        self.points, self.remaining, self.source = None, None, b""
 
 
 def triangle_rows(triangles: ArrayLike) -> NDArray[Any]:
@@ -104,12 +104,12 @@ def _digest(positions: Points) -> bytes:
 
 
 def _sections(history: bytes) -> dict[str, NDArray[Any]]:
-    """Returns the arrays of the first history in a file up to `kept_versions` (docs/history-format.md)."""
+    """Returns the arrays of the first history in a file up to `remaining_versions` (docs/history-format.md)."""
     position, vector = ("<f8", 3), ("<u4", 1)
     layout = {
         "positions": position, "triangles": ("<u4", 3), "face_groups": vector, "first": vector, "second": vector,
-        "created": position, "patch_begin": ("<u8", 1), "patch_faces": vector, "kept_positions": position,
-        "deletion_times": ("<u8", 1), "deleted_faces": vector, "kept_versions": vector,
+        "created": position, "patch_begin": ("<u8", 1), "patch_faces": vector, "final_positions": position,
+        "deletion_times": ("<u8", 1), "deleted_faces": vector, "remaining_versions": vector,
     }
     begin = history.index(b"FAQEMH03") + 8
     sections = {}
@@ -131,7 +131,7 @@ def _collapses(out: Simplified, positions: Points) -> Collapses:
     vertices = _roots(numpy.concatenate([numpy.arange(count), first]))
     array = numpy.stack([vertices[first], vertices[second]], axis=1).astype(numpy.int32).view(Collapses)
     array.points, array.source = out.vertices.astype(numpy.float64), _digest(positions)
-    array.kept = vertices[sections["kept_versions"]]
+    array.remaining = vertices[sections["remaining_versions"]]
     return array
 
 
@@ -168,14 +168,14 @@ def replay_simplification(
     roots = _roots(parents)
     merged = roots[rows]
     merged = merged[(merged != numpy.roll(merged, 1, axis=1)).all(axis=1)]
-    kept, placed = None, None
+    remaining, placed = None, None
     if isinstance(collapses, Collapses) and collapses.source == _digest(positions):
-        kept, placed = collapses.kept, collapses.points
-    if kept is None or placed is None:
-        kept = numpy.unique(merged)
-        sizes = numpy.bincount(roots, minlength=len(positions))[kept]
-        sums = [numpy.bincount(roots, positions[:, axis], minlength=len(positions))[kept] for axis in range(3)]
+        remaining, placed = collapses.remaining, collapses.points
+    if remaining is None or placed is None:
+        remaining = numpy.unique(merged)
+        sizes = numpy.bincount(roots, minlength=len(positions))[remaining]
+        sums = [numpy.bincount(roots, positions[:, axis], minlength=len(positions))[remaining] for axis in range(3)]
         placed = numpy.stack(sums, axis=1) / sizes[:, None]
     numbers = numpy.full(len(positions), -1)
-    numbers[kept] = numpy.arange(len(kept))
+    numbers[remaining] = numpy.arange(len(remaining))
     return placed.copy(), numbers[merged].astype(numpy.int32), numbers[roots]

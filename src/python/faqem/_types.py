@@ -21,7 +21,7 @@ class CommonOptions(TypedDict, total=False):
     w_plane_area: float | None
     link: Literal["as_preset", "off", "by_size", "on", "strict"] | None
     boundary: Literal["free", "locked"] | None
-    group_boundaries: Literal["free", "preferred", "kept"] | None
+    group_boundaries: Literal["free", "preferred", "preserved"] | None
     welding: Literal["by_position", "none"] | None
     weld_distance: float | None
     prune: Length | None

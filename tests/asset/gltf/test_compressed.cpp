@@ -213,12 +213,12 @@ TEST_CASE("draco: invalid counts and attribute ids are rejected with the element
 
 TEST_CASE("draco: the total decompressed size is limited") {
     const std::string file = "a.glb";
-    detail::DecompressionBudget budget(10, file);
-    budget.consume(7, "/meshes/0", "X");
-    budget.consume(3, "/meshes/1", "X");
-    CHECK_THROWS_WITH(budget.consume(1, "/meshes/2", "X"),
+    detail::DecompressionLimit limit(10, file);
+    limit.consume(7, "/meshes/0", "X");
+    limit.consume(3, "/meshes/1", "X");
+    CHECK_THROWS_WITH(limit.consume(1, "/meshes/2", "X"),
                       "a.glb: /meshes/2: X: the total decompressed size exceeds the limit for this file");
-    CHECK_THROWS_AS(budget.consume(UINT64_MAX, "", ""), InputError);
+    CHECK_THROWS_AS(limit.consume(UINT64_MAX, "", ""), InputError);
 }
 
 TEST_CASE("draco: indices out of the range of the index type are rejected") {

@@ -178,7 +178,7 @@ TEST_CASE("options incompatible with a shared texture are rejected") {
     };
     for (const Bake kind : {Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none})
         refused({.bake = {.kind = kind}});
-    refused({.topology = {.group_boundaries = GroupBoundaries::kept}});
+    refused({.topology = {.group_boundaries = GroupBoundaries::preserved}});
     refused({.topology = {.weld = Weld::none}});
     refused({.history = Recording::on});
     CHECK(simplify_levels(ball, {}, {}, LevelTextures::shared).empty());

@@ -1,4 +1,4 @@
-// Ways to encode an image, among which a byte budget chooses.
+// Ways to encode an image, among which the search for a byte limit chooses.
 
 #include "bake/texture/image_encodings.hpp"
 

@@ -95,7 +95,7 @@ Options keeping(double keep, Preset preset = Preset::balanced) {
     Options options;
     options.target = ratio(keep);
     options.preset = preset;
-    options.topology.group_boundaries = GroupBoundaries::kept;
+    options.topology.group_boundaries = GroupBoundaries::preserved;
     return options;
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("feature curves: preferred ones are kept while the target can be reach
     const SimplifyResult few = simplify({mesh.positions, mesh.triangles, mesh.face_groups}, options);
     CHECK(few.mesh.triangles.size() == 4);
     CHECK(few.report.rungs[static_cast<std::size_t>(Rung::group_boundaries)] == 1);
-    options.topology.group_boundaries = GroupBoundaries::kept;
+    options.topology.group_boundaries = GroupBoundaries::preserved;
     CHECK(simplify({mesh.positions, mesh.triangles, mesh.face_groups}, options).mesh.triangles.size() == 8);
 }
 

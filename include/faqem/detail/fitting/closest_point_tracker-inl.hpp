@@ -134,16 +134,16 @@ FAQEM_INLINE void MeshToReferenceTracker::search(std::size_t i, Index near) {
 
 FAQEM_INLINE void MeshToReferenceTracker::replace_samples(std::span<const std::uint8_t> faces,
                                                           std::span<const SurfaceSample> samples) {
-    std::size_t kept = 0;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
         if (faces[samples_[i].face]) continue;
-        samples_[kept] = samples_[i];
-        squared_distances_[kept] = squared_distances_[i];
-        residuals_[kept++] = residuals_[i];
+        samples_[count] = samples_[i];
+        squared_distances_[count] = squared_distances_[i];
+        residuals_[count++] = residuals_[i];
     }
-    samples_.resize(kept);
-    residuals_.resize(kept);
-    squared_distances_.resize(kept);
+    samples_.resize(count);
+    residuals_.resize(count);
+    squared_distances_.resize(count);
     samples_.insert(samples_.end(), samples.begin(), samples.end());
     residuals_.resize(samples_.size());
     squared_distances_.resize(samples_.size());

@@ -41,15 +41,15 @@ inline void weld(Surface& s) {
         if (s.positions[a] != s.positions[b]) return s.positions[a] < s.positions[b];
         return a < b;
     });
-    std::vector<Vec3> kept;
+    std::vector<Vec3> used;
     for (const Index v : order) {
-        if (kept.empty() || kept.back() != s.positions[v]) kept.push_back(s.positions[v]);
-        new_index[v] = static_cast<Index>(kept.size() - 1);
+        if (used.empty() || used.back() != s.positions[v]) used.push_back(s.positions[v]);
+        new_index[v] = static_cast<Index>(used.size() - 1);
     }
     for (Triangle& t : s.triangles) {
         for (Index& v : t) v = new_index[v];
     }
-    s.positions = std::move(kept);
+    s.positions = std::move(used);
 }
 
 FAQEM_INLINE Surface extract_surface(const MeshView& mesh) {

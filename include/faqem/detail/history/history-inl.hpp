@@ -49,8 +49,8 @@ inline void check_positions(const CollapseHistory& h) {
     for (std::size_t i = 0; i < h.positions.size(); ++i) check_position(h.positions[i], "positions", i);
     for (std::size_t k = 0; k < h.collapses.size(); ++k)
         check_position(h.collapses[k].position, "collapses", k);
-    for (std::size_t i = 0; i < h.kept_positions.size(); ++i)
-        check_position(h.kept_positions[i], "kept_positions", i);
+    for (std::size_t i = 0; i < h.final_positions.size(); ++i)
+        check_position(h.final_positions[i], "final_positions", i);
 }
 
 inline void check_faces(const CollapseHistory& h) {
@@ -107,50 +107,51 @@ inline void check_patches(const CollapseHistory& h) {
     }
 }
 
-// For each version, its vertex in the simplified mesh; no_index if it is not kept.
-inline std::vector<Index> kept_vertex(const CollapseHistory& h) {
+// For each version, its vertex in the simplified mesh, or no_index.
+inline std::vector<Index> simplified_vertex(const CollapseHistory& h) {
     std::vector<Index> vertex(h.positions.size() + h.collapses.size(), no_index);
-    for (std::size_t i = 0; i < h.kept_versions.size(); ++i)
-        vertex[h.kept_versions[i]] = static_cast<Index>(i);
+    for (std::size_t i = 0; i < h.remaining_versions.size(); ++i)
+        vertex[h.remaining_versions[i]] = static_cast<Index>(i);
     return vertex;
 }
 
-// For each input face, its vertices in the simplified mesh after the last edge flip; no_index if not kept.
+// For each input face, its vertices in the simplified mesh after the last edge flip, or no_index.
 inline std::vector<Triangle> simplified_faces(const CollapseHistory& h) {
-    const std::vector<Index> vertex = kept_vertex(h);
+    const std::vector<Index> vertex = simplified_vertex(h);
     const std::vector<Index> last = detail::final_versions(h);
     std::vector<Triangle> faces(h.triangles.size(), {no_index, no_index, no_index});
-    for (std::size_t i = 0; i < h.kept_faces.size(); ++i) {
-        const Index f = h.kept_faces[i];
+    for (std::size_t i = 0; i < h.remaining_faces.size(); ++i) {
+        const Index f = h.remaining_faces[i];
         const Triangle& t = h.triangles[f];
         faces[f] = {vertex[last[t[0]]], vertex[last[t[1]]], vertex[last[t[2]]]};
         for (const Index v : faces[f]) {
             if (v == no_index)
-                detail::fail_history(numbered("kept_faces", i), "refers to a vertex that is not kept");
+                detail::fail_history(numbered("remaining_faces", i),
+                                     "refers to a vertex that is not in the simplified mesh");
         }
     }
     for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
         Triangle &s = faces[h.patch(k)[0]], &t = faces[h.patch(k)[1]];
         if (s[0] == no_index || t[0] == no_index || !detail::flip_edge(s, t))
             detail::fail_history(numbered("patch_begin", k),
-                                 "faces of an edge flip must be kept and share an edge");
+                                 "faces of an edge flip must remain and share an edge");
     }
     return faces;
 }
 
-inline void check_kept(const CollapseHistory& h, const std::vector<std::uint8_t>& used) {
-    for (std::size_t i = 0; i < h.kept_versions.size(); ++i) {
-        const Index v = h.kept_versions[i];
+inline void check_remaining(const CollapseHistory& h, const std::vector<std::uint8_t>& used) {
+    for (std::size_t i = 0; i < h.remaining_versions.size(); ++i) {
+        const Index v = h.remaining_versions[i];
         if (!(v < used.size()) || used[v])
-            detail::fail_history(numbered("kept_versions", i), "version does not exist or was merged");
+            detail::fail_history(numbered("remaining_versions", i), "version does not exist or was merged");
     }
-    if (!h.kept_positions.empty() && h.kept_positions.size() != h.kept_versions.size()) {
-        detail::fail_history("kept_positions", "needs one entry per kept version or none");
+    if (!h.final_positions.empty() && h.final_positions.size() != h.remaining_versions.size()) {
+        detail::fail_history("final_positions", "needs one entry per remaining version or none");
     }
-    for (std::size_t i = 0; i < h.kept_faces.size(); ++i) {
-        const Index f = h.kept_faces[i];
+    for (std::size_t i = 0; i < h.remaining_faces.size(); ++i) {
+        const Index f = h.remaining_faces[i];
         if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
-            detail::fail_history(numbered("kept_faces", i), "face does not exist");
+            detail::fail_history(numbered("remaining_faces", i), "face does not exist");
     }
     simplified_faces(h);
 }
@@ -161,23 +162,23 @@ FAQEM_INLINE void validate(const CollapseHistory& history) {
     const CollapseHistory& h = history;
     const bool nothing = h.positions.empty() && h.triangles.empty() && h.face_groups.empty() &&
                          h.collapses.empty() && h.patch_begin.empty() && h.patch_faces.empty() &&
-                         h.deleted_faces.empty() && h.kept_versions.empty() && h.kept_faces.empty() &&
-                         h.kept_positions.empty();
+                         h.deleted_faces.empty() && h.remaining_versions.empty() &&
+                         h.remaining_faces.empty() && h.final_positions.empty();
     if (nothing) return;
     detail::check_positions(history);
     detail::check_faces(history);
     const std::vector<std::uint8_t> used = detail::check_collapses(history);
     detail::check_patches(history);
-    detail::check_kept(history, used);
+    detail::check_remaining(history, used);
 }
 
 FAQEM_INLINE TriangleMesh replay(const CollapseHistory& history) {
     TriangleMesh mesh;
-    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
-        mesh.positions.push_back(history.kept_position(i));
+    for (std::size_t i = 0; i < history.remaining_versions.size(); ++i) {
+        mesh.positions.push_back(history.final_position(i));
     }
     const std::vector<Triangle> faces = detail::simplified_faces(history);
-    for (const Index f : history.kept_faces) {
+    for (const Index f : history.remaining_faces) {
         mesh.triangles.push_back(faces[f]);
         if (!history.face_groups.empty()) mesh.face_groups.push_back(history.face_groups[f]);
     }
@@ -194,11 +195,11 @@ FAQEM_INLINE void write(const CollapseHistory& h, std::ostream& out) {
     detail::put_array(out, detail::column(h.collapses, &Collapse::position));
     detail::put_array(out, h.patch_begin);
     detail::put_array(out, h.patch_faces);
-    detail::put_array(out, h.kept_positions);
+    detail::put_array(out, h.final_positions);
     detail::put_array(out, detail::column(h.deleted_faces, &DeletedFace::time));
     detail::put_array(out, detail::column(h.deleted_faces, &DeletedFace::face));
-    detail::put_array(out, h.kept_versions);
-    detail::put_array(out, h.kept_faces);
+    detail::put_array(out, h.remaining_versions);
+    detail::put_array(out, h.remaining_faces);
     out.flush();
     if (!out) throw WriteError("cannot write the history");
 }
@@ -223,14 +224,14 @@ FAQEM_INLINE CollapseHistory detail::read_history_body(std::istream& in) {
                         "collapses");
     h.patch_begin = detail::get_array<std::uint64_t>(in, "patch_begin");
     h.patch_faces = detail::get_array<Index>(in, "patch_faces");
-    h.kept_positions = detail::get_array<Vec3>(in, "kept_positions");
+    h.final_positions = detail::get_array<Vec3>(in, "final_positions");
     const auto times = detail::get_array<std::uint64_t>(in, "deleted_faces");
     h.deleted_faces.resize(times.size());
     detail::fill_column(h.deleted_faces, &DeletedFace::time, times, "deleted_faces");
     detail::fill_column(h.deleted_faces, &DeletedFace::face, detail::get_array<Index>(in, "deleted_faces"),
                         "deleted_faces");
-    h.kept_versions = detail::get_array<Index>(in, "kept_versions");
-    h.kept_faces = detail::get_array<Index>(in, "kept_faces");
+    h.remaining_versions = detail::get_array<Index>(in, "remaining_versions");
+    h.remaining_faces = detail::get_array<Index>(in, "remaining_faces");
     validate(h);
     return h;
 }

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/detail/history/binary_io.hpp"
 #include "faqem/detail/history/final_versions.hpp"
-#include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/error.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -46,13 +46,13 @@ inline HistoryLevel level_from_history(const CollapseHistory& history) {
     level.deleted = history.deleted_faces.size();
     for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k)
         level.flips.push_back({history.patch(k)[0], history.patch(k)[1]});
-    level.kept_versions = history.kept_versions;
-    level.kept_faces = history.kept_faces;
-    level.kept_positions = history.kept_positions;
+    level.remaining_versions = history.remaining_versions;
+    level.remaining_faces = history.remaining_faces;
+    level.final_positions = history.final_positions;
     return level;
 }
 
-// A history with the first collapses and deletions of `whole`, without kept elements.
+// A history with the first collapses and deletions of `whole`, without remaining elements.
 inline CollapseHistory history_prefix(const CollapseHistory& whole, std::size_t collapses,
                                       std::size_t deleted) {
     CollapseHistory h;
@@ -84,8 +84,8 @@ inline HistoryLength length_at_level(const ChainHistory& history, std::size_t le
 }
 
 inline std::size_t faces_at_level(const ChainHistory& history, std::size_t level) {
-    return level == history.before.size() ? history.last.kept_faces.size()
-                                          : history.before[level].kept_faces.size();
+    return level == history.before.size() ? history.last.remaining_faces.size()
+                                          : history.before[level].remaining_faces.size();
 }
 
 // The point at which a run to the given face count would have stopped. Faces are counted as by the collapse
@@ -124,8 +124,8 @@ inline HistoryLength length_at_face_count(const CollapseHistory& h, std::uint64_
     return now;
 }
 
-// Sets kept_versions and kept_faces like a run that ends there: in input order, without faces of zero area.
-inline void fill_kept_elements(CollapseHistory& h) {
+// Sets remaining_versions and remaining_faces like a run that ends there: in input order, without faces of zero area.
+inline void fill_remaining_elements(CollapseHistory& h) {
     const std::vector<Index> last = detail::final_versions(h);
     std::vector<std::uint8_t> is_deleted(h.triangles.size(), 0);
     for (const DeletedFace& deleted : h.deleted_faces) is_deleted[deleted.face] = 1;
@@ -141,11 +141,11 @@ inline void fill_kept_elements(CollapseHistory& h) {
         const Triangle now = {last[t[0]], last[t[1]], last[t[2]]};
         if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
         if (detail::has_no_area(h.position(now[0]), h.position(now[1]), h.position(now[2]))) continue;
-        h.kept_faces.push_back(f);
+        h.remaining_faces.push_back(f);
         for (const Index v : now) version_at[slot[v]] = v;
     }
     for (const Index v : version_at) {
-        if (v != no_index) h.kept_versions.push_back(v);
+        if (v != no_index) h.remaining_versions.push_back(v);
     }
 }
 
@@ -180,9 +180,9 @@ FAQEM_INLINE CollapseHistory truncate_to_level(const ChainHistory& history, std:
         h.patch_faces.insert(h.patch_faces.end(), {s, t});
         h.patch_begin.push_back(h.patch_faces.size());
     }
-    h.kept_versions = end.kept_versions;
-    h.kept_faces = end.kept_faces;
-    h.kept_positions = end.kept_positions;
+    h.remaining_versions = end.remaining_versions;
+    h.remaining_faces = end.remaining_faces;
+    h.final_positions = end.final_positions;
     return h;
 }
 
@@ -196,7 +196,7 @@ FAQEM_INLINE CollapseHistory truncate_to_faces(const ChainHistory& history, std:
         if (detail::length_at_level(history, i) == length) return truncate_to_level(history, i);
     }
     CollapseHistory h = detail::history_prefix(history.last, length.collapses, length.deleted);
-    detail::fill_kept_elements(h);
+    detail::fill_remaining_elements(h);
     return h;
 }
 
@@ -249,7 +249,7 @@ FAQEM_INLINE SimplifyResult restore(CollapseHistory history) {
     report.vertices_in = history.positions.size();
     report.vertices_out = result.mesh.positions.size();
     report.collapses = history.collapses.size();
-    result.face_origin = history.kept_faces;
+    result.face_origin = history.remaining_faces;
     result.history = std::move(history);
     return result;
 }
@@ -262,9 +262,9 @@ FAQEM_INLINE void write(const ChainHistory& history, std::ostream& out) {
         detail::put(out, level.collapses);
         detail::put(out, level.deleted);
         detail::put_array(out, level.flips);
-        detail::put_array(out, level.kept_positions);
-        detail::put_array(out, level.kept_versions);
-        detail::put_array(out, level.kept_faces);
+        detail::put_array(out, level.final_positions);
+        detail::put_array(out, level.remaining_versions);
+        detail::put_array(out, level.remaining_faces);
     }
     out.flush();
     if (!out) throw WriteError("cannot write the history");
@@ -287,9 +287,9 @@ FAQEM_INLINE ChainHistory read_chain_history(std::istream& in) {
         level.collapses = detail::get<std::uint64_t>(in, "levels");
         level.deleted = detail::get<std::uint64_t>(in, "levels");
         level.flips = detail::get_array<std::array<Index, 2>>(in, "levels");
-        level.kept_positions = detail::get_array<Vec3>(in, "levels");
-        level.kept_versions = detail::get_array<Index>(in, "levels");
-        level.kept_faces = detail::get_array<Index>(in, "levels");
+        level.final_positions = detail::get_array<Vec3>(in, "levels");
+        level.remaining_versions = detail::get_array<Index>(in, "levels");
+        level.remaining_faces = detail::get_array<Index>(in, "levels");
         const bool is_monotone = level.collapses >= latest.collapses && level.deleted >= latest.deleted &&
                                  level.collapses <= history.last.collapses.size() &&
                                  level.deleted <= history.last.deleted_faces.size();

@@ -25,7 +25,7 @@ using engine::Vector3;
 FAQEM_INLINE std::vector<Index> vertex_map(const CollapseHistory& history) {
     const std::vector<Index> last = detail::final_versions(history);
     std::vector<Index> number(last.size(), no_index);
-    for (Index v = 0; v < history.kept_versions.size(); ++v) number[history.kept_versions[v]] = v;
+    for (Index v = 0; v < history.remaining_versions.size(); ++v) number[history.remaining_versions[v]] = v;
     std::vector<Index> vertex;
     vertex.reserve(history.positions.size());
     for (std::size_t v = 0; v < history.positions.size(); ++v) vertex.push_back(number[last[v]]);

@@ -126,17 +126,17 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history, Before&& be
     return now;
 }
 
-// Fills kept_corners and kept_positions. last: final corner versions of all input faces
-inline void fill_kept_faces(const CollapseHistory& history, const std::vector<Triangle>& last,
-                            ReplayTables& result) {
+// Fills corner_versions and corner_positions. last: final corner versions of all input faces
+inline void fill_simplified_faces(const CollapseHistory& history, const std::vector<Triangle>& last,
+                                  ReplayTables& result) {
     std::vector<Vec3> final_positions = result.positions;
-    for (std::size_t i = 0; i < history.kept_versions.size(); ++i) {
-        final_positions[history.kept_versions[i]] = history.kept_position(i);
+    for (std::size_t i = 0; i < history.remaining_versions.size(); ++i) {
+        final_positions[history.remaining_versions[i]] = history.final_position(i);
     }
-    for (const Index f : history.kept_faces) {
+    for (const Index f : history.remaining_faces) {
         const Triangle& t = last[f];
-        result.kept_corners.push_back(t);
-        result.kept_positions.push_back(
+        result.corner_versions.push_back(t);
+        result.corner_positions.push_back(
             {final_positions[t[0]], final_positions[t[1]], final_positions[t[2]]});
     }
 }
@@ -175,8 +175,8 @@ FAQEM_INLINE ReplayTables replay_patches(const CollapseHistory& history) {
             }
             latest = static_cast<Index>(k);
         });
-    fill_kept_faces(history, last, result);
-    for (Index f : history.kept_faces) result.kept_last.push_back(touched[f]);
+    fill_simplified_faces(history, last, result);
+    for (Index f : history.remaining_faces) result.last_patches.push_back(touched[f]);
     return result;
 }
 

@@ -44,9 +44,10 @@ struct ReplayTables {
     std::vector<std::uint8_t> patch_component;
     std::vector<float> mean_edge;  ///< per patch: mean edge length, model units
 
-    std::vector<Triangle> kept_corners;               ///< per simplified face: versions of the corners
-    std::vector<std::array<Vec3, 3>> kept_positions;  ///< per simplified face: final positions of the corners
-    std::vector<Index> kept_last;  ///< per simplified face: last patch that contains it, or no_index
+    std::vector<Triangle> corner_versions;  ///< per simplified face: versions of the corners
+    std::vector<std::array<Vec3, 3>>
+        corner_positions;             ///< per simplified face: final positions of the corners
+    std::vector<Index> last_patches;  ///< per simplified face: last patch that contains it, or no_index
 
     /// First entry of a patch; `patch` may be the number of patches. O(1)
     std::uint64_t first_entry(const CollapseHistory& history, std::size_t patch) const {
@@ -62,7 +63,7 @@ struct ReplayTables {
     /// \param barycentric  weights of its three corners
     engine::Vector3 position_on(Index face, const Vec3& barycentric) const {
         engine::Vector3 p = engine::Vector3::Zero();
-        for (std::size_t i = 0; i < 3; ++i) p += barycentric[i] * engine::to_eigen(kept_positions[face][i]);
+        for (std::size_t i = 0; i < 3; ++i) p += barycentric[i] * engine::to_eigen(corner_positions[face][i]);
         return p;
     }
 };

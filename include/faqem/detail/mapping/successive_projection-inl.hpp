@@ -98,8 +98,8 @@ FAQEM_INLINE SuccessiveProjection::SuccessiveProjection(const CollapseHistory& h
 FAQEM_INLINE SuccessiveProjection::Query SuccessiveProjection::make_query(Index face,
                                                                           const Vec3& barycentric) const {
     Query query;
-    query.corners = replay_.kept_corners[face];
-    const std::array<Vec3, 3>& positions = replay_.kept_positions[face];
+    query.corners = replay_.corner_versions[face];
+    const std::array<Vec3, 3>& positions = replay_.corner_positions[face];
     const Vector3 a = to_eigen(positions[0]), b = to_eigen(positions[1]), c = to_eigen(positions[2]);
     query.p0 = replay_.position_on(face, barycentric);
     const Vector3 n = engine::area_vector(a, b, c);
@@ -107,7 +107,7 @@ FAQEM_INLINE SuccessiveProjection::Query SuccessiveProjection::make_query(Index 
     query.n0 = length > 0 ? Vector3(n / length) : Vector3::Zero();
     query.longest_edge =
         std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    query.original = history_.kept_faces[face];
+    query.original = history_.remaining_faces[face];
     query.surface_patch = surface_patches_.surface_patch[query.original];
     query.sign = surface_patches_.sign[query.original];
     query.group = group(query.original);
@@ -251,7 +251,7 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::snap_to_closest(const Query& que
 FAQEM_INLINE SuccessiveProjection::WalkEnd SuccessiveProjection::walk(Index face, const Query& query) const {
     WalkEnd end{query.original};
     std::uint64_t visited = 0;
-    for (Index k = replay_.kept_last[face]; k != no_index;) {
+    for (Index k = replay_.last_patches[face]; k != no_index;) {
         if (visited > max_visited_faces || !replay_.has_entries(history_, k)) {
             end.is_aborted = true;
             break;
@@ -364,7 +364,7 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3&
     const Index found = hit->entry->face;
     if (recent.face != found) {
         recent.face = found;
-        recent.is_preimage = is_preimage_face(found, replay_.kept_corners[face]);
+        recent.is_preimage = is_preimage_face(found, replay_.corner_versions[face]);
     }
     // All faces of the list are accepted.
     if (near.face != found && !faces.contains(near.face) &&

@@ -111,8 +111,8 @@ inline constexpr OptionRow geometry_rows[] = {
     option_row<&Options::topology, &Topology::group_boundaries>(
         {.name = "group-boundaries",
          .command_name = "keep-groups",
-         .choices = "free|preferred|kept",
-         .flag_value = "kept",
+         .choices = "free|preferred|preserved",
+         .flag_value = "preserved",
          .help = "Preserve boundaries between materials; even if the target is missed",
          .group = "Shape",
          .entry_points = in_all_but_truncate}),

@@ -30,7 +30,7 @@ inline constexpr double local_share = 0.8;
 
 // Blocks are not used if more than this part of the faces would remain: one engine would then have to process
 // most of the surface a second time.
-inline constexpr double max_kept_share = 0.75;
+inline constexpr double max_remaining_share = 0.75;
 
 /// The faces by block. A face belongs to every block that contains one of its corners.
 inline Buckets<Index> faces_by_block(const BlockInput& input) {
@@ -238,7 +238,7 @@ BlockResult simplify_block(Block& block, Metric metric, const engine::LoopOption
     return result;
 }
 
-/// Selects the steps that are kept: all below a cost, and in each block a fraction of those with exactly that
+/// Selects the steps that are taken: all below a cost, and in each block a fraction of those with exactly that
 /// cost.
 struct StepSelection {
     double cost = std::numeric_limits<double>::infinity();
@@ -259,14 +259,14 @@ struct StepSelection {
     }
 };
 
-/// The largest number in [0, last] for which `is_kept` is true (bisection).
-/// \pre is_kept(0) is true, and `is_kept` is monotone
-template <class IsKept>
-std::uint64_t last_kept(std::uint64_t last, IsKept&& is_kept) {
+/// The largest number in [0, last] for which `holds` is true (bisection).
+/// \pre holds(0) is true, and `holds` is monotone
+template <class Condition>
+std::uint64_t last_true(std::uint64_t last, Condition&& holds) {
     std::uint64_t low = 0;
     while (low < last) {
         const std::uint64_t middle = low + (last - low + 1) / 2;
-        if (is_kept(middle))
+        if (holds(middle))
             low = middle;
         else
             last = middle - 1;
@@ -279,11 +279,11 @@ std::uint64_t last_kept(std::uint64_t last, IsKept&& is_kept) {
 inline StepSelection select_steps(const std::vector<BlockResult>& blocks, std::size_t most) {
     const auto infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
     const auto keeps = [&](StepSelection tried) { return tried.removed(blocks) <= most; };
-    const std::uint64_t bits = last_kept(infinity, [&](std::uint64_t b) {
+    const std::uint64_t bits = last_true(infinity, [&](std::uint64_t b) {
         return keeps({std::bit_cast<double>(b), 0});
     });
     const double cost = std::bit_cast<double>(bits);
-    const std::uint64_t millionths = last_kept(1'000'000, [&](std::uint64_t m) {
+    const std::uint64_t millionths = last_true(1'000'000, [&](std::uint64_t m) {
         return keeps({cost, static_cast<std::uint32_t>(m)});
     });
     return {cost, static_cast<std::uint32_t>(millionths)};
@@ -329,9 +329,9 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
     const std::size_t faces = input.triangles.size();
     const double fixed_share = static_cast<double>(count_fixed_faces(input)) / static_cast<double>(faces);
     const double share = spare_share * static_cast<double>(least) / static_cast<double>(faces);
-    const double kept_share = fixed_share + (1 - fixed_share) * share;
-    if (!(kept_share < max_kept_share)) return result;
-    const auto removable = static_cast<std::size_t>((1 - kept_share) * static_cast<double>(faces));
+    const double remaining_share = fixed_share + (1 - fixed_share) * share;
+    if (!(remaining_share < max_remaining_share)) return result;
+    const auto removable = static_cast<std::size_t>((1 - remaining_share) * static_cast<double>(faces));
     const Buckets<Index> block_faces = faces_by_block(input);
     const Buckets<Index> watched = tracking ? watched_by_block(input, *tracking) : Buckets<Index>();
     std::vector<BlockResult> results(input.block_count());
@@ -360,17 +360,17 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
         result.is_cancelled = true;
         return result;
     }
-    const StepSelection kept = select_steps(results, removable);
+    const StepSelection selected = select_steps(results, removable);
     std::size_t steps = 0, patch_faces = 0;
     for (const BlockResult& block : results) {
-        steps += kept.steps(block);
-        if (patches == Recording::on) patch_faces += block.patch_end(kept.steps(block));
+        steps += selected.steps(block);
+        if (patches == Recording::on) patch_faces += block.patch_end(selected.steps(block));
     }
     result.steps.reserve(steps);
     if (patches == Recording::on) result.patch_begin.reserve(steps);
     result.patch_faces.reserve(patch_faces);
     for (BlockResult& block : results) {
-        append_steps(block, kept.steps(block), patches, result);
+        append_steps(block, selected.steps(block), patches, result);
         block = {};
     }
     return result;

@@ -94,7 +94,7 @@ FAQEM_INLINE void finish_history(const MeshView& mesh, const PruneResult& pruned
     }
     history.deleted_faces.insert(history.deleted_faces.begin(), pruned_faces.begin(), pruned_faces.end());
     history.face_groups.assign(mesh.face_groups.begin(), mesh.face_groups.end());
-    history.kept_faces = result.face_origin;
+    history.remaining_faces = result.face_origin;
 }
 
 FAQEM_INLINE bool revert_degenerate_faces(std::span<const Vec3> before, std::span<const Triangle> triangles,
@@ -115,9 +115,10 @@ FAQEM_INLINE bool revert_degenerate_faces(std::span<const Vec3> before, std::spa
 
 FAQEM_INLINE void record_fitting(std::span<const EdgeFlip> flips, SimplifyResult& result) {
     CollapseHistory& history = result.history;
-    if (result.report.vertices_fitted > 0) history.kept_positions = result.mesh.positions;
+    if (result.report.vertices_fitted > 0) history.final_positions = result.mesh.positions;
     for (const auto& [s, t] : flips) {
-        history.patch_faces.insert(history.patch_faces.end(), {history.kept_faces[s], history.kept_faces[t]});
+        history.patch_faces.insert(history.patch_faces.end(),
+                                   {history.remaining_faces[s], history.remaining_faces[t]});
         history.patch_begin.push_back(history.patch_faces.size());
     }
 }

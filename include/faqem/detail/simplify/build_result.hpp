@@ -40,13 +40,13 @@ std::vector<Index> build_result(const MeshView& mesh, const PreprocessedMesh& pr
 /// Complexity: O(n)
 void to_model_units(const PreprocessedMesh& prepared, std::vector<Collapse>& collapses);
 
-/// Completes the history of the result: original mesh, pruned faces, face groups and kept faces.
+/// Completes the history of the result: original mesh, pruned faces, face groups and remaining faces.
 /// \param mesh       input of simplify()
 /// \param pruned     PreprocessedMesh::pruned; these faces become deleted faces with time 0
 /// \param positions  PreprocessedMesh::positions; moved into the history
 /// \param triangles  PreprocessedMesh::triangles; moved into the history
 /// \param result     its mesh must not be fitted yet, and its history must hold the collapses, their patches,
-///                   the deleted faces and the kept versions
+///                   the deleted faces and the remaining versions
 /// Complexity: O(n)
 void finish_history(const MeshView& mesh, const PruneResult& pruned, std::vector<Vec3> positions,
                     std::vector<Triangle> triangles, SimplifyResult& result);

@@ -31,13 +31,13 @@ FAQEM_INLINE PruneResult prune(std::span<const Vec3> positions, std::span<const 
     }
     // Indexed by the root of a component.
     std::vector<AlignedBox> box(positions.size());
-    std::vector<std::uint8_t> is_kept(positions.size(), 0);
+    std::vector<std::uint8_t> has_locked(positions.size(), 0);
     for (const Triangle& t : triangles) {
         if (t == no_face) continue;
         const Index root = joined.find(t[0]);
         for (const Index v : t) {
             box[root].extend(engine::to_eigen(positions[v]));
-            if (!locked.empty() && locked[v]) is_kept[root] = 1;
+            if (!locked.empty() && locked[v]) has_locked[root] = 1;
         }
     }
     const double unit = size.unit == Length::Unit::model ? 0.5 : half_diagonal(all);
@@ -53,7 +53,7 @@ FAQEM_INLINE PruneResult prune(std::span<const Vec3> positions, std::span<const 
     for (Index f = 0; f < triangles.size(); ++f) {
         if (triangles[f] == no_face) continue;
         const Index root = joined.find(triangles[f][0]);
-        if (root == largest || is_kept[root] || !(half_diagonal(box[root]) < least)) continue;
+        if (root == largest || has_locked[root] || !(half_diagonal(box[root]) < least)) continue;
         pruned.faces.push_back({f, triangles[f]});
         triangles[f] = no_face;
         pruned.components += counted[root] == 0;

@@ -89,14 +89,14 @@ inline nlohmann::ordered_json buffer_views_json(const Report& report) {
     return json;
 }
 
-inline std::string_view trial_name(BudgetTrialKind kind) {
+inline std::string_view trial_name(SizeTrialKind kind) {
     constexpr std::array<std::string_view, 3> names = {"faces", "positions", "images"};
     return names[static_cast<std::size_t>(kind)];
 }
 
-// The members that BudgetPoint and BudgetTrial have in common.
+// The members that ComparedResult and SizeTrial have in common.
 template <class Point>
-nlohmann::ordered_json budget_json(const Point& point, std::string_view kind) {
+nlohmann::ordered_json trial_json(const Point& point, std::string_view kind) {
     nlohmann::ordered_json bits;
     if (point.position_bits) bits = *point.position_bits;
     return {{"kind", kind},          {"faces", point.faces},
@@ -152,12 +152,12 @@ FAQEM_INLINE std::string to_json(const Report& report) {
                                 {"reason", saved.reason},       {"options", saved.options}};
     }
     json["given_up"] = report.given_up;
-    json["budget_points"] = nlohmann::ordered_json::array();
-    for (const BudgetPoint& point : report.budget_points)
-        json["budget_points"].push_back(detail::budget_json(point, detail::bake_name(point.kind)));
-    json["budget_trials"] = nlohmann::ordered_json::array();
-    for (const BudgetTrial& trial : report.budget_trials)
-        json["budget_trials"].push_back(detail::budget_json(trial, detail::trial_name(trial.kind)));
+    json["compared_results"] = nlohmann::ordered_json::array();
+    for (const ComparedResult& point : report.compared_results)
+        json["compared_results"].push_back(detail::trial_json(point, detail::bake_name(point.kind)));
+    json["size_trials"] = nlohmann::ordered_json::array();
+    for (const SizeTrial& trial : report.size_trials)
+        json["size_trials"].push_back(detail::trial_json(trial, detail::trial_name(trial.kind)));
     json["untouched_parts"] = report.untouched_parts;
     json["kept_uvs"] = report.kept_uvs;
     json["warnings"] = report.warnings;

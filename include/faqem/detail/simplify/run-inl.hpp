@@ -123,7 +123,7 @@ private:
         return options_.topology.group_boundaries != GroupBoundaries::free && !mesh_.face_groups.empty();
     }
 
-    // Meshes with attributes, kept groups, weights or virtual edges are not split into blocks.
+    // Meshes with attributes, preserved groups, weights or virtual edges are not split into blocks.
     bool supports_blocks() const {
         return settings_.quadric_policy != Settings::QuadricPolicy::memory && !mesh_.attributes &&
                mesh_.vertex_weights.empty() && !has_curves() &&
@@ -260,7 +260,8 @@ private:
         if (history_) {
             const bool is_last = results_.size() + 1 == targets_.size();
             result.history = is_last ? history_->take() : history_->history();
-            for (const Index slot : slots) result.history.kept_versions.push_back(history_->version(slot));
+            for (const Index slot : slots)
+                result.history.remaining_versions.push_back(history_->version(slot));
             to_model_units(prepared_, result.history.collapses);
             // The arrays are moved into the last result.
             finish_history(mesh_, prepared_.pruned,

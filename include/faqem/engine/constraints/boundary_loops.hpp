@@ -143,10 +143,10 @@ private:
     void merge_boundaries(Index a, Index b) {
         if (a == b) return;
         sets_.unite(a, b);
-        Boundary& kept = boundaries_[sets_.find(a)];
+        Boundary& survivor = boundaries_[sets_.find(a)];
         const Boundary& other = boundaries_[sets_.find(a) == a ? b : a];
-        kept.edges += other.edges;
-        kept.reach = std::max(kept.reach, other.reach);
+        survivor.edges += other.edges;
+        survivor.reach = std::max(survivor.reach, other.reach);
     }
 
     static bool starts_boundary(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v) {

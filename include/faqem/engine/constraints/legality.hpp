@@ -30,7 +30,7 @@ struct Rules {
     /// not increase the number of folds. -1: not tested.
     double min_fold_cosine = -1;
     /// How curves between groups (FeatureCurves) are treated; `free`: they only have a price. Tested by the engine.
-    GroupBoundaries groups = GroupBoundaries::kept;
+    GroupBoundaries groups = GroupBoundaries::preserved;
 };
 
 /// Tests whether a collapse is legal. Belongs to one mesh; 8 bytes per vertex slot. Not thread-safe.

@@ -165,17 +165,17 @@ public:
         for_each_face(removed, [&](Index f, unsigned) {
             if (has_corner(f, survivor)) remove_face(f);
         });
-        kept_.clear();
+        remaining_.clear();
         const auto keep = [&](Index f, unsigned corner) {
             Face& face = faces_[f];
             face.corners[corner] = survivor;
             vertices_[face.corners[(corner + 1) % 3]].normals -= face.normal;
             vertices_[face.corners[(corner + 2) % 3]].normals -= face.normal;
-            kept_.push_back(4 * f + corner);
+            remaining_.push_back(4 * f + corner);
         };
         for_each_face(survivor, keep);
         for_each_face(removed, keep);
-        corners_.assign(to.corners, kept_);
+        corners_.assign(to.corners, remaining_);
         to.position = p;
         to.normals = Vector3::Zero();
         to.degree += from.degree;
@@ -224,7 +224,7 @@ private:
     std::vector<Face> faces_;
     std::size_t face_count_ = 0;
     IndexLists corners_;
-    std::vector<Index> kept_;  // scratch: corners of the survivor
+    std::vector<Index> remaining_;  // scratch: corners of the survivor
 };
 
 }  // namespace engine

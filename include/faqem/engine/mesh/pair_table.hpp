@@ -84,9 +84,9 @@ public:
         take_over(survivor, survivor, removed, killed, changes);
         take_over(removed, survivor, survivor, killed, changes);
         vertices_[removed].slots.size = 0;
-        kept_.clear();
+        remaining_.clear();
         recount_faces_around(mesh, survivor, changes);
-        std::size_t kept = 0;
+        std::size_t count = 0;
         for (const Change& change : changes) {
             const Index pair = change.neighbour.pair;
             vertices_[change.neighbour.vertex].mark = no_index;
@@ -94,16 +94,16 @@ public:
                 face_count(pair) > 0 || (pairs_[pair].is_virtual && mesh.degree(survivor) > 0 &&
                                          mesh.degree(change.neighbour.vertex) > 0);
             if (lives) {
-                kept_.push_back(2 * pair + (second(pair) == survivor ? 1 : 0));
-                changes[kept++] = change;
+                remaining_.push_back(2 * pair + (second(pair) == survivor ? 1 : 0));
+                changes[count++] = change;
             } else {
                 kill(pair, killed);
-                if (change.boundary_changed) changes[kept++] = {{change.neighbour.vertex, no_index}, true};
+                if (change.boundary_changed) changes[count++] = {{change.neighbour.vertex, no_index}, true};
             }
             if (mesh.degree(change.neighbour.vertex) == 0) kill_all(change.neighbour.vertex, killed);
         }
-        changes.resize(kept);
-        slots_.assign(vertices_[survivor].slots, kept_);
+        changes.resize(count);
+        slots_.assign(vertices_[survivor].slots, remaining_);
     }
 
     /// Updates the face counts after mesh.remove_face(). O(valence)
@@ -192,13 +192,13 @@ private:
             if (end(s) != v) continue;
             const Index pair = s / 2;
             const Index n = end(s ^ 1);
-            const Index kept = vertices_[n].mark;
+            const Index present = vertices_[n].mark;
             if (n == partner) {
                 kill(pair, killed);
-            } else if (kept != no_index) {
+            } else if (present != no_index) {
                 if (face_count(pair) == 1)
-                    set_face_count(kept, 1);  // so that recount_faces_around() sees a boundary edge
-                pairs_[kept].is_virtual = pairs_[kept].is_virtual && pairs_[pair].is_virtual;
+                    set_face_count(present, 1);  // so that recount_faces_around() sees a boundary edge
+                pairs_[present].is_virtual = pairs_[present].is_virtual && pairs_[pair].is_virtual;
                 kill(pair, killed);
             } else {
                 move_end(pair, v, survivor, s);
@@ -267,7 +267,7 @@ private:
     std::vector<Vertex> vertices_;
     std::vector<Pair> pairs_;
     IndexLists slots_;
-    std::vector<Index> kept_;            // scratch: entries of the survivor
+    std::vector<Index> remaining_;       // scratch: entries of the survivor
     std::vector<std::uint32_t> counts_;  // scratch: previous face count of each change
 };
 

@@ -39,14 +39,14 @@ void erase_extension(Json& holder, const char* name) {
 
 void decompress_views(SourceDocument& source, const std::string& file) {
     if (!source.document.contains("bufferViews")) return;
-    [[maybe_unused]] DecompressionBudget budget(max_meshopt_ratio * total_buffer_size(source), file);
+    [[maybe_unused]] DecompressionLimit limit(max_meshopt_ratio * total_buffer_size(source), file);
     Json& views = source.document["bufferViews"];
     for (std::uint64_t i = 0; i < views.size(); ++i) {
 #ifdef FAQEM_WITH_MESHOPT
         const Json& compressed = meshopt_extension(source.document, views[i]);
         if (!compressed.is_null()) {
             const std::string where = child_path("/bufferViews", i);
-            budget.consume(unsigned_member(views[i], "byteLength", 0), where, meshopt_name);
+            limit.consume(unsigned_member(views[i], "byteLength", 0), where, meshopt_name);
             std::vector<std::uint8_t> bytes = decode_meshopt(
                 compressed, byte_range(source.buffers[index_member(compressed, "buffer")], compressed), file,
                 where);
@@ -125,7 +125,7 @@ void decompress_primitive(SourceDocument& source, const Json& primitive, const s
 
 void decompress_primitives(SourceDocument& source, const std::string& file) {
     if (!source.document.contains("meshes")) return;
-    [[maybe_unused]] DecompressionBudget budget(
+    [[maybe_unused]] DecompressionLimit limit(
         draco_base_element_limit + max_draco_elements_per_byte * total_buffer_size(source), file);
     Json& meshes = source.document["meshes"];
     for (std::uint64_t m = 0; m < meshes.size(); ++m) {
@@ -135,7 +135,7 @@ void decompress_primitives(SourceDocument& source, const std::string& file) {
 #ifdef FAQEM_WITH_DRACO
             if (needs_draco(source.document, primitives[p])) {
                 const std::string where = child_path(child_path("/meshes", m) + "/primitives", p);
-                budget.consume(draco_element_count(source.document, primitives[p]), where, draco_name);
+                limit.consume(draco_element_count(source.document, primitives[p]), where, draco_name);
                 decompress_primitive(source, primitives[p], file, where);
                 source.has_draco = true;
             }
@@ -147,7 +147,7 @@ void decompress_primitives(SourceDocument& source, const std::string& file) {
 
 }  // namespace
 
-void DecompressionBudget::consume(std::uint64_t amount, const std::string& where, const char* extension) {
+void DecompressionLimit::consume(std::uint64_t amount, const std::string& where, const char* extension) {
     if (amount > remaining_)
         throw InputError(
             file_, where,

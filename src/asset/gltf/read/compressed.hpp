@@ -55,15 +55,15 @@ inline constexpr std::uint64_t draco_base_element_limit = std::uint64_t{1} << 22
 
 /// Limits the total decompressed size of a file. The limit depends on the size of the file, not on how often
 /// its bytes are referenced.
-class DecompressionBudget {
+class DecompressionLimit {
 public:
     /// \param amount  total that may be decompressed
     /// \param file    path for messages, borrowed
-    DecompressionBudget(std::uint64_t amount, const std::string& file) : remaining_(amount), file_(file) {}
-    /// Subtracts an amount from the budget.
+    DecompressionLimit(std::uint64_t amount, const std::string& file) : remaining_(amount), file_(file) {}
+    /// Subtracts an amount from what remains.
     /// \param where      JSON pointer for messages
     /// \param extension  name for messages
-    /// \throws InputError  if the remaining budget is smaller
+    /// \throws InputError  if less remains
     void consume(std::uint64_t amount, const std::string& where, const char* extension);
 
 private:

@@ -108,32 +108,32 @@ bool visit_textures(Json& metadata, const Visit& visit) {
 bool keep_feature_ids(GltfWriter& writer, const Part& part, const std::optional<VertexNumbers>& vertices,
                       Json& extensions) {
     if (!member(member(extensions, features_name), "featureIds").is_array()) return false;
-    Json kept = Json::array();
+    Json valid = Json::array();
     const Json& all = extensions[features_name]["featureIds"];
     for (const Json& ids : all) {
         Json own = ids;
         const Json& attribute = member(ids, "attribute");
         const bool has_texture = member(ids, "texture").is_object();
-        bool is_kept = false;
+        bool is_valid = false;
         if (ids.contains("attribute"))
-            is_kept = attribute.is_number_unsigned() &&
-                      has_attribute(part, "_FEATURE_ID_" + std::to_string(attribute.get<std::uint64_t>()));
+            is_valid = attribute.is_number_unsigned() &&
+                       has_attribute(part, "_FEATURE_ID_" + std::to_string(attribute.get<std::uint64_t>()));
         else if (has_texture)
-            is_kept = fits_texture(writer, part, ids["texture"]);
+            is_valid = fits_texture(writer, part, ids["texture"]);
         else
-            is_kept = ids.is_object() && !ids.contains("texture") && are_all_vertices(vertices);
-        if (!is_kept) continue;
+            is_valid = ids.is_object() && !ids.contains("texture") && are_all_vertices(vertices);
+        if (!is_valid) continue;
         if (has_texture && !ids.contains("attribute"))
             own["texture"]["index"] = copy_texture(writer, ids["texture"]["index"].get<Index>());
-        kept.push_back(std::move(own));
+        valid.push_back(std::move(own));
     }
-    if (kept.empty()) return false;
-    if (kept.size() < all.size())
+    if (valid.empty()) return false;
+    if (valid.size() < all.size())
         writer.warnings.push_back(
             "mesh '" + part.name +
             "': feature ids that the new vertices or texture coordinates do not have were left "
             "out");
-    extensions[features_name]["featureIds"] = std::move(kept);
+    extensions[features_name]["featureIds"] = std::move(valid);
     return true;
 }
 

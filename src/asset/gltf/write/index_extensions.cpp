@@ -88,14 +88,14 @@ std::optional<VertexNumbers> unchanged_vertices(const GltfWriter& writer, const 
 
 std::vector<std::string> remap_index_extensions(GltfWriter& writer, const VertexNumbers& vertices,
                                                 Json& extensions) {
-    std::vector<std::string> kept;
-    if (extensions.contains(ngon_name)) kept.emplace_back(ngon_name);
-    if (!extensions.contains(outline_name)) return kept;
+    std::vector<std::string> valid;
+    if (extensions.contains(ngon_name)) valid.emplace_back(ngon_name);
+    if (!extensions.contains(outline_name)) return valid;
     const auto outline = renumbered(writer, vertices, member(extensions[outline_name], "indices"));
-    if (!outline) return kept;
+    if (!outline) return valid;
     extensions[outline_name]["indices"] = add_numbers(writer, *outline);
-    kept.emplace_back(outline_name);
-    return kept;
+    valid.emplace_back(outline_name);
+    return valid;
 }
 
 bool remap_manifold(GltfWriter& writer, const VertexNumbers& vertices, std::size_t corners,

@@ -225,24 +225,24 @@ void keep_manifold(GltfWriter& writer, const Part& part, const PrimitiveData& da
         extensions[manifold_name] = std::move(manifold);
 }
 
-Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material_index,
-                            const PrimitiveData& data) {
+Json carried_primitive_members(GltfWriter& writer, const Part& part, Index material_index,
+                               const PrimitiveData& data) {
     const Material* material = material_index == no_index ? nullptr : &writer.asset.materials[material_index];
     const std::vector<const Json*> from = source_primitives(writer, part, material);
-    Json kept = Json::object();
-    if (from.empty()) return kept;
+    Json members = Json::object();
+    if (from.empty()) return members;
     if (any_has(from, "extras")) {
-        kept["extras"] = common_member(from, "extras");
-        if (kept["extras"].is_null()) {
-            kept.erase("extras");
+        members["extras"] = common_member(from, "extras");
+        if (members["extras"].is_null()) {
+            members.erase("extras");
             warn_mesh(writer, part.name, "extras of primitives that were joined differ and were left out");
         }
     }
-    if (!any_has(from, "extensions")) return kept;
+    if (!any_has(from, "extensions")) return members;
     Json extensions = common_member(from, "extensions");
     if (extensions.is_null()) {
         warn_mesh(writer, part.name, "extensions of primitives that were joined differ and were left out");
-        return kept;
+        return members;
     }
     const std::vector<std::string> fitting = fitting_extensions(writer, part, from, data, extensions);
     const auto fits = [&](const auto& name) {
@@ -266,9 +266,9 @@ Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material
     }
     if (material && material->rebaked && extensions.erase(variants_name) != 0)
         warn_mesh(writer, part.name, "the material variants do not fit the new material and were left out");
-    if (!extensions.empty()) kept["extensions"] = std::move(extensions);
-    remap_variants(writer, kept);
-    return kept;
+    if (!extensions.empty()) members["extensions"] = std::move(extensions);
+    remap_variants(writer, members);
+    return members;
 }
 
 void write_meshes(GltfWriter& writer, std::vector<Index>& new_meshes) {

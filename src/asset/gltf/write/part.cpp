@@ -414,7 +414,7 @@ void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json
         const PrimitiveData data = gather_primitive(part, faces, writer.origin, scratch);
         degenerate_faces += data.degenerate_faces;
         if (grid.is_on()) degenerate_grid_faces += degenerate_on_grid(data, grid);
-        Json primitive = kept_primitive_members(writer, part, material, data);
+        Json primitive = carried_primitive_members(writer, part, material, data);
         const bool is_draco =
             writer.asset.compression == Compression::draco && write_draco(writer, part, data, primitive);
         if (!is_draco) {

@@ -128,7 +128,7 @@ bool update_channel(GltfWriter& writer, Json& channel) {
 
 void update_animations(GltfWriter& writer) {
     if (!writer.out.contains("animations")) return;
-    Json kept = Json::array();
+    Json animations = Json::array();
     for (Json& animation : writer.out["animations"]) {
         const std::string name = string_member(animation, "name");
         Json channels = Json::array();
@@ -143,12 +143,12 @@ void update_animations(GltfWriter& writer) {
         for (Json& sampler : animation["samplers"])
             for (const char* key : {"input", "output"})
                 sampler[key] = copy_accessor(writer, index_member(sampler, key), AccessorUse::other);
-        kept.push_back(std::move(animation));
+        animations.push_back(std::move(animation));
     }
-    if (kept.empty())
+    if (animations.empty())
         writer.out.erase("animations");
     else
-        writer.out["animations"] = std::move(kept);
+        writer.out["animations"] = std::move(animations);
 }
 
 void remap_image_lights(GltfWriter& writer) {

@@ -92,7 +92,8 @@ void write_numbered_objects(GltfWriter& writer);
 /// extras and extensions of the corresponding triangle primitives, if these agree. Extensions that do not fit
 /// the new vertices or textures are left out with a warning.
 /// \param data  vertices and corners of the output primitive
-Json kept_primitive_members(GltfWriter& writer, const Part& part, Index material, const PrimitiveData& data);
+Json carried_primitive_members(GltfWriter& writer, const Part& part, Index material,
+                               const PrimitiveData& data);
 
 /// The source mesh whose primitives give extras and extensions to those of a part of the asset; no_index: none.
 Index source_mesh(const GltfWriter& writer, const Part& part);

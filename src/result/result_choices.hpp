@@ -37,7 +37,7 @@ struct TriedImage {
 using TriedImages = std::vector<std::vector<TriedImage>>;
 
 /// A face count, images and a rounding that should fit.
-struct BudgetChoice {
+struct ResultChoice {
     std::vector<std::size_t> images;  ///< by image: index of its encoding
     std::uint64_t image_bytes = 0;
     std::size_t rounding = 0;  ///< index
@@ -71,11 +71,11 @@ std::uint64_t as_first_rounding(std::span<const TriedRounding> roundings, std::s
 /// \param images     nothing, or at least one encoding of each
 /// \param roundings  at least one, with bytes > 0
 /// Complexity: O(100 roundings n log n) for n encodings.
-std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, const TriedImages& images,
+std::vector<ResultChoice> result_choices(std::span<const TriedFaces> faces, const TriedImages& images,
                                          std::span<const TriedRounding> roundings, std::uint64_t bytes);
 
 /// The expected errors of the images alone for growing numbers of bytes, at most `count` of them.
-/// \param images  as for budget_choices()
+/// \param images  as for result_choices()
 /// \param count   at least 2
 std::vector<ImagesPoint> images_curve(const TriedImages& images, std::size_t count);
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Draws what `faqem simplify --max-bytes` tries for a model, and its results for several budgets.
+"""Draws what `faqem simplify --max-bytes` tries for a model, and its results for several limits.
 
-Usage: tests/bench/budget.py FAQEM MODEL --bytes N,N... --out FILE.svg [--options=OPTIONS]
+Usage: tests/bench/byte_limits.py FAQEM MODEL --bytes N,N... --out FILE.svg [--options=OPTIONS]
 
-The trials are those of the report of the last budget. A line of JSON for each result is printed.
+The trials are those of the report of the last limit. A line of JSON for each result is printed.
 """
 
 import argparse
@@ -16,17 +16,17 @@ from pathlib import Path
 import plots
 
 
-def report(arguments, budget, folder):
-    """Runs the command with a budget. Returns its report."""
+def report(arguments, limit, folder):
+    """Runs the command with a limit. Returns its report."""
     file = Path(folder) / "report.json"
     subprocess.run([arguments.faqem, "simplify", arguments.model, str(Path(folder) / "out.glb"), "--force", "--quiet",
-                    "--max-bytes", str(budget), "--report", str(file), *arguments.options.split()], check=True)
+                    "--max-bytes", str(limit), "--report", str(file), *arguments.options.split()], check=True)
     return json.loads(file.read_text())
 
 
 def curve(report, kind):
     """The trials of a kind as a line of (bytes, dB)."""
-    return [(trial["bytes"], trial["psnr"]) for trial in report["budget_trials"] if trial["kind"] == kind]
+    return [(trial["bytes"], trial["psnr"]) for trial in report["size_trials"] if trial["kind"] == kind]
 
 
 def main():
@@ -39,12 +39,12 @@ def main():
     arguments = parser.parse_args()
     results, last = [], None
     with tempfile.TemporaryDirectory() as folder:
-        for budget in arguments.bytes:
-            last = report(arguments, budget, folder)
-            best = max(last["budget_points"], key=lambda point: point["psnr"])
+        for limit in arguments.bytes:
+            last = report(arguments, limit, folder)
+            best = max(last["compared_results"], key=lambda point: point["psnr"])
             results.append((best["bytes"], best["psnr"]))
-            print(json.dumps({"budget": budget, **best}), flush=True)
-    plots.budget(arguments.out, {"faces": curve(last, "faces"), "images": curve(last, "images")}, results)
+            print(json.dumps({"limit": limit, **best}), flush=True)
+    plots.byte_limits(arguments.out, {"faces": curve(last, "faces"), "images": curve(last, "images")}, results)
     return 0
 
 

@@ -1,4 +1,4 @@
-#include "result/budget_choices.hpp"
+#include "result/result_choices.hpp"
 
 #include <cmath>
 
@@ -42,7 +42,7 @@ TEST_CASE("error of faces: a power between those that were tried, and what is mi
 TEST_CASE("choices: the images that leave enough bytes for faces have the least error in all") {
     const TriedImages images = {
         {{60000, {0, 0}, 1024}, {4000, {1e-5, 1e-5}, 512}, {1000, {1e-2, 1e-2}, 256}}};
-    const std::vector<BudgetChoice> choices = budget_choices(quartered(), images, exact, 20000);
+    const std::vector<ResultChoice> choices = result_choices(quartered(), images, exact, 20000);
     REQUIRE(!choices.empty());
     CHECK(choices[0].images == std::vector<std::size_t>{1});
     CHECK(choices[0].image_bytes == 4000);
@@ -50,7 +50,7 @@ TEST_CASE("choices: the images that leave enough bytes for faces have the least 
     const double unlit = 1e-4 + 1e-5, lit = 2e-4 + 1e-5;
     CHECK(choices[0].psnr == Approx(-5 * (std::log10(unlit) + std::log10(lit))).epsilon(1e-4));
     for (std::size_t i = 1; i < choices.size(); ++i) CHECK(choices[i].psnr <= choices[i - 1].psnr);
-    CHECK(budget_choices(quartered(), images, exact, 4500).empty());
+    CHECK(result_choices(quartered(), images, exact, 4500).empty());
 }
 
 TEST_CASE("choices: bytes go to the image whose error they lower most") {
@@ -59,7 +59,7 @@ TEST_CASE("choices: bytes go to the image whose error they lower most") {
                                 {{1000, {4e-4, 4e-4}, 64}, {2000, {1e-4, 1e-4}, 128}}};
     const auto chosen = [&](std::uint64_t bytes) {
         const std::vector<TriedFaces> faces = {{100, 500, {0, 0}}};
-        return budget_choices(faces, images, exact, bytes).at(0).images;
+        return result_choices(faces, images, exact, bytes).at(0).images;
     };
     CHECK(chosen(2500) == std::vector<std::size_t>{0, 0});
     CHECK(chosen(3500) == std::vector<std::size_t>{0, 1});
@@ -71,16 +71,16 @@ TEST_CASE("choices: the bytes that are left are used for an encoding between the
     const TriedImages images = {
         {{1000, {1e-2, 1e-2}, 64}, {2000, {9e-3, 9e-3}, 64}, {3000, {1e-4, 1e-4}, 64}}};
     const std::vector<TriedFaces> faces = {{100, 500, {0, 0}}};
-    CHECK(budget_choices(faces, images, exact, 3000).at(0).images.at(0) == 1);
-    CHECK(budget_choices(faces, images, exact, 3500).at(0).images.at(0) == 2);
+    CHECK(result_choices(faces, images, exact, 3000).at(0).images.at(0) == 1);
+    CHECK(result_choices(faces, images, exact, 3500).at(0).images.at(0) == 2);
 }
 
 TEST_CASE("choices: without images all bytes go to faces, and errors that are no numbers are not chosen") {
-    CHECK(budget_choices(quartered(), {}, exact, 16000).at(0).faces == 1600);
+    CHECK(result_choices(quartered(), {}, exact, 16000).at(0).faces == 1600);
     const double nan = std::nan("");
     const TriedImages images = {
         {{1000, {1e-4, 1e-4}, 64}, {2000, {nan, nan}, 128}, {3000, {1e-5, 1e-5}, 128}}};
-    const BudgetChoice best = budget_choices(quartered(), images, exact, 70000).at(0);
+    const ResultChoice best = result_choices(quartered(), images, exact, 70000).at(0);
     CHECK(best.images.at(0) == 2);
     CHECK(best.faces == 6400);
 }
@@ -105,7 +105,7 @@ TEST_CASE(
     const std::vector<TriedRounding> roundings = {
         {14, 64000, {1e-5, 1e-5}}, {13, 60000, {4e-5, 4e-5}}, {16, 72000, {1e-6, 1e-6}}};
     const auto best = [&](std::uint64_t bytes) {
-        return budget_choices(quartered(), images, roundings, bytes).at(0);
+        return result_choices(quartered(), images, roundings, bytes).at(0);
     };
     CHECK(roundings[best(76000).rounding].position_bits == 16u);
     CHECK(best(76000).faces == 6400);
@@ -116,7 +116,7 @@ TEST_CASE(
     // Bytes that are enough for all faces are not rounded to fewer.
     const std::vector<TriedRounding> odd = {
         {14, 64000, {1e-5, 1e-5}}, {13, 60007, {9, 9}}, {15, 65011, {0, 0}}};
-    const BudgetChoice all = budget_choices(quartered(), images, odd, 100000).at(0);
+    const ResultChoice all = result_choices(quartered(), images, odd, 100000).at(0);
     CHECK(odd[all.rounding].position_bits == 15u);
     CHECK(all.faces == 6400);
     CHECK(as_first_rounding(roundings, 0, 5000) == 5000);

@@ -1,4 +1,4 @@
-#include "result/budget_choices.hpp"
+#include "result/result_choices.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -210,10 +210,10 @@ std::uint64_t as_first_rounding(std::span<const TriedRounding> roundings, std::s
     return static_cast<std::uint64_t>(std::round(factor * static_cast<double>(bytes)));
 }
 
-std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, const TriedImages& images,
+std::vector<ResultChoice> result_choices(std::span<const TriedFaces> faces, const TriedImages& images,
                                          std::span<const TriedRounding> roundings, std::uint64_t bytes) {
     const ImageAllocator allocator(images);
-    std::vector<BudgetChoice> result;
+    std::vector<ResultChoice> result;
     for (std::size_t r = 0; r < roundings.size(); ++r) {
         const auto rounded = [&](std::uint64_t first) {
             const double factor =
@@ -244,7 +244,7 @@ std::vector<BudgetChoice> budget_choices(std::span<const TriedFaces> faces, cons
             if (least == most) break;
         }
     }
-    std::stable_sort(result.begin(), result.end(), [](const BudgetChoice& a, const BudgetChoice& b) {
+    std::stable_sort(result.begin(), result.end(), [](const ResultChoice& a, const ResultChoice& b) {
         if (std::isnan(a.psnr) || std::isnan(b.psnr)) return !std::isnan(a.psnr) && std::isnan(b.psnr);
         return a.psnr > b.psnr;
     });
