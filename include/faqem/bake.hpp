@@ -18,9 +18,9 @@ namespace faqem {
 struct SimplifiedParts {
     std::vector<SimplifyResult> parts;  ///< one per part of the source, in its order, each with a history
     Report report;                      ///< sums over the parts
-    /// For Bake::automatic: the parts simplified to the same face counts with the source's UVs and vertex colours as
-    /// attributes, from which bake() chooses those that keep their UVs. Empty: none is tried.
-    std::vector<SimplifyResult> kept;
+    /// For Bake::automatic: the same parts, simplified to the same face counts with the source's UVs and vertex colours
+    /// as attributes. bake() chooses among both for each part. Empty: all parts are those without UVs.
+    std::vector<SimplifyResult> with_uvs;
 };
 
 /// Point of the original surface that a texel corresponds to: that of the sample nearest to the texel centre.
@@ -73,7 +73,7 @@ struct SimplifiedAsset {
 ///                     message names the part or material
 /// Complexity: the sum of simplify(const MeshView&, const Options&) over the parts. Budget::scene adds one
 /// run with Preset::fast per part if several parts have faces, and Bake::automatic a second simplification of each
-/// part if SimplifiedParts::kept is made.
+/// part if SimplifiedParts::with_uvs is made.
 FAQEM_EXPORT SimplifiedParts simplify_parts(const Asset& source, const Options& options);
 
 /// Appearance stage: gives the simplified parts normals, UVs, materials and images. If Options::max_seconds, which

@@ -1,11 +1,11 @@
 #include "result/no_larger.hpp"
 
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "asset/scene/messages.hpp"
 #include "asset/scene/rounded_vertices.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/error.hpp"
@@ -101,12 +101,10 @@ private:
 
     // Nothing if the parts were not simplified with their UVs.
     std::optional<SizedResult> with_source_uvs() const {
-        if (simplified_.kept.empty()) return std::nullopt;
-        SimplifiedParts parts{simplified_.kept, simplified_.report, {}};
-        for (std::size_t p = 0; p < parts.parts.size(); ++p) {
-            const std::string title = part_title(source_, p);
-            replace_part_report(parts.report, simplified_.parts[p].report, parts.parts[p].report, title);
-        }
+        if (simplified_.with_uvs.empty()) return std::nullopt;
+        std::vector<Index> all(simplified_.with_uvs.size());
+        std::iota(all.begin(), all.end(), Index{0});
+        const SimplifiedParts parts{simplified_.with_uvs, report_with_uvs(source_, simplified_, all), {}};
         SizedResult one{bake_with_uvs(source_, parts, options_, context_), {}, {}};
         encode(one);
         if (one.is_cancelled()) return one;

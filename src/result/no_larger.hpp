@@ -11,7 +11,7 @@ namespace faqem::detail {
 /// Options::larger is LargerFiles::avoided, it gives something up, until it has not:
 /// 1. the normal map, if the source has none and BakeOptions::normal_map is automatic;
 /// 2. either the size and quality of the images, unless BakeOptions::image_quality is set: fit_images();
-///    or the new texture, if the parts were simplified with their UVs, too (SimplifiedParts::kept): then the result has
+///    or the new texture, if the parts were simplified with their UVs, too (SimplifiedParts::with_uvs): then the result has
 ///    the UVs and images of the source. What fits is taken and, of two that fit, the one with the better pictures.
 /// Untouched parts stay as they are. A warning and
 /// Report::given_up say what was given up, and another warning if the result is larger nevertheless.

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "asset/scene/messages.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -37,21 +39,22 @@ void add_part_report(Report& sum, const Report& part, const std::string& title) 
     sum.seconds.simplify += part.seconds.simplify;
 }
 
-void remove_part_report(Report& sum, const Report& part, const std::string& title) {
-    for_each_count(sum, part, [](std::uint64_t& total, std::uint64_t own) { total -= own; });
-    for (const std::string& warning : part.warnings) {
-        const auto found = std::find(sum.warnings.begin(), sum.warnings.end(), part_warning(title, warning));
-        if (found != sum.warnings.end()) sum.warnings.erase(found);
+Report report_with_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<const Index> which) {
+    Report sum = simplified.report;
+    for (const Index p : which) {
+        const Report& without = simplified.parts[p].report;
+        const std::string title = part_title(source, p);
+        for_each_count(sum, without, [](std::uint64_t& total, std::uint64_t own) { total -= own; });
+        for (const std::string& warning : without.warnings) {
+            const auto found =
+                std::find(sum.warnings.begin(), sum.warnings.end(), part_warning(title, warning));
+            if (found != sum.warnings.end()) sum.warnings.erase(found);
+        }
+        add_part_report(sum, simplified.with_uvs[p].report, title);
     }
-}
-
-void replace_part_report(Report& sum, const Report& before, const Report& part, const std::string& title) {
-    const PhaseSeconds seconds = sum.seconds;
-    const std::uint64_t target = sum.target_faces;
-    remove_part_report(sum, before, title);
-    add_part_report(sum, part, title);
-    sum.seconds = seconds;
-    sum.target_faces = target;
+    sum.seconds = simplified.report.seconds;
+    sum.target_faces = simplified.report.target_faces;
+    return sum;
 }
 
 }  // namespace faqem::detail

@@ -2,9 +2,10 @@
 /// \file
 /// The report of a scene as the sum over its parts.
 
+#include <span>
 #include <string>
 
-#include "faqem/report.hpp"
+#include "faqem/bake.hpp"
 
 namespace faqem::detail {
 
@@ -12,11 +13,9 @@ namespace faqem::detail {
 /// \param title  of the part, for its warnings
 void add_part_report(Report& sum, const Report& part, const std::string& title);
 
-/// Removes the report of a part that was added before, except for its time and its StopReason.
-void remove_part_report(Report& sum, const Report& part, const std::string& title);
-
-/// Replaces the report of a part by that of another simplification to the face count that it had. The target and the
-/// times are not changed: they are those of the whole.
-void replace_part_report(Report& sum, const Report& before, const Report& part, const std::string& title);
+/// The report of a simplification of which some parts are those with UVs. The target and the times are not changed:
+/// they are those of the whole.
+/// \param which  indices into SimplifiedParts::with_uvs
+Report report_with_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<const Index> which);
 
 }  // namespace faqem::detail

@@ -310,18 +310,18 @@ bool has_appearance(const Asset& source) {
 }
 
 // Simplifies all parts again, with UVs, to the face counts that they have.
-void add_kept_parts(const Asset& source, Options own, const RunContext& context,
-                    SimplifiedParts& simplified) {
+void add_parts_with_uvs(const Asset& source, Options own, const RunContext& context,
+                        SimplifiedParts& simplified) {
     own.bake.kind = Bake::keep;
     std::vector<std::uint64_t> counts;
     for (const SimplifyResult& part : simplified.parts) counts.push_back(part.mesh.triangles.size());
-    SimplifiedParts kept = PartsRun(source, own, context).to_face_counts(counts);
-    simplified.report.seconds.simplify += kept.report.seconds.simplify;
-    simplified.report.seconds.total += kept.report.seconds.simplify;
-    if (kept.report.stop == StopReason::cancelled)
-        simplified.report.stop = kept.report.stop;
+    SimplifiedParts with_uvs = PartsRun(source, own, context).to_face_counts(counts);
+    simplified.report.seconds.simplify += with_uvs.report.seconds.simplify;
+    simplified.report.seconds.total += with_uvs.report.seconds.simplify;
+    if (with_uvs.report.stop == StopReason::cancelled)
+        simplified.report.stop = with_uvs.report.stop;
     else
-        simplified.kept = std::move(kept.parts);
+        simplified.with_uvs = std::move(with_uvs.parts);
 }
 
 }  // namespace
@@ -339,7 +339,7 @@ SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options
     SimplifiedParts result =
         std::move(detail::simplify_parts_to_targets(source, {&target, 1}, options, step, levels).front());
     if (tries_uvs && result.report.stop != StopReason::cancelled && !context.is_late())
-        add_kept_parts(source, options, context.step(Phase::simplify, 0.5, 1), result);
+        add_parts_with_uvs(source, options, context.step(Phase::simplify, 0.5, 1), result);
     return result;
 }
 

@@ -32,7 +32,7 @@ SimplifiedParts simplify_welded_parts(const Asset& source, const Options& option
                                       std::span<const LevelTarget> levels = {});
 
 /// simplify_parts() to several targets in one run, with the kind of baking that the options say: Bake::automatic makes no
-/// SimplifiedParts::kept.
+/// SimplifiedParts::with_uvs.
 /// \param targets    face counts of all parts together: at least one, in descending order
 /// \param requested  as for simplify_parts(); target and max_error are ignored
 /// \return one result per target; a single one with StopReason::cancelled if the progress callback cancels

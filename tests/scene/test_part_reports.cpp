@@ -1,64 +1,35 @@
 // The report of a scene as the sum over its parts.
 
 #include <string>
+#include <vector>
 
-#include "faqem/report_json.hpp"
 #include "scene/part_reports.hpp"
 #include "support/catch.hpp"
 
 using namespace faqem;
 
-namespace {
-
-// The report as text, without the memory of the process, which may grow meanwhile.
-std::string text_of(const Report& report) {
-    const std::string text = to_json(report);
-    const std::size_t begin = text.find("\"peak_rss_bytes\"");
-    REQUIRE(begin != std::string::npos);
-    return text.substr(0, begin) + text.substr(text.find_first_of(",}", begin));
-}
-
-}  // namespace
-
-TEST_CASE("part reports: a part that is added and removed leaves the sum as it was") {
-    Report part;
-    part.faces_in = 100;
-    part.faces_out = 10;
-    part.vertices_in = 60;
-    part.vertices_out = 7;
-    part.target_faces = 12;
-    part.collapses = 53;
-    part.refusals.fill(3);
-    part.rungs.fill(1);
-    part.faces_dropped = part.components_collapsed = part.components_deleted = part.components_pruned = 2;
-    part.faces_pruned = part.vertices_fitted = part.edges_flipped = part.virtual_edges = 4;
-    part.warnings = {"one", "two"};
-    Report sum;
-    detail::add_part_report(sum, part, "part 'a'");
-    CHECK(sum.warnings == std::vector<std::string>{"part 'a': one", "part 'a': two"});
-    CHECK(sum.target_faces == 12);
-    const std::string before = text_of(sum);
-    Report other = part;
-    other.faces_out = 5;
-    other.warnings = {"three"};
-    detail::add_part_report(sum, other, "part 'b'");
-    CHECK(sum.faces_out == 15);
-    CHECK(text_of(sum) != before);
-    detail::remove_part_report(sum, other, "part 'b'");
-    CHECK(text_of(sum) == before);
-}
-
-TEST_CASE(
-    "part reports: another simplification of a part replaces its counts, but not the target of the whole") {
-    Report first, second, sum;
-    first.faces_in = second.faces_in = 100;
-    first.faces_out = 12, second.faces_out = 11;
-    first.target_faces = 12, second.target_faces = 11;
-    second.warnings = {"two"};
-    detail::add_part_report(sum, first, "part 'a'");
-    detail::replace_part_report(sum, first, second, "part 'a'");
-    CHECK(sum.faces_in == 100);
-    CHECK(sum.faces_out == 11);
-    CHECK(sum.target_faces == 12);
-    CHECK(sum.warnings == std::vector<std::string>{"part 'a': two"});
+TEST_CASE("part reports: a part with UVs has its own counts and warnings, but not a target of its own") {
+    Asset source;
+    source.parts.resize(2);
+    source.parts[0].name = "a", source.parts[1].name = "b";
+    SimplifiedParts simplified;
+    simplified.parts.resize(2), simplified.with_uvs.resize(2);
+    for (std::size_t p = 0; p < 2; ++p) {
+        Report &without = simplified.parts[p].report, &with = simplified.with_uvs[p].report;
+        without.faces_in = with.faces_in = 100;
+        without.target_faces = without.faces_out = 12;
+        with.target_faces = with.faces_out = 11;
+        without.refusals.fill(3), with.refusals.fill(5);
+        without.rungs.fill(1), with.rungs.fill(0);
+        without.warnings = {"one"}, with.warnings = {"two"};
+        detail::add_part_report(simplified.report, without, p == 0 ? "part 'a'" : "part 'b'");
+    }
+    simplified.report.warnings.push_back("of the whole");
+    const Report report = detail::report_with_uvs(source, simplified, std::vector<Index>{1});
+    CHECK(report.faces_in == 200);
+    CHECK(report.faces_out == 23);
+    CHECK(report.target_faces == 24);
+    CHECK(report.refusals[0] == 8);
+    CHECK(report.rungs[0] == 1);
+    CHECK(report.warnings == std::vector<std::string>{"part 'a': one", "of the whole", "part 'b': two"});
 }

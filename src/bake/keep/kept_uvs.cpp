@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "asset/scene/material_textures.hpp"
-#include "asset/scene/messages.hpp"
 #include "asset/scene/source_traits.hpp"
 #include "bake/keep/picture_loss.hpp"
 #include "bake/page/normal_map.hpp"
@@ -16,7 +15,6 @@
 #include "bake/source/source_sampler.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "scene/material_groups.hpp"
-#include "scene/part_reports.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
@@ -147,7 +145,7 @@ void limit_faces(const SimplifiedParts& simplified, std::vector<PartSet>& sets) 
     std::erase_if(sets, [&](const PartSet& set) {
         std::uint64_t with = 0, without = 0;
         for (const Index p : set) {
-            with += simplified.kept[p].mesh.triangles.size();
+            with += simplified.with_uvs[p].mesh.triangles.size();
             without += simplified.parts[p].mesh.triangles.size();
         }
         if (with <= without) return false;
@@ -185,7 +183,8 @@ std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart
         if (part.is_kept || part.source->triangles.empty()) continue;
         const Index set = sets.find(part.index);
         result[set].push_back(part.index);
-        if (!is_as_complete(simplified.kept[part.index], simplified.parts[part.index])) is_possible[set] = 0;
+        if (!is_as_complete(simplified.with_uvs[part.index], simplified.parts[part.index]))
+            is_possible[set] = 0;
     }
     for (std::size_t s = 0; s < result.size(); ++s)
         if (!is_possible[s]) result[s].clear();
@@ -228,14 +227,10 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
     return {std::move(good), sum * (1 / points)};
 }
 
-void keep_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<const Index> which,
-              std::span<BakePart> parts, Report& report) {
+void keep_uvs(const SimplifiedParts& simplified, std::span<const Index> which, std::span<BakePart> parts) {
     for (const Index p : which) {
         if (parts[p].is_kept) continue;
-        const std::string title = part_title(source, p);
-        replace_part_report(report, simplified.parts[p].report, simplified.kept[p].report, title);
-        report.kept_uvs.push_back(title);
-        parts[p].simplified = &simplified.kept[p];
+        parts[p].simplified = &simplified.with_uvs[p];
         parts[p].map.reset();
         parts[p].normals = {};
         parts[p].is_kept = true;

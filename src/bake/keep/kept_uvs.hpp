@@ -20,8 +20,8 @@ using PartSet = std::vector<Index>;
 /// The parts that could keep their UVs.
 struct PartsWithUvs {
     std::vector<PartSet> sets;
-    Asset
-        asset;  ///< with these parts, from SimplifiedParts::kept, and the materials and images of the source
+    /// With these parts, from SimplifiedParts::with_uvs, and the materials and images of the source.
+    Asset asset;
 };
 
 /// Outcome of compare_uvs().
@@ -33,7 +33,7 @@ struct ComparedUvs {
 /// The sets of parts that could keep their UVs: each part has reached the face count of its simplification without UVs, up
 /// to a hundredth if the model reaches its target nevertheless, and lost no more faces and hardly more components.
 /// \param parts       from SimplifiedParts::parts; kept ones are ignored
-/// \param simplified  has as many parts in `kept` as in `parts`
+/// \param simplified  has as many parts in `with_uvs` as in `parts`
 /// Complexity: O(faces).
 std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart> parts,
                                    const SimplifiedParts& simplified);
@@ -50,10 +50,9 @@ std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart
 ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<const BakePart> parts,
                         const PartsWithUvs& candidates, DecodedImages& decoded, const RunContext& context);
 
-/// Makes parts kept ones: their simplified meshes and reports are those with UVs.
+/// Makes parts kept ones: their simplified meshes are those with UVs.
 /// \param simplified  must outlive the parts
 /// \param which       indices of parts with UVs; kept ones are ignored
-void keep_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<const Index> which,
-              std::span<BakePart> parts, Report& report);
+void keep_uvs(const SimplifiedParts& simplified, std::span<const Index> which, std::span<BakePart> parts);
 
 }  // namespace faqem::detail

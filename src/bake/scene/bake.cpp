@@ -23,6 +23,7 @@
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/error.hpp"
 #include "scene/check_asset.hpp"
+#include "scene/part_reports.hpp"
 #include "scene/position_grids.hpp"
 #include "scene/resolved_options.hpp"
 
@@ -59,14 +60,14 @@ std::string layout_unit(Bake kind) {
 PartsWithUvs make_parts_with_uvs(const Asset& source, const SimplifiedParts& simplified, BakeOptions bake,
                                  std::span<const BakePart> parts, const RunContext& context) {
     PartsWithUvs result;
-    if (bake.kind != Bake::automatic || simplified.kept.size() != parts.size()) return result;
+    if (bake.kind != Bake::automatic || simplified.with_uvs.size() != parts.size()) return result;
     result.sets = sets_with_uvs(source, parts, simplified);
     if (result.sets.empty()) return result;
     bake.kind = Bake::keep;
     std::vector<std::uint8_t> is_left_out(parts.size(), 1);
     for (const PartSet& set : result.sets)
         for (const Index p : set) is_left_out[p] = 0;
-    const std::vector<BakePart> with_uvs = map_parts(source, simplified.kept, is_left_out, bake, context);
+    const std::vector<BakePart> with_uvs = map_parts(source, simplified.with_uvs, is_left_out, bake, context);
     UnencodedResult baked;
     bake_keep({source, bake, with_uvs, context}, baked);
     result.asset = std::move(baked.asset.asset);
@@ -116,14 +117,14 @@ void keep_file_records(std::span<const BakePart> parts, std::span<const std::uin
     }
 }
 
-// Lists the parts of bake_keep() as those whose images may change.
-void list_kept_parts(const Asset& source, std::span<const BakePart> parts, std::vector<KeptPart>& kept,
-                     Report& report) {
-    for (const BakePart& part : parts) {
-        if (part.is_kept) continue;
-        kept.push_back({part.index, false});
-        if (part.faces() > 0) report.kept_uvs.push_back(part_title(source, part.index));
-    }
+// Adds the images of parts that are not baked, and lists those that keep their UVs, but not all vertices.
+// \param keeps_images  whether all images stay as they are
+void add_kept(const Asset& source, const BakeOptions& bake, std::span<const KeptPart> kept, bool keeps_images,
+              const RunContext& context, UnencodedResult& out) {
+    for (const KeptPart& part : kept)
+        if (!part.keeps_images && !out.asset.asset.parts[part.part].triangles.empty())
+            out.asset.report.kept_uvs.push_back(part_title(source, part.part));
+    if (!keeps_images) add_kept_images(source, bake, kept, context, out);
 }
 
 // Bakes all parts, except for the encoding of images.
@@ -135,7 +136,7 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
     Report& report = out.asset.report;
     const std::vector<std::uint8_t> untouched = find_untouched_parts(source, simplified, bake);
     std::vector<BakePart> parts = map_parts(source, simplified.parts, untouched, bake, untimed);
-    report.seconds.map = watch.seconds();
+    const double map_seconds = watch.seconds();
 
     PartsWithUvs with_uvs = make_parts_with_uvs(source, simplified, bake, parts, untimed);
     DecodedImages decoded;
@@ -146,7 +147,12 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
             compared = compare_uvs(source, bake, parts, with_uvs, decoded, context);
         });
     }
-    keep_uvs(source, simplified, compared.good, parts, report);
+    const auto take_with_uvs = [&](std::span<const Index> which) {
+        keep_uvs(simplified, which, parts);
+        if (!which.empty()) report = report_with_uvs(source, simplified, which);
+        report.seconds.map = map_seconds;
+    };
+    take_with_uvs(compared.good);
 
     const BakeJob job{source, bake, parts, untimed, requested == Bake::keep};
     const bool is_late = makes_atlas(bake.kind) && !bake_textures(job, context, std::move(decoded), out);
@@ -154,9 +160,11 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
         if (bake.correspondence == Recording::on)
             throw TimeLimitError(
                 "max_seconds was over before the texture of the correspondence was complete");
+        std::vector<Index> all;
+        for (const PartSet& set : with_uvs.sets) all.insert(all.end(), set.begin(), set.end());
+        take_with_uvs(all);
         report.warnings.push_back(
             "max_seconds was over before new textures were complete: the images are those of the source");
-        for (const PartSet& set : with_uvs.sets) keep_uvs(source, simplified, set, parts, report);
     }
     const bool keeps_images = is_late || bake.kind == Bake::keep;
     if (keeps_images) bake_keep(job, out);
@@ -165,8 +173,9 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
     std::vector<KeptPart> kept =
         add_kept_parts(source, parts, untouched, std::move(with_uvs.asset), keeps_images, out.asset);
     if (bake.kind == Bake::keep && requested == Bake::automatic && names_objects_by_number(source))
-        list_kept_parts(source, parts, kept, report);
-    if (!is_late) add_kept_images(source, bake, kept, untimed, out);
+        for (const BakePart& part : parts)
+            if (!part.is_kept) kept.push_back({part.index, false});
+    add_kept(source, bake, kept, is_late, untimed, out);
     for (PendingImage& image : out.pending)
         image.quality_change = quality_change(compared.pictures, image.content);
     keep_file_records(parts, untouched, out.asset.asset);
@@ -182,8 +191,8 @@ void keep_all_parts(const Asset& source, const SimplifiedParts& simplified, cons
     out.asset.report.seconds.map = watch.seconds();
     bake_keep({source, bake, parts, context}, out);
     std::vector<KeptPart> kept;
-    list_kept_parts(source, parts, kept, out.asset.report);
-    add_kept_images(source, bake, kept, context, out);
+    for (const BakePart& part : parts) kept.push_back({part.index, false});
+    add_kept(source, bake, kept, false, context, out);
     keep_file_records(parts, untouched, out.asset.asset);
     for (Part& part : out.asset.asset.parts) part.file_order = FileOrder::for_gpu;
     context.report(Phase::bake, 1);

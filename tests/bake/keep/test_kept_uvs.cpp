@@ -94,7 +94,7 @@ SimplifiedParts with_face_counts(const Asset& asset, const std::vector<std::arra
             SimplifyResult part;
             part.mesh.triangles.assign(asset.parts[p].triangles.begin(),
                                        asset.parts[p].triangles.begin() + static_cast<long>(counts[p][k]));
-            (k == 0 ? result.parts : result.kept).push_back(std::move(part));
+            (k == 0 ? result.parts : result.with_uvs).push_back(std::move(part));
         }
     }
     return result;
@@ -222,7 +222,7 @@ TEST_CASE("kept UVs: sets share the faces that the target leaves") {
 
 TEST_CASE("kept UVs: none are tried when an option is about the atlas or the collapses") {
     const Asset asset = tiled_cloth();
-    const auto kept = [&](Options options) { return simplify_parts(asset, options).kept.size(); };
+    const auto kept = [&](Options options) { return simplify_parts(asset, options).with_uvs.size(); };
     CHECK(kept(tenth()) == 1);
     Options options = tenth();
     options.history = Recording::on;

@@ -70,7 +70,7 @@ TEST_CASE("a bake without time gives simplified meshes the UVs and images of the
     REQUIRE(simplified.asset.images.size() == 1);
     CHECK(simplified.asset.images[0].encoded == source.images[0].encoded);
     const Part& part = simplified.asset.parts[0];
-    const TriangleMesh& mesh = kind == Bake::automatic ? parts.kept[0].mesh : parts.parts[0].mesh;
+    const TriangleMesh& mesh = kind == Bake::automatic ? parts.with_uvs[0].mesh : parts.parts[0].mesh;
     CHECK(part.triangles.size() == mesh.triangles.size());
     // All corners of a vertex have one UV: it is not split.
     CHECK(part.positions.size() == mesh.positions.size());
@@ -87,9 +87,10 @@ TEST_CASE("meshes that were simplified with their UVs keep these without time") 
     const Asset source = wavy(24, true);
     Options options{.target = ratio(0.1)};
     const SimplifiedParts parts = simplify_parts(source, options);
-    REQUIRE(parts.kept.size() == 1);
-    const SimplifiedAsset expected = bake(source, {.parts = parts.kept, .report = parts.report, .kept = {}},
-                                          {.bake = {.kind = Bake::keep}});
+    REQUIRE(parts.with_uvs.size() == 1);
+    const SimplifiedAsset expected =
+        bake(source, {.parts = parts.with_uvs, .report = parts.report, .with_uvs = {}},
+             {.bake = {.kind = Bake::keep}});
     options.max_seconds = no_time;
     const SimplifiedAsset late = bake(source, parts, options);
     CHECK(!mentions(late.report, "cross borders"));
