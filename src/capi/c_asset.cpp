@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capi/c_mesh.hpp"
+#include "scene/resolved_options.hpp"
 
 namespace {
 
@@ -41,6 +42,13 @@ void check(const Part& part) {
 
 }  // namespace
 
+void capi::warn_of_idle_options(const faqem_options* options, const Asset& source, Report& report) {
+    if (!options) return;
+    for (std::string& idle :
+         detail::idle_options(source, options->options, options->named, detail::member_spelling))
+        report.warnings.push_back(std::move(idle));
+}
+
 faqem_status faqem_asset_load(const char* path, faqem_asset** asset, faqem_error* error) {
     return capi::catch_exceptions(error, [&] {
         capi::require_argument(path, "path");
@@ -66,7 +74,9 @@ faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options*
     return capi::catch_exceptions(error, [&] {
         capi::require_argument(asset, "asset");
         capi::require_argument(simplified, "simplified");
-        *simplified = new faqem_asset(simplify(asset->asset, capi::options_or_defaults(options)));
+        SimplifiedAsset made = simplify(asset->asset, capi::options_or_defaults(options));
+        capi::warn_of_idle_options(options, asset->asset, made.report);
+        *simplified = new faqem_asset(std::move(made));
     });
 }
 

@@ -42,6 +42,9 @@ private:
     std::deque<std::string> texts_;  // not a vector, which would move the texts
 };
 
+/// Adds the warnings of options that have no effect on a model.
+void warn_of_idle_options(const faqem_options* options, const Asset& source, Report& report);
+
 }  // namespace faqem::capi
 
 struct faqem_asset {

@@ -39,6 +39,8 @@ faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, const faqem_o
         std::vector<SimplifiedAssetLevel> simplified = simplify_levels(
             asset->asset, capi::to_levels(levels, level_count), capi::options_or_defaults(options),
             textures == FAQEM_LEVEL_TEXTURES_SHARED ? LevelTextures::shared : LevelTextures::each);
+        if (!simplified.empty())
+            capi::warn_of_idle_options(options, asset->asset, simplified.front().result.report);
         std::vector<std::unique_ptr<faqem_asset>> objects;
         objects.reserve(simplified.size());
         for (SimplifiedAssetLevel& level : simplified)
@@ -106,6 +108,8 @@ faqem_status faqem_asset_bake_truncated(const faqem_asset* source, const faqem_h
         const SimplifiedParts simplified_parts =
             detail::parts_from_histories(capi::truncate_parts(history, faces));
         detail::check_source_matches_histories(source->asset, simplified_parts);
-        *simplified = new faqem_asset(bake(source->asset, simplified_parts, bake_options));
+        SimplifiedAsset made = bake(source->asset, simplified_parts, bake_options);
+        capi::warn_of_idle_options(options, source->asset, made.report);
+        *simplified = new faqem_asset(std::move(made));
     });
 }

@@ -50,7 +50,9 @@ faqem_status faqem_options_set(faqem_options* options, const char* name, const c
         faqem::capi::require_argument(options, "options");
         faqem::capi::require_argument(name, "name");
         faqem::capi::require_argument(value, "value");
-        set_option(options->options, detail::named_option(name), value, detail::name_spelling);
+        const detail::OptionRow& row = detail::named_option(name);
+        set_option(options->options, row, value, detail::name_spelling);
+        options->named.push_back(row.name);
     });
 }
 

@@ -4,7 +4,9 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "capi/guard.hpp"
 #include "faqem/faqem.h"
@@ -14,6 +16,7 @@
 
 struct faqem_options {
     faqem::Options options;
+    std::vector<std::string_view> named;  ///< names of options that were set by name
 };
 
 namespace faqem::capi {

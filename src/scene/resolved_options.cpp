@@ -6,6 +6,7 @@
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "faqem/error.hpp"
+#include "scene/position_grids.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -63,6 +64,17 @@ Options resolved_options(const Asset& source, Options options) {
     if (needs_pixels && std::any_of(source.images.begin(), source.images.end(), is_passed_through))
         bake.kind = Bake::keep;
     return options;
+}
+
+std::vector<std::string> idle_options(const Asset& source, const Options& options,
+                                      std::span<const std::string_view> names, OptionSpelling spelling) {
+    Options resolved = resolved_options(source, options);
+    resolved.compress = result_compression(source, resolved);
+    // Normals and UVs of a source that has them rounded are rounded with the bits of the options; positions are not.
+    if (resolved.quantize.kind == Quantize::source && resolved.compress != Compression::draco &&
+        source.normal_bits == 0 && source.uv_bits == 0)
+        resolved.quantize.kind = Quantize::off;
+    return idle_options(resolved, names, spelling);
 }
 
 bool may_keep_uvs(const Options& options) {

@@ -3,6 +3,7 @@
 /// The options of a run for an asset: what is automatic is chosen by the source and the format of the result.
 
 #include "faqem/asset.hpp"
+#include "faqem/detail/options/option_table.hpp"
 #include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
@@ -21,6 +22,12 @@ namespace faqem::detail {
 /// \throws OptionError  ImageFormat::webp or Quantize::on is asked for, and the format is not glTF
 /// Complexity: O(faces + images).
 FAQEM_EXPORT Options resolved_options(const Asset& source, Options options);
+
+/// Warnings of options that a user has given, and that have no effect on this source: idle_options() of a table.
+/// \throws whatever resolved_options() throws
+FAQEM_EXPORT std::vector<std::string> idle_options(const Asset& source, const Options& options,
+                                                   std::span<const std::string_view> names,
+                                                   OptionSpelling spelling);
 
 /// Whether the options leave it to bake() to keep UVs: Bake::automatic without any option that is about a new atlas
 /// or about the collapses.

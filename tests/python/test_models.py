@@ -71,6 +71,13 @@ class Models(unittest.TestCase):
         faqem.save(result, self.folder / "result.obj")
         self.assertIn("was made for .ply files", result.warnings[-1])
 
+    def test_an_option_without_effect_gives_a_warning(self):
+        model = faqem.Model.from_arrays(*flat_grid(4))
+        for result, count in ((faqem.simplify(model, bake="keep", texture_size=64), 1),
+                              (faqem.simplify(model, bake="keep", texture_size=None), 0)):
+            idle = [warning for warning in result.report["warnings"] if "has no effect" in warning]
+            self.assertEqual(len(idle), count, idle)
+
     def test_levels_have_separate_or_shared_textures(self):
         source = faqem.load(self.coloured())
         self.assertIsNone(source.error)

@@ -49,6 +49,9 @@ int run(const BatchArguments& arguments) {
     options.format = format_of_output("model" + extension);
     const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, extension);
     check_outputs_unprotected(files, arguments.out);
+    for (const std::string& idle :
+         detail::idle_options(options, typed_names(arguments.options), detail::command_spelling))
+        std::cerr << "faqem: warning: " << idle << "\n";
     make_folder(arguments.out);
     BatchRecord record(arguments.out);
     const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3;

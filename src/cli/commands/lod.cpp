@@ -27,6 +27,7 @@
 #include "result/simplify_file.hpp"
 #include "result/simplify_levels.hpp"
 #include "scene/level_coverage.hpp"
+#include "scene/resolved_options.hpp"
 #include "scene/scene_size.hpp"
 
 namespace faqem::cli {
@@ -153,6 +154,8 @@ public:
     ExitCode operator()() {
         size_ = detail::scene_size(source_);
         warnings_ = source_.warnings;
+        append(warnings_, detail::idle_options(source_, options_, typed_names(arguments_.options),
+                                               detail::command_spelling));
         const ExitCode code = arguments_.level_textures() == LevelTextures::shared
                                   ? write_with_shared_texture()
                                   : write_with_separate_textures();

@@ -49,11 +49,13 @@ std::vector<std::string> without_short_form(const CommandTree& tree, std::vector
 int parse_and_run(int argc, char** argv) {
     CLI::App app;
     Action action;
-    const CommandTree tree = command_tree();
+    CommandTree tree = command_tree();
     add_to_parser(app, tree, action);
     const std::vector<std::string> words = without_short_form(tree, {argv + std::min(argc, 1), argv + argc});
     try {
         std::vector<std::string> all = expand_profile(tree, words);
+        const auto added = std::mismatch(words.begin(), words.end(), all.begin(), all.end()).second;
+        tree.profile_words.assign(added, added + static_cast<std::ptrdiff_t>(all.size() - words.size()));
         std::reverse(all.begin(), all.end());  // CLI11 expects the words in reverse order
         app.parse(std::move(all));
     } catch (const CLI::ParseError& error) {

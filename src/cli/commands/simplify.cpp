@@ -29,6 +29,7 @@
 #include "faqem/error.hpp"
 #include "faqem/report_json.hpp"
 #include "result/simplify_file.hpp"
+#include "scene/resolved_options.hpp"
 
 namespace faqem::cli {
 
@@ -168,11 +169,16 @@ SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, cons
     // Image libraries start a thread per hardware thread, besides those of --threads.
     limit_process_memory(allowed, detail::thread_count(options.threads) + detail::thread_count(0));
     std::optional<ExitOnInterrupt> exit_on_interrupt(std::in_place);  // load() cannot be cancelled
-    return detail::simplify_file(arguments.in, options, [&](const Asset& source) {
+    std::vector<std::string> idle;
+    SimplifiedAsset result = detail::simplify_file(arguments.in, options, [&](const Asset& source) {
         exit_on_interrupt.reset();
+        idle =
+            detail::idle_options(source, options, typed_names(arguments.options), detail::command_spelling);
         check_strictness(source, arguments.in, arguments.strictness());
         require_memory(arguments.in, estimated_peak_memory(source, options), allowed);
     });
+    result.report.warnings.insert(result.report.warnings.end(), idle.begin(), idle.end());
+    return result;
 }
 
 int run(const SimplifyCommandArguments& arguments) {

@@ -110,6 +110,10 @@ int run(const TruncateArguments& arguments) {
                                        ? geometry_only(simplified_parts)
                                        : baked_model(arguments, simplified_parts, options);
     std::vector<std::string> warnings = result.report.warnings;
+    if (arguments.source.empty()) options.bake.kind = Bake::none;
+    for (std::string& idle :
+         detail::idle_options(options, typed_names(arguments.options), detail::command_spelling))
+        warnings.push_back(std::move(idle));
     detail::FileSet set;
     {
         const detail::CollectWrites collect(set);

@@ -19,8 +19,8 @@ OptionInfo bound_number(const std::string& name, const std::string& value_name, 
     OptionInfo info{CLI::detail::split(name, ','), value_name, description};
     info.kind = std::is_integral_v<Number> ? OptionKind::integer : OptionKind::number;
     info.range = range;
-    info.read = [&value, name = info.names.back(), range,
-                 kind = info.kind](const std::vector<std::string>& values) {
+    info.read = [&value, name = info.names.back(), range, kind = info.kind](
+                    const std::vector<std::string>& values, bool) {
         value =
             static_cast<Number>(*detail::parse_option_number(values.back(), kind, range, "", name).number);
     };
@@ -31,7 +31,7 @@ OptionInfo bound_number(const std::string& name, const std::string& value_name, 
 
 OptionInfo flag_option(const std::string& names, bool& value, const std::string& description) {
     OptionInfo info{CLI::detail::split(names, ','), "", description, OptionKind::flag};
-    info.read = [&value](const std::vector<std::string>&) { value = true; };
+    info.read = [&value](const std::vector<std::string>&, bool) { value = true; };
     return info;
 }
 
@@ -40,7 +40,7 @@ OptionInfo text_option(const std::string& names, const std::string& value_name, 
     OptionInfo info{CLI::detail::split(names, ','), value_name, description};
     const std::vector<std::string> choices = choices_of(info);
     if (!choices.empty()) info.kind = OptionKind::choice;
-    info.read = [&value, choices, name = info.names.back()](const std::vector<std::string>& values) {
+    info.read = [&value, choices, name = info.names.back()](const std::vector<std::string>& values, bool) {
         value = values.back();
         if (choices.empty() || std::find(choices.begin(), choices.end(), value) != choices.end()) return;
         throw OptionError(name + ": unknown value '" + value +
@@ -64,7 +64,7 @@ OptionInfo number_option(const std::string& name, const std::string& value_name,
 
 OptionInfo size_option(const std::string& name, std::uint64_t& bytes, const std::string& description) {
     OptionInfo info{{name}, "SIZE", description, OptionKind::size};
-    info.read = [&bytes, name](const std::vector<std::string>& values) {
+    info.read = [&bytes, name](const std::vector<std::string>& values, bool) {
         const detail::OptionRange above_zero_bytes = {.max = 0x1p63, .excludes_min = true};
         bytes = static_cast<std::uint64_t>(
             *detail::parse_option_number(values.back(), OptionKind::size, above_zero_bytes, "bytes", name)
@@ -77,7 +77,7 @@ OptionInfo list_option(const std::string& name, std::vector<std::string>& words,
                        const std::string& description) {
     OptionInfo info{{name}, "LIST", description, OptionKind::list};
     info.max_words = CLI::detail::expected_max_vector_size;
-    info.read = [&words](const std::vector<std::string>& values) { words = values; };
+    info.read = [&words](const std::vector<std::string>& values, bool) { words = values; };
     return info;
 }
 

@@ -52,7 +52,7 @@ OptionInfo builtin_profile_option() {
         "Options for web viewers or game engines; faqem profiles shows them. Those typed and those of "
         "--config take precedence",
         detail::OptionKind::choice};
-    info.read = [](const std::vector<std::string>& values) { builtin_profile(values.back()); };
+    info.read = [](const std::vector<std::string>& values, bool) { builtin_profile(values.back()); };
     return info;
 }
 

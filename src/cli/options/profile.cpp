@@ -131,7 +131,7 @@ void check_version(const Json& profile, const std::string& file) {
 OptionInfo profile_option() {
     OptionInfo info =
         rare({{"--config"}, "FILE", "Read options from a profile (JSON file); those typed take precedence"});
-    info.read = [](const std::vector<std::string>&) {};
+    info.read = [](const std::vector<std::string>&, bool) {};
     return info;
 }
 

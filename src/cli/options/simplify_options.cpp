@@ -33,8 +33,8 @@ OptionInfo option_of(const OptionRow& row, GivenOptions& given) {
     if (!row.letter.empty()) info.names.insert(info.names.begin(), "-" + std::string(row.letter));
     info.group = row.group;
     info.suffix_choice = row.suffix_choice;
-    info.read = [&row, &given, is_flag](const std::vector<std::string>& values) {
-        given.emplace_back(&row, is_flag ? std::string(row.flag_value) : values.back());
+    info.read = [&row, &given, is_flag](const std::vector<std::string>& values, bool is_typed) {
+        given.push_back({&row, is_flag ? std::string(row.flag_value) : values.back(), is_typed});
     };
     return info;
 }
@@ -65,13 +65,17 @@ std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target) {
                              "Exit with 5, and write no model, if the target is missed"))};
 }
 
-bool is_given(const GivenOptions& given, std::string_view name) {
-    return std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first->name == name; });
+std::vector<std::string_view> typed_names(const GivenOptions& given) {
+    std::vector<std::string_view> names;
+    for (const GivenOption& option : given)
+        if (option.is_typed) names.push_back(option.row->name);
+    return names;
 }
 
 Options make_options(const GivenOptions& given, detail::OptionTable table) {
     Options options;
-    for (const auto& [row, text] : given) set_option(options, *row, text, detail::command_spelling, table);
+    for (const GivenOption& option : given)
+        set_option(options, *option.row, option.value, detail::command_spelling, table);
     check_options(options, detail::command_spelling, table);
     return options;
 }

@@ -4,7 +4,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "cli/files/input_model.hpp"
@@ -14,8 +13,13 @@
 
 namespace faqem::cli {
 
-/// Options of the table (detail/options) on a command line, with their values.
-using GivenOptions = std::vector<std::pair<const detail::OptionRow*, std::string>>;
+/// An option of the table (detail/options) on a command line or in a profile.
+struct GivenOption {
+    const detail::OptionRow* row;
+    std::string value;
+    bool is_typed;
+};
+using GivenOptions = std::vector<GivenOption>;
 
 /// What the parsed command lines of these commands have in common.
 struct SimplifyArguments {
@@ -36,8 +40,8 @@ OptionInfo strict_option(bool& strict);
 /// --strict and --strict-target.
 std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target);
 
-/// Tests whether an option is given. \param name  OptionRow::name
-bool is_given(const GivenOptions& given, std::string_view name);
+/// Names of the options that were typed.
+std::vector<std::string_view> typed_names(const GivenOptions& given);
 
 /// Parses one level: `0.5` or `50%` (ratio of faces), `5000` (number of faces), `error:0.01` (distance in model units)
 /// or `error:0.1%` (distance relative to the diagonal).

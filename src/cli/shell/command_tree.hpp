@@ -25,8 +25,9 @@ struct OptionInfo {
     bool is_positional = false;        ///< of an option: required, and may also be the last word
     int min_words = 1, max_words = 1;  ///< number of values
 
-    /// Receives the values after parsing. Throws OptionError if they are invalid. Empty: the parser itself handles the option.
-    std::function<void(const std::vector<std::string>& values)> read = {};
+    /// Receives the values after parsing, and whether they were typed: those of a profile are not. Throws OptionError if
+    /// they are invalid. Empty: the parser itself handles the option.
+    std::function<void(const std::vector<std::string>& values, bool is_typed)> read = {};
 };
 
 /// The possible values of an option; empty if they are not enumerated.
@@ -55,6 +56,7 @@ struct CommandTree {
     std::string exit_codes = {};           ///< paragraph that lists the exit codes
     std::vector<OptionInfo> options = {};  ///< options of `faqem` without a subcommand
     std::vector<CommandInfo> commands = {};
+    std::vector<std::string> profile_words = {};  ///< of the command line that is parsed: those not typed
 };
 
 }  // namespace faqem::cli

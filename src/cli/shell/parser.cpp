@@ -1,6 +1,7 @@
 #include "cli/shell/parser.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <utility>
 
 #include "cli/shell/help.hpp"
@@ -24,17 +25,20 @@ CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
     return option;
 }
 
-void read_values(const ParsedOption& parsed) {
+void read_values(const ParsedOption& parsed, const CommandTree& tree) {
     const auto& [info, option] = parsed;
     // CLI11 would say that --output is missing.
     if (option->count() == 0 && info->is_positional) throw CLI::RequiredError(info->value_name);
     if (option->count() == 0) return;
     const bool is_flag = info->kind == detail::OptionKind::flag;
     if (is_flag && CLI::detail::to_flag_value(option->results().back()) <= 0) return;  // --quiet=false
-    info->read(option->results());
+    const bool is_typed = std::none_of(
+        tree.profile_words.begin(), tree.profile_words.end(),
+        [&](const std::string& word) { return word.substr(0, word.find('=')) == info->names.back(); });
+    info->read(option->results(), is_typed);
 }
 
-void add_command(CLI::App& app, const CommandInfo& info, Action& action) {
+void add_command(CLI::App& app, const CommandTree& tree, const CommandInfo& info, Action& action) {
     CLI::App& command = *app.add_subcommand(info.name);
     std::vector<ParsedOption> options;
     for (const std::vector<OptionInfo>& group : {std::cref(info.positionals), std::cref(info.options)}) {
@@ -45,8 +49,8 @@ void add_command(CLI::App& app, const CommandInfo& info, Action& action) {
     for (const auto& [option, parsed] : options) {
         for (const std::string& other : option->excludes) parsed->excludes(command.get_option(other));
     }
-    command.final_callback([options, &info, &action] {
-        for (const ParsedOption& option : options) read_values(option);
+    command.final_callback([options, &tree, &info, &action] {
+        for (const ParsedOption& option : options) read_values(option, tree);
         action = info.run;
     });
 }
@@ -64,7 +68,7 @@ void add_to_parser(CLI::App& app, const CommandTree& tree, Action& action) {
                 return command_help(command, mode == CLI::AppFormatMode::All);
         return tree_help(tree);
     });
-    for (const CommandInfo& command : tree.commands) add_command(app, command, action);
+    for (const CommandInfo& command : tree.commands) add_command(app, tree, command, action);
 }
 
 }  // namespace faqem::cli

@@ -7,6 +7,24 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
+// Functions for OptionRow::idle.
+
+inline std::string_view without_new_texture(const Options& o) {
+    return o.bake.kind == Bake::automatic || makes_atlas(o.bake.kind) ? "" : "there is no new texture";
+}
+inline std::string_view without_new_image(const Options& o) {
+    return o.max_bytes ? "" : without_new_texture(o);
+}
+inline std::string_view without_rounding(const Options& o) {
+    const bool may_round = o.compress == Compression::draco || o.compress == Compression::source;
+    const bool rounds = o.quantize.kind == Quantize::on || (o.quantize.kind == Quantize::source && may_round);
+    return rounds ? "" : "vertices are not rounded to a new grid";
+}
+inline std::string_view without_compression(const Options& o) {
+    if (o.compress == Compression::none) return "vertices are not compressed";
+    return o.quantize.kind == Quantize::off ? "vertices are not rounded" : "";
+}
+
 inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::budget>(
         {.name = "budget",
@@ -51,19 +69,22 @@ inline constexpr OptionRow appearance_rows[] = {
          .value_name = "N",
          .help = "Maximum side of a baked image in texels",
          .group = "Appearance",
-         .entry_points = in_all}),
+         .entry_points = in_all,
+         .idle = without_new_image}),
     option_row<&Options::bake, &BakeOptions::texel_density>(
         {.name = "texel-density",
          .range = {.min = 0.125, .max = 8},
          .value_name = "X",
          .default_text = "1, more on small pages",
          .help = "Texels per length of a new texture, relative to the source",
-         .entry_points = in_all}),
+         .entry_points = in_all,
+         .idle = without_new_texture}),
     option_row<&Options::bake, &BakeOptions::normal_map>(
         {.name = "normal-map",
          .choices = "auto|on|off",
          .help = "Normal map of a new texture; auto (if the source has one or its normals differ), on, off",
-         .entry_points = in_all}),
+         .entry_points = in_all,
+         .idle = without_new_texture}),
     option_row<&Options::bake, &BakeOptions::normals>(
         {.name = "normals",
          .choices = "transfer|smooth|flat|none",
@@ -87,7 +108,8 @@ inline constexpr OptionRow appearance_rows[] = {
                  "auto, never WebP)",
          .suffix_choice = "jpeg",
          .suffix_option = "jpeg-quality",
-         .entry_points = in_all}),
+         .entry_points = in_all,
+         .idle = without_new_image}),
     option_row<&Options::bake, &BakeOptions::image_quality>(
         {.name = "image-quality",
          .range = {.min = 20, .max = 80},
@@ -96,7 +118,8 @@ inline constexpr OptionRow appearance_rows[] = {
          .default_text = "40, 38 to 44 if pictures were compared",
          .help = "Least PSNR of baked colours with --image-format auto, webp or png-or-jpeg; of data 4 dB "
                  "less, of normals up to 4 dB less, where the surface is rough",
-         .entry_points = in_all}),
+         .entry_points = in_all,
+         .idle = without_new_image}),
     option_row<&Options::bake, &BakeOptions::jpeg_quality>(
         {.name = "jpeg-quality",
          .command_name = "image-format: the quality of jpeg",
@@ -133,19 +156,22 @@ inline constexpr OptionRow appearance_rows[] = {
          .value_name = "N",
          .default_text = "14",
          .help = "Bits of quantised positions; steps of the grid along the diagonal of the scene",
-         .entry_points = in_all}),
+         .entry_points = in_all,
+         .idle = without_rounding}),
     option_row<&Options::quantize, &QuantizeOptions::normal_bits>(
         {.name = "normal-bits",
          .range = {.min = 8, .max = 16},
          .value_name = "N",
          .help = "Bits of quantised normals and tangents that are compressed",
-         .entry_points = in_all}),
+         .entry_points = in_all,
+         .idle = without_compression}),
     option_row<&Options::quantize, &QuantizeOptions::uv_bits>(
         {.name = "uv-bits",
          .range = {.min = 8, .max = 16},
          .value_name = "N",
          .help = "Bits of quantised texture coordinates that are compressed",
-         .entry_points = in_all}),
+         .entry_points = in_all,
+         .idle = without_compression}),
 };
 
 }  // namespace detail

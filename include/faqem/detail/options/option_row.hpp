@@ -83,6 +83,10 @@ struct OptionRow {
     unsigned entry_points = in_c_and_python;
     bool affects_result = true;
 
+    /// Says why the option has no effect with the others; empty if it has one. Null: it always has one.
+    /// \param options  what is automatic is resolved as far as it is known
+    std::string_view (*idle)(const Options& options) = nullptr;
+
     OptionValue (*get)(const Options&) = nullptr;
     void (*set)(Options&, const OptionValue&) = nullptr;  ///< \pre the value is in the range
 };

@@ -219,6 +219,18 @@ FAQEM_INLINE void check_options(const Options& options, OptionSpelling spelling,
     }
 }
 
+FAQEM_INLINE std::vector<std::string> idle_options(const Options& options,
+                                                   std::span<const std::string_view> names,
+                                                   OptionSpelling spelling) {
+    std::vector<std::string> warnings;
+    for (const OptionRow& row : option_table()) {
+        if (!row.idle || std::find(names.begin(), names.end(), row.name) == names.end()) continue;
+        if (const std::string_view reason = row.idle(options); !reason.empty())
+            warnings.push_back(spelling(row) + " has no effect: " + std::string(reason));
+    }
+    return warnings;
+}
+
 FAQEM_INLINE std::string options_key(const Options& options, OptionTable table) {
     std::string key;
     for (const OptionRow& row : table) {

@@ -60,6 +60,12 @@ FAQEM_EXPORT std::string option_text(const Options& options, const OptionRow& ro
 FAQEM_EXPORT void check_options(const Options& options, OptionSpelling spelling,
                                 OptionTable table = option_table());
 
+/// Warnings of options that a user has given, and that have no effect with the others (OptionRow::idle).
+/// \param names  OptionRow::name, once each
+FAQEM_EXPORT std::vector<std::string> idle_options(const Options& options,
+                                                   std::span<const std::string_view> names,
+                                                   OptionSpelling spelling);
+
 /// All options that the result depends on as text. Options with equal texts give equal results.
 FAQEM_EXPORT std::string options_key(const Options& options, OptionTable table = option_table());
 
