@@ -100,10 +100,13 @@ void check_max_bytes(const LodArguments& a, const Outputs& outputs, const Option
 }
 
 /// Checks all output files and creates their folder.
-void prepare_outputs(const LodArguments& a, const Outputs& outputs) {
+void prepare_outputs(LodArguments& a, const Outputs& outputs) {
     protect_input(a.in);
     check_models_unprotected(outputs.models);
     for (const fs::path& file : {outputs.manifest, fs::path(a.history)}) check_unprotected(file);
+    std::vector<fs::path> files = outputs.models;
+    files.insert(files.end(), {outputs.manifest, a.history});
+    a.force = may_overwrite(files, a.force);
     if (!outputs.is_file) make_folder(a.out);
     for (const fs::path& file : outputs.models) check_output(file, a.overwrite());
     check_output(outputs.manifest, a.overwrite());
@@ -291,7 +294,7 @@ private:
     detail::FileSet set_;
 };
 
-int run(const LodArguments& arguments) {
+int run(LodArguments arguments) {
     Options options = make_options(arguments.options);
     std::vector<Level> levels;
     for (const std::string& text : arguments.levels)

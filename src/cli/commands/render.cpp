@@ -32,9 +32,9 @@ int run(const RenderArguments& arguments) {
     }
     if (models.empty() || models.size() > 16)
         throw OptionError("render: 1 to 16 models and an image are required");
-    const Overwrite overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
     check_extension(out, {".png"});
     for (const std::string& model : models) protect_input(model);
+    const Overwrite overwrite = may_overwrite({out}, arguments.force) ? Overwrite::yes : Overwrite::no;
     check_output(out, overwrite);
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;

@@ -23,6 +23,7 @@
 #include "cli/process/interrupt.hpp"
 #include "cli/process/progress_bar.hpp"
 #include "cli/process/rejection.hpp"
+#include "cli/process/shown_text.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
@@ -47,12 +48,14 @@ struct SimplifyCommandArguments : SimplifyArguments {
 };
 
 /// Checks all output files before the work starts, which may take hours.
-void check_outputs(const SimplifyCommandArguments& arguments) {
+void check_outputs(SimplifyCommandArguments& arguments) {
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.in);
+    const std::vector<std::filesystem::path> files = {arguments.out, arguments.report, arguments.history,
+                                                      arguments.correspondence};
+    arguments.force = may_overwrite(files, arguments.force);
     std::vector<std::filesystem::path> taken;
-    for (const std::string& file :
-         {arguments.out, arguments.report, arguments.history, arguments.correspondence}) {
+    for (const std::filesystem::path& file : files) {
         if (file.empty()) continue;
         check_output(file, arguments.overwrite());
         for (const auto& other : taken) check_different(file, other);
@@ -88,18 +91,6 @@ void print_counts(std::ostream& out, const Report& report) {
         separator = ", ";
     }
     if (separator == ", ") out << "\n";
-}
-
-/// A size for people: `812 bytes`, `1.2 kB`, `34.5 MB`.
-std::string shown_bytes(std::uint64_t bytes) {
-    if (bytes < 1000) return std::to_string(bytes) + " bytes";
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(1);
-    if (bytes < 999'950)
-        out << static_cast<double>(bytes) / 1e3 << " kB";
-    else
-        out << static_cast<double>(bytes) / 1e6 << " MB";
-    return out.str();
 }
 
 /// What holds the bytes, in one line.
@@ -181,7 +172,7 @@ SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, cons
     return result;
 }
 
-int run(const SimplifyCommandArguments& arguments) {
+int run(SimplifyCommandArguments arguments) {
     Options options = make_options(arguments.options);
     options.format = format_of_output(arguments.out);
     if (!arguments.history.empty()) options.history = Recording::on;

@@ -78,7 +78,7 @@ SimplifiedAsset baked_model(const TruncateArguments& arguments, const Simplified
     });
 }
 
-int run(const TruncateArguments& arguments) {
+int run(TruncateArguments arguments) {
     Options options = make_options(arguments.options);
     options.format = format_of_output(arguments.out);
     if (options.bake.kind == Bake::keep)
@@ -88,6 +88,7 @@ int run(const TruncateArguments& arguments) {
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.history);
     if (!arguments.source.empty()) protect_input(arguments.source);
+    arguments.force = may_overwrite({arguments.out}, arguments.force);
     check_output(arguments.out, arguments.overwrite());
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;

@@ -1,11 +1,16 @@
 #include "cli/files/output_file.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <ctime>
+#include <iomanip>
+#include <iostream>
 #include <mutex>
 #include <set>
 #include <span>
+#include <sstream>
 #include <string>
 
 #include "asset/file_format.hpp"
@@ -14,6 +19,7 @@
 #include "asset/io/temporary_file.hpp"
 #include "cli/files/protected_files.hpp"
 #include "cli/process/interrupt.hpp"
+#include "cli/process/shown_text.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -54,6 +60,31 @@ void check_output(const fs::path& file, Overwrite overwrite) {
     }
     if (access(folder.c_str(), W_OK) != 0)
         throw WriteError(file.string() + ": the directory is not writable");
+}
+
+bool may_overwrite(const std::vector<fs::path>& files, bool force) {
+    if (force || isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1) return force;
+    const std::set<fs::path> different(files.begin(), files.end());
+    std::vector<std::string> existing;
+    for (const fs::path& file : different) {
+        struct stat status = {};
+        if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+        check_unprotected(file);
+        struct tm time = {};
+        std::ostringstream text;
+        text << file.string() << " exists (" << shown_bytes(static_cast<std::uint64_t>(status.st_size))
+             << ", " << std::put_time(localtime_r(&status.st_mtime, &time), "%Y-%m-%d %H:%M") << ")";
+        existing.push_back(text.str());
+    }
+    if (existing.empty()) return false;
+    install_signal_handlers();
+    const ExitOnInterrupt exit_on_interrupt;
+    std::cerr << "faqem: " << existing[0];
+    if (existing.size() > 1) std::cerr << " and " << existing.size() - 1 << " more";
+    std::cerr << "; overwrite? [y/N] " << std::flush;
+    std::string answer;
+    std::getline(std::cin, answer);
+    return answer == "y" || answer == "Y" || answer == "yes";
 }
 
 void check_different(const fs::path& file, const fs::path& other) {

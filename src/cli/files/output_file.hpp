@@ -21,6 +21,13 @@ namespace faqem::cli {
 /// \throws WriteError   any other condition is violated
 void check_output(const std::filesystem::path& file, Overwrite overwrite);
 
+/// Asks at a terminal, once for all files, whether those that exist may be overwritten. Files that are protected are not
+/// asked about.
+/// \param force  the answer without a question
+/// \return false if the answer is not yes, or nobody can be asked
+/// \throws OptionError, WriteError  as check_unprotected()
+bool may_overwrite(const std::vector<std::filesystem::path>& files, bool force);
+
 /// Checks that two output files are not the same one, whether or not they exist. Links and relative paths do not
 /// matter. \throws OptionError  they are the same
 void check_different(const std::filesystem::path& file, const std::filesystem::path& other);
