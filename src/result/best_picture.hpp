@@ -6,14 +6,13 @@
 
 #include "faqem/bake.hpp"
 #include "faqem/engine/util/run_context.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
 /// Whether a run searches for the best picture: Options::max_bytes is set, no target is, and the kind of baking is
 /// Bake::automatic, without options that are about a new atlas or the collapses, or Bake::keep, vertex or none.
 /// \param options  resolved_options()
-FAQEM_EXPORT bool searches_best_picture(const Options& options);
+bool searches_best_picture(const Options& options);
 
 /// Simplifies with the UVs of the source (Bake::automatic and Bake::keep) or as BakeOptions::kind says, so that
 /// pictures of the result are as near to those of the source as the bytes allow:

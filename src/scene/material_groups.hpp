@@ -8,7 +8,6 @@
 
 #include "asset/scene/material_textures.hpp"
 #include "faqem/asset.hpp"
-#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -50,7 +49,7 @@ std::vector<bool> used_materials(const Asset& asset, std::span<const std::uint8_
 /// materials with different factors are not merged. Scenes with skins or morph targets are not plain: what
 /// moves with a vertex is transferred less exactly at the border of two materials than across it.
 /// Complexity: O(materials + parts).
-FAQEM_EXPORT bool has_plain_materials(const Asset& asset, const BakeOptions& bake);
+bool has_plain_materials(const Asset& asset, const BakeOptions& bake);
 
 /// Groups the materials of an asset. Materials are merged if they agree in alpha mode (and cutoff), in
 /// double-sidedness and in being unlit. A material with other extensions is a group of its own, since
@@ -64,11 +63,11 @@ MaterialGroups group_materials(const Asset& asset, const BakeOptions& bake,
 /// Whether a part has UVs that no texture of its materials uses, and no vertex colours other than white, so that nothing
 /// of it needs a page. Its UVs may be those of light maps that a program adds.
 /// Complexity: O(vertices + faces log faces).
-FAQEM_EXPORT bool has_spare_uvs_only(const Asset& asset, const Part& part);
+bool has_spare_uvs_only(const Asset& asset, const Part& part);
 
 /// By part: nonzero if has_spare_uvs_only() and no page is baked for its material groups, so that it keeps its UVs.
 /// Complexity: that of has_spare_uvs_only() and group_materials().
-FAQEM_EXPORT std::vector<std::uint8_t> parts_with_own_uvs(const Asset& asset, const BakeOptions& bake);
+std::vector<std::uint8_t> parts_with_own_uvs(const Asset& asset, const BakeOptions& bake);
 
 /// Whether a part has vertex colours other than white.
 bool has_non_white_colors(const Part& part);

@@ -21,7 +21,7 @@ namespace faqem::detail {
 /// Options that are resolved already stay as they are.
 /// \throws OptionError  ImageFormat::webp or Quantize::on is asked for, and the format is not glTF
 /// Complexity: O(faces + images).
-FAQEM_EXPORT Options resolved_options(const Asset& source, Options options);
+Options resolved_options(const Asset& source, Options options);
 
 /// Warnings of options that a user has given, and that have no effect on this source: idle_options() of a table.
 /// \throws whatever resolved_options() throws

@@ -40,9 +40,8 @@ std::string percent_decoded(std::string_view text);
 /// \throws ReadError   if the file does not exist or is not accessible
 /// \throws InputError  if the reference is empty, is absolute, has a scheme (`http:`, `C:`), lies outside the
 ///                     folder or is not a regular file
-FAQEM_EXPORT std::filesystem::path resolve_inside(const std::filesystem::path& folder,
-                                                  std::string_view reference,
-                                                  ReferenceSyntax kind = ReferenceSyntax::uri);
+std::filesystem::path resolve_inside(const std::filesystem::path& folder, std::string_view reference,
+                                     ReferenceSyntax kind = ReferenceSyntax::uri);
 
 /// Returns the path that a file reference of an asset names, wherever it is: unlike resolve_inside(), which
 /// decides what may be read, this does not examine the path, so it may name a file outside the folder or none.

@@ -15,7 +15,7 @@ namespace faqem::detail {
 /// counts once: its copies are not worth a page each.
 /// \param skipped_parts  by part: whether it is not on a page; empty: all are
 /// Complexity: O(faces + materials^2 + bytes of images).
-FAQEM_EXPORT MaterialGroups page_groups(const Asset& asset, const BakeOptions& bake,
-                                        std::span<const std::uint8_t> skipped_parts = {});
+MaterialGroups page_groups(const Asset& asset, const BakeOptions& bake,
+                           std::span<const std::uint8_t> skipped_parts = {});
 
 }  // namespace faqem::detail

@@ -10,13 +10,13 @@
 #include "asset/model_files.hpp"
 #include "cli/files/file_stamp.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/memory/memory_estimate.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/process/interrupt.hpp"
 #include "cli/process/rejection.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/error.hpp"
+#include "result/memory_estimate.hpp"
 #include "result/simplify_file.hpp"
 
 namespace faqem::cli {
@@ -121,10 +121,11 @@ Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemor
     fs::create_directories(file.out.parent_path(), error);
     if (is_own) overwrite = Overwrite::yes;
     check_output(file.out, overwrite);
-    memory.reserve(estimated_document_memory(file.in, memory.all()));
-    const std::uint64_t loading = estimated_model_memory(file.in, memory.all());
+    memory.reserve(detail::estimated_document_memory(file.in, memory.all()));
+    const std::uint64_t loading = detail::estimated_model_memory(file.in, memory.all());
     require_memory(file.in, loading, memory.all());
-    memory.reserve(loading + estimated_work_memory(file.in, detail::total_file_size(inputs), work.options));
+    memory.reserve(loading +
+                   detail::estimated_work_memory(file.in, detail::total_file_size(inputs), work.options));
     if (is_interrupted()) return cancelled_result();
     watch = {};
     return simplify_and_save(file, work, entry, overwrite);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
@@ -13,7 +14,6 @@
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"
 #include "cli/memory/machine_memory.hpp"
-#include "cli/memory/memory_estimate.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/builtin_profiles.hpp"
@@ -29,6 +29,7 @@
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report_json.hpp"
+#include "result/memory_estimate.hpp"
 #include "result/simplify_file.hpp"
 #include "scene/resolved_options.hpp"
 
@@ -156,7 +157,10 @@ void save_files(const SimplifyCommandArguments& arguments, const Options& option
 /// Loads and simplifies the model if the memory is enough.
 SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, const Options& options) {
     const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
-    require_memory(arguments.in, estimated_loading_memory(arguments.in, allowed), allowed);
+    const std::uint64_t used = process_memory();
+    require_memory(arguments.in,
+                   used + detail::estimated_model_memory(arguments.in, allowed - std::min(allowed, used)),
+                   allowed);
     // Image libraries start a thread per hardware thread, besides those of --threads.
     limit_process_memory(allowed, detail::thread_count(options.threads) + detail::thread_count(0));
     std::optional<ExitOnInterrupt> exit_on_interrupt(std::in_place);  // load() cannot be cancelled
@@ -166,7 +170,8 @@ SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, cons
         idle =
             detail::idle_options(source, options, typed_names(arguments.options), detail::command_spelling);
         check_strictness(source, arguments.in, arguments.strictness());
-        require_memory(arguments.in, estimated_peak_memory(source, options), allowed);
+        require_memory(arguments.in, process_memory() + detail::estimated_simplify_memory(source, options),
+                       allowed);
     });
     result.report.warnings.insert(result.report.warnings.end(), idle.begin(), idle.end());
     return result;

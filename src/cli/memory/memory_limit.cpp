@@ -70,7 +70,17 @@ std::uint64_t stack_bytes(std::uint64_t limit, std::uint64_t threads) {
     std::abort();
 }
 
+std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; }
+
 }  // namespace
+
+std::uint64_t process_memory() { return status_bytes("VmHWM:"); }
+
+void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed) {
+    if (needed <= allowed) return;
+    throw MemoryError(file.string() + ": may need " + megabytes(needed) + " of memory, but only " +
+                      megabytes(allowed) + " are allowed (--max-memory)");
+}
 
 void limit_process_memory(std::uint64_t bytes, std::uint64_t threads) {
     bytes = std::max(bytes, min_process_memory);

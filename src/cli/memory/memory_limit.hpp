@@ -1,11 +1,21 @@
 #pragma once
 /// \file
-/// Limit of the writable memory of the process, the last safeguard behind the estimates of
-/// memory_estimate.hpp. Only the command uses it: a library must not change the limits of its host.
+/// Limits of memory: for the estimates of result/memory_estimate.hpp and, as the last safeguard, for the writable memory of
+/// the process. Only the command has them: a library must not change the limits of its host.
 
 #include <cstdint>
+#include <filesystem>
 
 namespace faqem::cli {
+
+/// Checks an estimate against the limit.
+/// \param file             file name for the message
+/// \param needed, allowed  bytes
+/// \throws MemoryError  `needed` exceeds `allowed`; the message has the file name and both numbers
+void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed);
+
+/// Peak resident memory of the process so far, bytes. Memory that was returned to the heap is assumed to be reused.
+std::uint64_t process_memory();
 
 /// Smallest limit of the process, bytes. Lower values of --max-memory are compared with estimates only: the
 /// process with its image libraries already needs a good part of this.

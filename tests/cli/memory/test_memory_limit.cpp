@@ -150,3 +150,12 @@ TEST_CASE("memory that models of a batch have freed is available for the next on
 }
 
 #endif
+
+TEST_CASE("require_memory reports the file, the estimate and the limit") {
+    CHECK_NOTHROW(require_memory("a.glb", 100, 100));
+    CHECK_THROWS_WITH(require_memory("a.glb", 3'000'001, 2'000'000),
+                      "a.glb: may need 4 MB of memory, but only 2 MB are allowed (--max-memory)");
+    CHECK_THROWS_AS(require_memory("a.glb", 101, 100), MemoryError);
+    CHECK(exit_code_of(MemoryError("")) == exit_no_memory);
+    CHECK(exit_code_of(std::bad_alloc()) == exit_no_memory);
+}

@@ -1,9 +1,6 @@
-#include "cli/memory/memory_estimate.hpp"
-
-#include <sys/resource.h>
+#include "result/memory_estimate.hpp"
 
 #include <algorithm>
-#include <string>
 #include <system_error>
 #include <vector>
 
@@ -16,17 +13,9 @@
 #include "result/best_picture.hpp"
 #include "scene/resolved_options.hpp"
 
-namespace faqem::cli {
+namespace faqem::detail {
 
 namespace {
-
-/// Peak resident memory of the process so far, bytes. Memory that was returned to the heap is assumed to be
-/// reused.
-double peak_resident_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
 
 /// Bytes per face of the mesh being simplified. Measured on meshes of 0.06 to 1 million faces, rounded up.
 double simplify_bytes_per_face(const Options& options) {
@@ -76,8 +65,8 @@ double decoded_image_bytes(const Asset& asset) {
     std::uint64_t decoder = 0;
     for (const Image& image : asset.images) {
         // Larger images are rejected before memory for their pixels is allocated.
-        bytes += 4.0 * static_cast<double>(detail::readable_pixels(image));
-        decoder = std::max(decoder, detail::decoding_memory(image));
+        bytes += 4.0 * static_cast<double>(readable_pixels(image));
+        decoder = std::max(decoder, decoding_memory(image));
     }
     return bytes + static_cast<double>(decoder);
 }
@@ -86,9 +75,8 @@ double page_bytes(const Asset& asset, const BakeOptions& bake) {
     const double texels = static_cast<double>(bake.texture_size) * bake.texture_size;
     const double held =
         page_bytes_per_texel + (bake.correspondence == Recording::on ? correspondence_bytes_per_texel : 0);
-    const auto pages = detail::has_plain_materials(asset, bake)
-                           ? 0.0
-                           : static_cast<double>(detail::page_groups(asset, bake).groups.size());
+    const auto pages =
+        has_plain_materials(asset, bake) ? 0.0 : static_cast<double>(page_groups(asset, bake).groups.size());
     std::size_t layers = 0;
     for (const Material& material : asset.materials)
         layers = std::max(layers, material.extension_textures.size());
@@ -98,19 +86,17 @@ double page_bytes(const Asset& asset, const BakeOptions& bake) {
 
 double instanced_face_count(const Asset& asset) {
     double faces = 0;
-    for (const Instance& instance : detail::measured_instances(asset))
+    for (const Instance& instance : measured_instances(asset))
         faces += static_cast<double>(asset.parts[instance.part].triangles.size());
     return faces;
 }
-
-std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; }
 
 }  // namespace
 
 std::uint64_t estimated_document_memory(const std::filesystem::path& model, std::uint64_t allowed) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(model, ignored)) return 0;
-    const detail::FileFormat* format = detail::format_of_file(model);
+    const FileFormat* format = format_of_file(model);
     return format && format->document_memory ? format->document_memory(model, allowed) : 0;
 }
 
@@ -118,14 +104,13 @@ std::uint64_t estimated_model_memory(const std::filesystem::path& model, std::ui
     std::error_code ignored;
     // The size of a pipe is unknown, and it must not be opened here.
     if (!std::filesystem::is_regular_file(model, ignored)) return 0;
-    const detail::FileFormat* format = detail::format_of_file(model);
+    const FileFormat* format = format_of_file(model);
     std::vector<std::filesystem::path> files;
-    if (format && !format->is_read_for_references)
-        files = detail::referenced_files(model, detail::References::readable);
+    if (format && !format->is_read_for_references) files = referenced_files(model, References::readable);
     files.push_back(model);
     // Factor 5: the bytes, the arrays decoded from them, and the copies made while the arrays grow. The arrays
     // of glTF are counted below.
-    const std::uint64_t stored_bytes = detail::total_file_size(files);
+    const std::uint64_t stored_bytes = total_file_size(files);
     if (!format || !format->decoding_memory) return 5 * stored_bytes;
     std::uint64_t bytes = 3 * stored_bytes;
     if (bytes <= allowed) bytes += format->document_memory(model, allowed - bytes);
@@ -133,13 +118,8 @@ std::uint64_t estimated_model_memory(const std::filesystem::path& model, std::ui
     return bytes;
 }
 
-std::uint64_t estimated_loading_memory(const std::filesystem::path& model, std::uint64_t allowed) {
-    const auto used = static_cast<std::uint64_t>(peak_resident_memory());
-    return used + estimated_model_memory(model, used < allowed ? allowed - used : 0);
-}
-
-std::uint64_t estimated_peak_memory(const Asset& asset, const Options& requested) {
-    const Options options = detail::resolved_options(asset, requested);
+std::uint64_t estimated_simplify_memory(const Asset& asset, const Options& requested) {
+    const Options options = resolved_options(asset, requested);
     double all = 0, largest = 0, values = 0;
     for (const Part& part : asset.parts) {
         const auto faces = static_cast<double>(part.triangles.size());
@@ -151,7 +131,7 @@ std::uint64_t estimated_peak_memory(const Asset& asset, const Options& requested
     if (options.bake.kind == Bake::keep) work += search_factor(options) * bytes_per_corner_value * values;
     if (options.visibility == Visibility::weighted)
         work = std::max(work, visibility_bytes_per_face * instanced_face_count(asset));
-    const bool searches = detail::searches_best_picture(options);
+    const bool searches = searches_best_picture(options);
     double baking = 0;
     if (options.bake.kind != Bake::keep && options.bake.kind != Bake::none)
         baking += decoded_image_bytes(asset);
@@ -164,28 +144,22 @@ std::uint64_t estimated_peak_memory(const Asset& asset, const Options& requested
                   texels * (texture_bytes_per_texel +
                             (options.bake.kind == Bake::automatic ? tried_bytes_per_texel : 0));
     }
-    return static_cast<std::uint64_t>(peak_resident_memory() + work + baking);
+    return static_cast<std::uint64_t>(work + baking);
 }
 
 std::uint64_t estimated_work_memory(const std::filesystem::path& model, std::uint64_t stored_bytes,
                                     const Options& options) {
     double bytes = 64e6;  // the process and its threads
-    const bool searches = detail::searches_best_picture(options);
+    const bool searches = searches_best_picture(options);
     const double texel_bytes =
         searches ? texture_bytes_per_texel + tried_bytes_per_texel : bake_bytes_per_texel;
     if (makes_atlas(options.bake.kind))
         bytes += texel_bytes * options.bake.texture_size * options.bake.texture_size;
-    const detail::FileFormat* format = detail::format_by_name(model);
+    const FileFormat* format = format_by_name(model);
     const double min_bytes_per_face = format ? format->min_bytes_per_face : 15;
     const double faces = static_cast<double>(stored_bytes) / min_bytes_per_face;
     if (searches) bytes += picture_bytes + drawn_bytes_per_face * faces;
     return static_cast<std::uint64_t>(bytes + work_bytes(options, faces, faces));
 }
 
-void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed) {
-    if (needed <= allowed) return;
-    throw MemoryError(file.string() + ": may need " + megabytes(needed) + " of memory, but only " +
-                      megabytes(allowed) + " are allowed (--max-memory)");
-}
-
-}  // namespace faqem::cli
+}  // namespace faqem::detail
