@@ -38,10 +38,4 @@ std::vector<ContactSheetRow> draw_rows(const std::vector<Scene>& scenes, const s
     return rows;
 }
 
-std::string with_commas(std::uint64_t number) {
-    std::string text = std::to_string(number);
-    for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
-    return text;
-}
-
 }  // namespace faqem::render

@@ -32,6 +32,10 @@ FAQEM_EXPORT std::vector<ContactSheetRow> draw_rows(const std::vector<Scene>& sc
                                                     Shading shading, Edges edges);
 
 /// Formats a number with thousands separators: `1,234,567`.
-FAQEM_EXPORT std::string with_commas(std::uint64_t number);
+inline std::string with_commas(std::uint64_t number) {
+    std::string text = std::to_string(number);
+    for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
+    return text;
+}
 
 }  // namespace faqem::render

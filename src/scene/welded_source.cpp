@@ -29,11 +29,11 @@ WeldedSource::WeldedSource(const Asset& given, const Options& options) : source_
     for (std::size_t p = 0; p < given.parts.size(); ++p) {
         const Part& part = asset().parts[p];
         const RoundingWeld found = find_rounding_weld(part.positions, part.triangles);
-        for (const std::string& message : rounding_messages(found))
+        for (const std::string& message : found.messages)
             warnings_.push_back(part_title(given, p) + ": " + message);
         if (found.representative.empty()) continue;
         if (!copy_) copy_ = given;
-        apply_rounding_weld(found, copy_->parts[p].positions);
+        found.apply(copy_->parts[p].positions);
     }
     seconds_ = watch.seconds();
 }

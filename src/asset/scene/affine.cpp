@@ -1,15 +1,8 @@
 #include "asset/scene/affine.hpp"
 
 #include <cmath>
-#include <cstddef>
 
 namespace faqem::detail {
-
-Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p) {
-    Vec3 q;
-    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
-    return q;
-}
 
 double max_or_nan(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
 

@@ -3,6 +3,7 @@
 /// Affine transforms of points and normals, as column-major 4 x 4 matrices (Instance::transform).
 
 #include <array>
+#include <cstddef>
 
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
@@ -12,7 +13,11 @@ namespace faqem::detail {
 /// The transform of an instance that is not moved.
 inline constexpr std::array<double, 16> identity_transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-FAQEM_EXPORT Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p);
+inline Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p) {
+    Vec3 q;
+    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
+    return q;
+}
 
 /// The larger of two values, or NaN if one of them is NaN.
 double max_or_nan(double a, double b);

@@ -242,27 +242,16 @@ RoundingWeld find_rounding_weld(const std::vector<Vec3>& positions, const std::v
         edges = boundary_edges(triangles, representative);
     }
     result.near_edges = count_near_edges(positions, edges, tolerances.near);
-    if (result.welded > 0) result.representative = std::move(representative);
-    return result;
-}
-
-void apply_rounding_weld(const RoundingWeld& found, std::vector<Vec3>& positions) {
-    for (std::size_t v = 0; v < found.representative.size(); ++v) {
-        const Vec3& position = positions[found.representative[v]];
-        if (positions[v] != position) positions[v] = position;
+    if (result.welded > 0) {
+        result.representative = std::move(representative);
+        result.messages.push_back(pluralized(result.welded, "position") + " that differ" +
+                                  (result.welded == 1 ? "s" : "") + " from another one by rounding welded");
     }
-}
-
-std::vector<std::string> rounding_messages(const RoundingWeld& found) {
-    std::vector<std::string> messages;
-    if (found.welded > 0)
-        messages.push_back(pluralized(found.welded, "position") + " that differ" +
-                           (found.welded == 1 ? "s" : "") + " from another one by rounding welded");
-    if (found.near_edges > 0)
-        messages.push_back(
-            pluralized(found.near_edges, "boundary edge") + (found.near_edges == 1 ? " has" : " have") +
+    if (result.near_edges > 0)
+        result.messages.push_back(
+            pluralized(result.near_edges, "boundary edge") + (result.near_edges == 1 ? " has" : " have") +
             " another one nearby and may be torn: welded only within a distance that is given");
-    return messages;
+    return result;
 }
 
 std::vector<std::string> weld_rounded_positions(Asset& asset) {
@@ -270,8 +259,8 @@ std::vector<std::string> weld_rounded_positions(Asset& asset) {
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         Part& part = asset.parts[p];
         const RoundingWeld found = find_rounding_weld(part.positions, part.triangles);
-        apply_rounding_weld(found, part.positions);
-        for (const std::string& message : rounding_messages(found))
+        found.apply(part.positions);
+        for (const std::string& message : found.messages)
             warnings.push_back(part_title(asset, p) + ": " + message);
     }
     return warnings;

@@ -19,6 +19,14 @@ struct RoundingWeld {
     std::uint64_t welded = 0;  ///< number of different positions that become equal to another one
     std::uint64_t near_edges =
         0;  ///< number of boundary edges that have a partner nearby, but are not welded
+    std::vector<std::string> messages;  ///< what was found, in sentences for a report
+
+    /// Moves the vertices that are welded. Positions that are equal to the new ones keep the sign of their zeros.
+    /// \param positions  those that were passed to find_rounding_weld()
+    void apply(std::vector<Vec3>& positions) const {
+        for (std::size_t v = 0; v < representative.size(); ++v)
+            if (positions[v] != positions[representative[v]]) positions[v] = positions[representative[v]];
+    }
 };
 
 /// Finds vertices on the boundary whose positions differ by rounding. An edge is a boundary edge if all its faces have
@@ -40,16 +48,9 @@ struct RoundingWeld {
 FAQEM_EXPORT RoundingWeld find_rounding_weld(const std::vector<Vec3>& positions,
                                              const std::vector<Triangle>& triangles);
 
-/// Moves the vertices that are welded. Positions that are equal to the new ones keep the sign of their zeros.
-/// \param positions  those that were passed to find_rounding_weld()
-FAQEM_EXPORT void apply_rounding_weld(const RoundingWeld& found, std::vector<Vec3>& positions);
-
-/// What was found, in sentences for a report; none if nothing was.
-FAQEM_EXPORT std::vector<std::string> rounding_messages(const RoundingWeld& found);
-
 /// Moves the vertices of all parts to those that find_rounding_weld() finds.
 /// \param asset  its parts must have valid indices and finite positions
-/// \return rounding_messages() of all parts, each with the name of the part
+/// \return RoundingWeld::messages of all parts, each with the name of the part
 /// Complexity: O(n) expected
 FAQEM_EXPORT std::vector<std::string> weld_rounded_positions(Asset& asset);
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "asset/file_format.hpp"
+#include "asset/scene/affine.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "asset/scene/messages.hpp"
@@ -90,10 +91,10 @@ MeshInfo sum_of_instances(const Asset& asset, const std::vector<PartInfo>& parts
         for (unsigned corner = 0; corner < 8; ++corner) {
             Vec3 p;
             for (unsigned k = 0; k < 3; ++k) p[k] = (corner >> k) & 1u ? mesh.box_max[k] : mesh.box_min[k];
-            for (std::size_t r = 0; r < 3; ++r) {
-                const double x = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
-                low[r] = std::min(low[r], x);
-                high[r] = std::max(high[r], x);
+            p = detail::transformed_point(m, p);
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], p[k]);
+                high[k] = std::max(high[k], p[k]);
             }
         }
     }

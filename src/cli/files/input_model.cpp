@@ -59,9 +59,9 @@ void check_strictness(const Asset& asset, const std::filesystem::path& file, Str
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const std::string where = file.string() + ": " + detail::part_title(asset, p);
         const Part& part = asset.parts[p];
-        for (const std::string& message :
-             detail::rounding_messages(detail::find_rounding_weld(part.positions, part.triangles)))
-            throw InputError(where, "", "rejected by --strict: " + message);
+        const auto rounded = detail::find_rounding_weld(part.positions, part.triangles);
+        if (!rounded.messages.empty())
+            throw InputError(where, "", "rejected by --strict: " + rounded.messages.front());
         require_nonzero_area(part, where);
         require_no_duplicate_faces(part, where);
     }

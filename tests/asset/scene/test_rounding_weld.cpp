@@ -20,7 +20,7 @@ constexpr double unit = std::numeric_limits<float>::epsilon();  // in the last p
 
 std::uint64_t boundary_edges_after(const TriangleMesh& mesh) {
     TriangleMesh welded = mesh;
-    apply_rounding_weld(find_rounding_weld(mesh.positions, mesh.triangles), welded.positions);
+    find_rounding_weld(mesh.positions, mesh.triangles).apply(welded.positions);
     return open_edges(welded);
 }
 
