@@ -13,40 +13,16 @@
 
 namespace faqem {
 
-std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
-                                                        const Options& requested) try {
-    validate(requested);
-    const Options options = detail::resolved_options(source, requested);
-    detail::check_asset(source);
-    const engine::RunContext context(options);
-    context.show(Phase::simplify, 0);
-    const detail::WeldedSource welded(source, options);
-    const detail::ReferenceParts measured(welded.asset(), options, context);
-    const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
-        levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
-    if (level_targets.empty()) return {};
-    std::vector<SimplifiedPartsLevel> made = detail::run_lod_chain<SimplifiedPartsLevel>(
-        level_targets, options, context, measured.faces(),
-        [&](const std::vector<std::uint64_t>& targets, const Options& own, const engine::RunContext& of_run) {
-            return detail::simplify_parts_to_targets(welded.asset(), targets, own, of_run, level_targets);
-        },
-        measured);
-    for (SimplifiedPartsLevel& level : made) welded.add_to(level.result.report);
-    return made;
-} catch (const engine::Cancelled&) {
-    std::vector<SimplifiedPartsLevel> none(1);
-    none.front().result.parts.resize(source.parts.size());
-    none.front().result.report.stop = StopReason::cancelled;
-    return none;
-}
-
 namespace {
 
-std::vector<SimplifiedAssetLevel> with_shared_texture(const Asset& source, const std::vector<Level>& levels,
-                                                      const Options& requested) try {
+// Calls make(welded source, its parts, targets, options, context) and completes the reports. A single level with
+// StopReason::cancelled if the progress callback cancels.
+template <class LevelResult, class Make>
+std::vector<LevelResult> made_levels(const Asset& source, const std::vector<Level>& levels,
+                                     const Options& requested, LevelTextures textures, const Make& make) try {
     validate(requested);
     const Options options = detail::resolved_options(source, requested);
-    detail::check_shared_texture(options);
+    if (textures == LevelTextures::shared) detail::check_shared_texture(options);
     detail::check_asset(source);
     const engine::RunContext context(options);
     context.show(Phase::simplify, 0);
@@ -55,17 +31,35 @@ std::vector<SimplifiedAssetLevel> with_shared_texture(const Asset& source, const
     const std::vector<detail::LevelTarget> level_targets = detail::level_targets(
         levels, options, static_cast<double>(measured.faces()), measured.size().diagonal);
     if (level_targets.empty()) return {};
-    std::vector<SimplifiedAssetLevel> made =
-        detail::levels_with_shared_texture(welded.asset(), measured, level_targets, options, context);
-    for (SimplifiedAssetLevel& level : made) welded.add_to(level.result.report);
+    std::vector<LevelResult> made = make(welded.asset(), measured, level_targets, options, context);
+    for (LevelResult& level : made) welded.add_to(level.result.report);
     return made;
 } catch (const engine::Cancelled&) {
-    std::vector<SimplifiedAssetLevel> none(1);
+    std::vector<LevelResult> none(1);
     none.front().result.report.stop = StopReason::cancelled;
     return none;
 }
 
 }  // namespace
+
+std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, const std::vector<Level>& levels,
+                                                        const Options& options) {
+    std::vector<SimplifiedPartsLevel> made = made_levels<SimplifiedPartsLevel>(
+        source, levels, options, LevelTextures::each,
+        [](const Asset& welded, const detail::ReferenceParts& measured,
+           const std::vector<detail::LevelTarget>& level_targets, const Options& resolved,
+           const engine::RunContext& context) {
+            return detail::run_lod_chain<SimplifiedPartsLevel>(
+                level_targets, resolved, context, measured.faces(),
+                [&](const std::vector<std::uint64_t>& targets, const Options& own,
+                    const engine::RunContext& of_run) {
+                    return detail::simplify_parts_to_targets(welded, targets, own, of_run, level_targets);
+                },
+                measured);
+        });
+    for (SimplifiedPartsLevel& level : made) level.result.parts.resize(source.parts.size());
+    return made;
+}
 
 void detail::bake_levels(const Asset& source, std::vector<SimplifiedPartsLevel> levels,
                          const Options& options, const std::function<Continue(SimplifiedAssetLevel)>& use) {
@@ -83,7 +77,9 @@ void detail::bake_levels(const Asset& source, std::vector<SimplifiedPartsLevel> 
 
 std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
                                                   const Options& options, LevelTextures textures) {
-    if (textures == LevelTextures::shared) return with_shared_texture(source, levels, options);
+    if (textures == LevelTextures::shared)
+        return made_levels<SimplifiedAssetLevel>(source, levels, options, textures,
+                                                 detail::levels_with_shared_texture);
     std::vector<SimplifiedAssetLevel> out;
     std::vector<SimplifiedPartsLevel> made = simplify_parts_levels(source, levels, options);
     detail::keep_only_cancelled(made);
