@@ -375,11 +375,4 @@ std::optional<FinestLevel> finest_level(const Asset& asset) {
     return result;
 }
 
-std::string keep_finest_level(Asset& asset) {
-    std::optional<FinestLevel> finest = finest_level(asset);
-    if (!finest) return {};
-    asset = std::move(finest->asset);
-    return std::move(finest->warning);
-}
-
 }  // namespace faqem::detail

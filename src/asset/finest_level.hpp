@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
@@ -27,6 +28,11 @@ FAQEM_EXPORT std::optional<FinestLevel> finest_level(const Asset& asset);
 
 /// Replaces an asset by its finest level, if it has others.
 /// \return FinestLevel::warning
-FAQEM_EXPORT std::string keep_finest_level(Asset& asset);
+inline std::string keep_finest_level(Asset& asset) {
+    std::optional<FinestLevel> finest = finest_level(asset);
+    if (!finest) return {};
+    asset = std::move(finest->asset);
+    return std::move(finest->warning);
+}
 
 }  // namespace faqem::detail

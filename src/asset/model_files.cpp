@@ -60,16 +60,6 @@ std::vector<fs::path> referenced_files(const fs::path& model, References which) 
     return files.finish();
 }
 
-std::uint64_t total_file_size(const std::vector<fs::path>& files) {
-    std::uint64_t sum = 0;
-    for (const fs::path& file : files) {
-        std::error_code error;
-        const std::uintmax_t size = fs::file_size(file, error);
-        if (!error) sum += size;
-    }
-    return sum;
-}
-
 std::vector<fs::path> existing_side_files(const std::vector<fs::path>& models) {
     std::vector<fs::path> found;
     std::map<fs::path, std::set<std::string>> suffixes;  // by folder

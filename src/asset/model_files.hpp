@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "asset/io/reference_list.hpp"
@@ -23,7 +24,15 @@ FAQEM_EXPORT std::vector<std::filesystem::path> referenced_files(const std::file
                                                                  References which);
 
 /// Returns the total size, in bytes, of the files that exist.
-FAQEM_EXPORT std::uint64_t total_file_size(const std::vector<std::filesystem::path>& files);
+inline std::uint64_t total_file_size(const std::vector<std::filesystem::path>& files) {
+    std::uint64_t sum = 0;
+    for (const std::filesystem::path& file : files) {
+        std::error_code error;
+        const std::uintmax_t size = std::filesystem::file_size(file, error);
+        if (!error) sum += size;
+    }
+    return sum;
+}
 
 /// Finds the files that exist and that save() may replace when it writes the models: buffers, libraries, and
 /// images of any number and extension. On a file system that ignores case, files whose names differ in case are

@@ -47,9 +47,18 @@ struct EncodedModel {
     std::uint64_t embedded_image_bytes = 0;  ///< of images in files that have other content, too
 
     /// Total size of all files. O(files)
-    FAQEM_EXPORT std::uint64_t bytes() const;
+    std::uint64_t bytes() const {
+        std::uint64_t sum = 0;
+        for (const EncodedFile& file : files) sum += file.bytes.size();
+        return sum;
+    }
     /// Size of the images, in files of their own or embedded. O(files)
-    FAQEM_EXPORT std::uint64_t image_bytes() const;
+    std::uint64_t image_bytes() const {
+        std::uint64_t sum = embedded_image_bytes;
+        for (const EncodedFile& file : files)
+            if (file.is_image) sum += file.bytes.size();
+        return sum;
+    }
 };
 
 /// Writes the files of a model with write_files().

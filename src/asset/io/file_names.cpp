@@ -2,13 +2,6 @@
 
 namespace faqem::detail {
 
-std::string lower_case_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return extension;
-}
-
 std::string buffer_file_name(const std::string& stem) { return stem + ".bin"; }
 
 std::string library_file_name(const std::string& stem) { return stem + ".mtl"; }

@@ -6,12 +6,15 @@
 #include <filesystem>
 #include <string>
 
-#include "faqem/export.hpp"
-
 namespace faqem::detail {
 
 /// Returns the extension of a file name with its dot, in lower case (ASCII).
-FAQEM_EXPORT std::string lower_case_extension(const std::filesystem::path& file);
+inline std::string lower_case_extension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return extension;
+}
 
 /// File name of the buffer of STEM.gltf: STEM.bin.
 std::string buffer_file_name(const std::string& stem);

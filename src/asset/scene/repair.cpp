@@ -44,13 +44,6 @@ std::uint64_t drop_vertices(Part& part) {
 
 }  // namespace
 
-void check_index_count(std::uint64_t count, const std::string& file, const std::string& element) {
-    if (count > max_index_count)
-        throw InputError(file, element,
-                         "there are " + std::to_string(count) + ", more than the " +
-                             std::to_string(max_index_count) + " that 32-bit indices can address");
-}
-
 void repair_non_finite(Part& part, const std::string& file, std::uint64_t dropped,
                        std::vector<std::string>& warnings) {
     const std::size_t before = part.positions.size();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/error.hpp"
 
 namespace faqem::detail {
 
@@ -27,7 +28,12 @@ bool is_finite(const std::array<T, N>& v) {
 /// \param file     path for messages
 /// \param element  the kind of element for messages, e.g. `vertex`
 /// \throws InputError  if `count` exceeds max_index_count
-FAQEM_EXPORT void check_index_count(std::uint64_t count, const std::string& file, const std::string& element);
+inline void check_index_count(std::uint64_t count, const std::string& file, const std::string& element) {
+    if (count > max_index_count)
+        throw InputError(file, element,
+                         "there are " + std::to_string(count) + ", more than the " +
+                             std::to_string(max_index_count) + " that 32-bit indices can address");
+}
 
 /// Removes vertices with non-finite positions and their adjacent faces, and resets other non-finite values:
 /// normals and UVs to zero, colours to white. Adds one warning with a count for each kind of repair.
