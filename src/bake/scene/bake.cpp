@@ -198,10 +198,16 @@ void keep_all_parts(const Asset& source, const SimplifiedParts& simplified, cons
     context.report(Phase::bake, 1);
 }
 
-// Calls work(result) for a result that has the report of the geometry stage and the data of the file.
+// Calls work(source, resolved options, result) for a result that has the report of the geometry stage and the data of the
+// file.
 template <class Work>
-UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified, const Options& options,
+UnencodedResult run_bake(const Asset& given, const SimplifiedParts& simplified, const Options& requested,
                          const RunContext& context, const Work& work) {
+    validate(requested);
+    check_asset(given);
+    const std::optional<FinestLevel> finest = finest_level(given);
+    const Asset& source = finest ? finest->asset : given;
+    const Options options = resolved_options(source, requested);
     check_parts_match(source, simplified);
     context.show(Phase::map, 0);
     UnencodedResult out;
@@ -212,7 +218,7 @@ UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified,
     if (report.stop == StopReason::cancelled) return out;
     const Stopwatch watch;
     try {
-        work(out);
+        work(source, options, out);
         set_quantization(source, options, out.asset.asset, report);
     } catch (const engine::Cancelled&) {
         set_cancelled(out.asset);
@@ -227,34 +233,26 @@ UnencodedResult run_bake(const Asset& source, const SimplifiedParts& simplified,
 
 UnencodedResult bake_unencoded(const Asset& given, const SimplifiedParts& simplified,
                                const Options& requested, const RunContext& context) {
-    validate(requested);
-    check_asset(given);
-    const std::optional<FinestLevel> finest = finest_level(given);
-    const Asset& source = finest ? finest->asset : given;
-    const Options options = resolved_options(source, requested);
-    if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind)) {
-        throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
-    }
-    return run_bake(source, simplified, options, context, [&](UnencodedResult& out) {
+    const auto work = [&](const Asset& source, const Options& options, UnencodedResult& out) {
+        if (options.bake.correspondence == Recording::on && !makes_atlas(options.bake.kind))
+            throw OptionError("correspondence requires a new atlas: bake must not be vertex, keep or none");
         if (options.bake.kind == Bake::keep && requested.bake.kind != Bake::keep &&
             std::any_of(source.images.begin(), source.images.end(), is_passed_through))
             out.asset.report.warnings.push_back(
                 "images of KTX2 or AVIF cannot be baked: the UVs and images of the source are kept");
         bake_parts(source, simplified, options.bake, requested.bake.kind, context, out);
-    });
+    };
+    return run_bake(given, simplified, requested, context, work);
 }
 
 UnencodedResult bake_with_uvs(const Asset& given, const SimplifiedParts& simplified, const Options& requested,
                               const RunContext& context) {
-    validate(requested);
-    check_asset(given);
-    const std::optional<FinestLevel> finest = finest_level(given);
-    const Asset& source = finest ? finest->asset : given;
-    Options options = resolved_options(source, requested);
-    options.bake.kind = Bake::keep;
-    return run_bake(source, simplified, options, context, [&](UnencodedResult& out) {
-        keep_all_parts(source, simplified, options.bake, context.untimed(), out);
-    });
+    const auto work = [&](const Asset& source, const Options& options, UnencodedResult& out) {
+        BakeOptions bake = options.bake;
+        bake.kind = Bake::keep;
+        keep_all_parts(source, simplified, bake, context.untimed(), out);
+    };
+    return run_bake(given, simplified, requested, context, work);
 }
 
 SimplifiedAsset bake_encoded(const Asset& source, const SimplifiedParts& simplified, const Options& options,
