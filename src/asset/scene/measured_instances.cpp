@@ -49,12 +49,4 @@ std::vector<std::size_t> measured_indices(const Asset& asset, const std::vector<
     return measured;
 }
 
-std::vector<Instance> measured_instances(const Asset& asset) {
-    std::vector<Instance> all = instances(asset);
-    if (!has_excessive_instances(asset, all)) return all;
-    std::vector<Instance> measured;
-    for (const std::size_t i : measured_indices(asset, all)) measured.push_back(all[i]);
-    return measured;
-}
-
 }  // namespace faqem::detail

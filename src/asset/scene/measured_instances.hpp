@@ -23,6 +23,12 @@ FAQEM_EXPORT bool has_excessive_instances(const Asset& asset, const std::vector<
 FAQEM_EXPORT std::vector<std::size_t> measured_indices(const Asset& asset, const std::vector<Instance>& all);
 
 /// The instances at the measured_indices() of those of the scene.
-FAQEM_EXPORT std::vector<Instance> measured_instances(const Asset& asset);
+inline std::vector<Instance> measured_instances(const Asset& asset) {
+    std::vector<Instance> all = instances(asset);
+    if (!has_excessive_instances(asset, all)) return all;
+    std::vector<Instance> measured;
+    for (const std::size_t i : measured_indices(asset, all)) measured.push_back(all[i]);
+    return measured;
+}
 
 }  // namespace faqem::detail
