@@ -52,8 +52,23 @@ inline void weld(Surface& s) {
     s.positions = std::move(used);
 }
 
+/// Adds a triangle of `mesh` without area to the slivers, unless one of its corners is no position of the surface or two
+/// are equal.
+inline void add_sliver(const MeshView& mesh, const Triangle& corners, Surface& s) {
+    Triangle sliver;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3& p = mesh.positions[corners[k]];
+        const auto at = std::lower_bound(s.positions.begin(), s.positions.end(), p);
+        if (at == s.positions.end() || *at != p) return;
+        sliver[k] = static_cast<Index>(at - s.positions.begin());
+    }
+    if (sliver[0] != sliver[1] && sliver[1] != sliver[2] && sliver[2] != sliver[0])
+        s.slivers.push_back(sliver);
+}
+
 FAQEM_INLINE Surface extract_surface(const MeshView& mesh) {
     Surface s;
+    std::vector<Triangle> without_area;
     s.positions.resize(mesh.positions.size());
     for (std::size_t v = 0; v < s.positions.size(); ++v) s.positions[v] = mesh.positions[v];
     double area = 0;
@@ -66,7 +81,11 @@ FAQEM_INLINE Surface extract_surface(const MeshView& mesh) {
         const double longest =
             std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
         const double twice_area = n.norm();
-        if (!(twice_area > min_height_ratio * longest) || !std::isfinite(twice_area)) continue;
+        if (!std::isfinite(twice_area)) continue;
+        if (!(twice_area > min_height_ratio * longest)) {
+            without_area.push_back(t);
+            continue;
+        }
         area += twice_area / 2;
         s.triangles.push_back(t);
         s.faces.push_back(static_cast<Index>(f));
@@ -74,6 +93,7 @@ FAQEM_INLINE Surface extract_surface(const MeshView& mesh) {
         s.cumulative_area.push_back(area);
     }
     weld(s);
+    for (const Triangle& t : without_area) add_sliver(mesh, t, s);
     if (s.positions.empty()) return s;
     s.low = s.high = engine::to_eigen(s.positions.front());
     for (const Vec3& p : s.positions) {

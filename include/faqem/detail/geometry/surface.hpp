@@ -22,6 +22,8 @@ struct Surface {
     std::vector<Index> faces;         ///< per triangle: index in the mesh; the corners have the same order
     std::vector<engine::Vector3> normals;  ///< per triangle: unit normal
     std::vector<double> cumulative_area;   ///< per triangle: area of the triangles up to and including it
+    /// Triangles without area whose three corners are different positions of others: they connect these.
+    std::vector<Triangle> slivers;
     /// Axis-aligned bounding box; zero if there are no triangles.
     engine::Vector3 low = engine::Vector3::Zero(), high = engine::Vector3::Zero();
 

@@ -8,13 +8,14 @@
 #include <cmath>
 
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/measure/covering.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 using engine::Vector3;
 
-inline constexpr std::size_t vertex_block = 4096, face_block = 4096, piece_block = 128;
+inline constexpr std::size_t vertex_block = 4096, face_block = 4096, piece_block = 128, cover_block = 32;
 /// Number of pieces that are split in parallel: several blocks, so that several threads have work.
 inline constexpr std::size_t batch_size = 16 * piece_block;
 inline constexpr std::size_t stop_interval = 16 * vertex_block;
@@ -118,6 +119,7 @@ struct Found {
     double value_squared = 0;   ///< largest squared distance found
     double closed_squared = 0;  ///< largest bound of the pieces that need no further refinement
     std::vector<Piece> open;    ///< pieces that need further refinement
+    std::uint64_t pieces = 0;   ///< number of pieces that faces were split into
 
     void keep(const Piece& piece, double enough) {
         if (piece.bound_squared <= enough) {
@@ -195,6 +197,30 @@ inline void split(const Surface& to, CoherentQuery& query, const Piece& piece, d
         tighten(to, child, candidates, child_at, enough);
         found.keep(child, enough);
     }
+}
+
+/// How often a face is split if no set of faces covers it.
+inline constexpr int cover_splits = 4;
+
+/// Covers a piece, or after splits as many parts of it as possible.
+/// \param splits  how often the piece is split at most
+inline void cover(const Surface& to, CoherentQuery& query, const Covering& covering,
+                  Covering::Scratch& scratch, Piece piece, int splits, double enough, Found& found) {
+    const Vector3 middle = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3;
+    const Bvh::Hit hit = query(engine::to_array(middle), piece.bounding_faces[0]);
+    found.value_squared = std::max(found.value_squared, hit.distance_squared);
+    if (hit.distance_squared <= enough) {
+        const double bound = covering.bound(piece.corner, hit.face, std::sqrt(enough), scratch);
+        piece.bound_squared = std::min(piece.bound_squared, bound * bound);
+    }
+    if (piece.bound_squared <= enough || splits == 0) return found.keep(piece, enough);
+    Found halves;
+    split(to, query, piece, enough, halves);
+    found.pieces += 2;
+    found.value_squared = std::max(found.value_squared, halves.value_squared);
+    found.closed_squared = std::max(found.closed_squared, halves.closed_squared);
+    for (const Piece& half : halves.open)
+        cover(to, query, covering, scratch, half, splits - 1, enough, found);
 }
 
 /// Priority queue of open pieces: largest bound first, ties in order of insertion.
@@ -295,6 +321,21 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
 
     HausdorffBounds result;
     std::vector<Piece> batch;
+    if (!open.empty() && refine && limits.max_pieces > 0 && !(std::sqrt(value_squared) > limits.stop_above)) {
+        const Covering covering(to);
+        while (!open.empty()) batch.push_back(open.pop());
+        const double enough_now = enough();
+        blocks.resize((batch.size() + cover_block - 1) / cover_block);
+        parallel_blocks(batch.size(), cover_block, context, [&](std::size_t begin, std::size_t end) {
+            CoherentQuery query(to, tree);
+            Covering::Scratch scratch(covering);
+            for (std::size_t i = begin; i < end; ++i)
+                cover(to, query, covering, scratch, batch[i], cover_splits, enough_now,
+                      blocks[begin / cover_block]);
+        });
+        for (const Found& found : blocks) result.pieces += found.pieces;
+        join(blocks);
+    }
     const auto needs_work = [&] { return !open.empty() && open.largest_squared() > enough(); };
     while (needs_work() && result.pieces < limits.max_pieces &&
            !(std::sqrt(value_squared) > limits.stop_above)) {
