@@ -95,6 +95,9 @@ CommandInfo batch_command() {
                  size_option("--max-memory", arguments->max_memory,
                              "Memory of models that run at the same time, as 8GB; a model that may need "
                              "more runs alone (default: three quarters of the machine's memory)"),
+                 number_option("--end-after", "S", arguments->end_after, {.min = 1, .max = 1e6},
+                               "Give up a model after this many seconds; default: twice --max-seconds plus "
+                               "60, or 3600"),
                  flag_option("--resume", arguments->resume,
                              "Skip results that are up to date; redo those that are not")});
     add_options(command.options, table_options(detail::in_batch, arguments->options));
