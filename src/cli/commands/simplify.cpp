@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
@@ -32,6 +33,7 @@
 #include "result/memory_estimate.hpp"
 #include "result/simplify_file.hpp"
 #include "scene/resolved_options.hpp"
+#include "scene/scene_size.hpp"
 
 namespace faqem::cli {
 
@@ -77,59 +79,50 @@ void write_correspondence(const SimplifyCommandArguments& arguments, const std::
     write_output(arguments.correspondence, out.view(), arguments.overwrite());
 }
 
-void print_counts(std::ostream& out, const Report& report) {
-    std::string_view separator = "rejected pairs: ";
-    for (std::size_t i = 0; i < refusal_kinds; ++i) {
-        if (report.refusals[i] == 0) continue;
-        out << separator << report.refusals[i] << " " << name(static_cast<Refusal>(i));
-        separator = ", ";
-    }
-    if (separator == ", ") out << "\n";
-    separator = "rungs taken: ";
-    for (std::size_t i = 0; i < rung_kinds; ++i) {
-        if (report.rungs[i] == 0) continue;
-        out << separator << name(static_cast<Rung>(i)) << " " << report.rungs[i] << " times";
-        separator = ", ";
-    }
-    if (separator == ", ") out << "\n";
-}
-
-/// What holds the bytes, in one line.
+/// Why few bytes are saved, in one line.
 void print_little_saved(std::ostream& out, const LittleSaved& saved) {
-    std::string_view separator = "little saved: ";
-    for (const auto& [what, bytes] : {std::pair("images", saved.images),
-                                      {"geometry", saved.geometry},
-                                      {"animation", saved.animation},
-                                      {"other data", saved.other}}) {
-        if (bytes == 0) continue;
-        out << separator << what << " " << shown_bytes(bytes);
-        separator = ", ";
-    }
-    out << "; " << saved.reason;
+    out << "little saved: " << saved.reason;
     for (const std::string& option : saved.options)
         out << (option == saved.options.front() ? "; less with --" : " or --") << option;
     out << "\n";
 }
 
-void print_summary(const SimplifyCommandArguments& arguments, const Report& report) {
+/// Prints the sizes of the files, and what they hold.
+void print_bytes(std::ostream& out, const Report& report) {
+    std::uint64_t images = 0;
+    for (const ResultImage& image : report.images) images += image.bytes;
+    images = std::min(images, report.bytes_out);
+    std::uint64_t geometry = report.buffer_views.empty() ? report.bytes_out - images : 0;
+    for (const ResultView& view : report.buffer_views)
+        if (view.content.find("animation") == std::string::npos) geometry += view.bytes;
+    out << shown_bytes(report.bytes_in) << " -> " << shown_bytes(report.bytes_out) << " (geometry "
+        << shown_bytes(geometry) << ", images " << shown_bytes(images) << ")\n";
+}
+
+/// \param diagonal  of the input, scene units
+void print_summary(const SimplifyCommandArguments& arguments, const Report& report, double diagonal) {
+    std::string asked;
+    for (const GivenOption& option : arguments.options)
+        if (option.row->group == "Target")
+            asked.append(command_spelling(*option.row)).append(" ").append(option.value).append(", ");
+    if (asked.empty()) asked = "--ratio 10% by default, ";
     std::ostringstream out;
     out << arguments.in << " -> " << arguments.out << "\n"
-        << report.faces_in << " -> " << report.faces_out << " faces (target " << report.target_faces << "), "
-        << name(report.stop) << ", preset " << name(report.preset) << "\n";
-    if (report.bytes_out > 0)
-        out << shown_bytes(report.bytes_in) << " -> " << shown_bytes(report.bytes_out) << "\n";
+        << report.faces_in << " -> " << report.faces_out << " faces (" << asked << name(report.stop) << ")\n";
+    if (report.bytes_out > 0) print_bytes(out, report);
     if (report.little_saved) print_little_saved(out, *report.little_saved);
     if (report.max_error) {
         const MeasuredError& error = *report.max_error;
-        out << "distance: at least " << error.value << ", at most " << error.bound << " (allowed "
-            << error.allowed << "), " << error.runs << (error.runs == 1 ? " run\n" : " runs\n");
+        out << "distance: at most " << error.bound << " (allowed " << error.allowed << "), "
+            << shown_percent(error.bound / diagonal)
+            << " of the diagonal: less than a pixel where the diagonal has up to "
+            << std::llround(std::min(diagonal / error.bound, 1e15)) << " pixels\n";
     }
     const auto print_meshes = [&](const char* what, std::size_t count) {
         if (count > 0) out << what << ": " << count << (count == 1 ? " mesh\n" : " meshes\n");
     };
     print_meshes("left as they are", report.untouched_parts.size());
     print_meshes("with the UVs of the source", report.kept_uvs.size());
-    print_counts(out, report);
     out << warnings_text(report.warnings);
     const PhaseSeconds& s = report.seconds;
     out << std::fixed << std::setprecision(2) << "seconds: load " << s.load << ", simplify " << s.simplify
@@ -154,8 +147,9 @@ void save_files(const SimplifyCommandArguments& arguments, const Options& option
     if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
 }
 
-/// Loads and simplifies the model if the memory is enough.
-SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, const Options& options) {
+/// Loads and simplifies the model if the memory is enough. \param diagonal  receives that of the input, scene units
+SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, const Options& options,
+                                 double& diagonal) {
     const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory();
     const std::uint64_t used = process_memory();
     require_memory(arguments.in,
@@ -169,6 +163,7 @@ SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, cons
         exit_on_interrupt.reset();
         idle =
             detail::idle_options(source, options, typed_names(arguments.options), detail::command_spelling);
+        diagonal = detail::scene_size(source).diagonal;
         check_strictness(source, arguments.in, arguments.strictness());
         require_memory(arguments.in, process_memory() + detail::estimated_simplify_memory(source, options),
                        allowed);
@@ -190,6 +185,7 @@ int run(SimplifyCommandArguments arguments) {
     install_signal_handlers();
     const Stopwatch watch;
     SimplifiedAsset simplified;
+    double diagonal = 0;
     {
         ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
         options.progress = [&bar](Phase phase, double fraction) {
@@ -197,7 +193,7 @@ int run(SimplifyCommandArguments arguments) {
             return is_interrupted() ? Continue::cancel : Continue::yes;
         };
         bar.show(Phase::load, 0);
-        simplified = simplified_model(arguments, options);
+        simplified = simplified_model(arguments, options, diagonal);
         if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return cancelled();
     }
     const ExitCode rejection = rejection_code(simplified.report, arguments.strict_target);
@@ -210,7 +206,7 @@ int run(SimplifyCommandArguments arguments) {
         write_output(arguments.report, to_json(simplified.report), arguments.overwrite());
     }
     commit_outputs(set);
-    if (!arguments.quiet) print_summary(arguments, simplified.report);
+    if (!arguments.quiet) print_summary(arguments, simplified.report, diagonal);
     if (rejection != exit_ok)
         std::cerr << "faqem: " << rejection_message(rejection, arguments.in, arguments.out, simplified.report)
                   << "\n";

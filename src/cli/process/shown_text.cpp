@@ -1,9 +1,22 @@
 #include "cli/process/shown_text.hpp"
 
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
 namespace faqem::cli {
+
+std::string shown_number(double value, int digits) {
+    if (!std::isfinite(value)) return "∞";
+    std::array<char, 64> text;
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
+    return {text.data(), end};
+}
+
+std::string shown_percent(double share) { return shown_number(100 * share, 3) + "%"; }
 
 std::string shown_bytes(std::uint64_t bytes) {
     if (bytes < 1000) return std::to_string(bytes) + " bytes";

@@ -7,6 +7,10 @@
 
 namespace faqem::cli {
 
+/// A number with a few significant digits; infinity for what is not finite.
+std::string shown_number(double value, int digits = 4);
+/// A share in percent, with three digits.
+std::string shown_percent(double share);
 /// `812 bytes`, `1.2 kB`, `34.5 MB`.
 std::string shown_bytes(std::uint64_t bytes);
 

@@ -1,11 +1,10 @@
 #include "cli/report/report_page.hpp"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "cli/process/json.hpp"
+#include "cli/process/shown_text.hpp"
 #include "cli/report/embedded_files.hpp"
 #include "cli/report/heat_ramp.hpp"
 #include "cli/report/html.hpp"
@@ -16,22 +15,6 @@ namespace faqem::cli {
 
 namespace {
 
-std::string number(double value, int digits = 4) {
-    if (!std::isfinite(value)) return "∞";
-    std::array<char, 64> text;
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
-    return {text.data(), end};
-}
-
-std::string percent(double share) { return number(100 * share, 3) + "%"; }
-
-std::string size_text(std::uint64_t bytes) {
-    if (bytes < 1000) return std::to_string(bytes) + " bytes";
-    if (bytes < 1'000'000) return number(static_cast<double>(bytes) / 1e3, 3) + " KB";
-    return number(static_cast<double>(bytes) / 1e6, 4) + " MB";
-}
-
 std::string name_of(const ReportedModel& model) {
     return std::filesystem::path(model.file).filename().string();
 }
@@ -41,7 +24,7 @@ std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
         const bool has_share = of_a > 0;
         return std::vector<std::string>{
             what, render::with_commas(of_a), render::with_commas(of_b),
-            has_share ? percent(static_cast<double>(of_b) / static_cast<double>(of_a)) : "–"};
+            has_share ? shown_percent(static_cast<double>(of_b) / static_cast<double>(of_a)) : "–"};
     };
     std::vector<std::vector<std::string>> rows = {
         row("Faces", a.mesh.faces, b.mesh.faces),
@@ -52,8 +35,8 @@ std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
         row("Materials", a.materials, b.materials),
         row("Images", a.images, b.images),
         row("Bytes", a.bytes, b.bytes)};
-    rows.back()[1] = size_text(a.bytes);
-    rows.back()[2] = size_text(b.bytes);
+    rows.back()[1] = shown_bytes(a.bytes);
+    rows.back()[2] = shown_bytes(b.bytes);
     return html_table("Counts, after welding positions that are equal or differ by rounding",
                       {"", name_of(a), name_of(b), "ratio"}, rows);
 }
@@ -61,7 +44,7 @@ std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
 std::string distances_table(const ReportPage& page) {
     const Comparison& c = page.comparison.distances;
     const auto cell = [&](double distance) {
-        return number(distance) + " (" + percent(distance / c.diagonal) + ")";
+        return shown_number(distance) + " (" + shown_percent(distance / c.diagonal) + ")";
     };
     const auto row = [&](const char* what, auto&& value) {
         return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
@@ -74,32 +57,33 @@ std::string distances_table(const ReportPage& page) {
          row("Mean", [&](const OneSided& s) { return cell(s.mean); }),
          row("Root mean square", [&](const OneSided& s) { return cell(std::sqrt(s.mean_squared)); }),
          row("Mean normal deviation",
-             [](const OneSided& s) { return number(s.mean_normal_degrees, 3) + "°"; })});
+             [](const OneSided& s) { return shown_number(s.mean_normal_degrees, 3) + "°"; })});
 }
 
 std::string colors_table(const ReportPage& page) {
     if (!page.comparison.colors) return {};
     const ColorComparison& c = *page.comparison.colors;
-    const std::string decibels = std::isfinite(c.psnr) ? number(c.psnr) + " dB" : "no difference";
+    const std::string decibels = std::isfinite(c.psnr) ? shown_number(c.psnr) + " dB" : "no difference";
     const auto row = [&](const char* what, auto&& value) {
         return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
     };
     return html_table(
         "Colour differences, unlit sRGB from 0 to 1; PSNR of both directions: " + decibels,
         {"", "to " + name_of(page.b), "to " + name_of(page.a)},
-        {row("Root mean square", [](const OneSidedColors& s) { return number(s.rmse, 3); }),
-         row("Difference above 0.25", [](const OneSidedColors& s) { return percent(s.outliers); }),
-         row("No face of similar orientation", [](const OneSidedColors& s) { return percent(s.unmatched); }),
-         row("Cut away by an alpha mask", [](const OneSidedColors& s) { return percent(s.hidden); })});
+        {row("Root mean square", [](const OneSidedColors& s) { return shown_number(s.rmse, 3); }),
+         row("Difference above 0.25", [](const OneSidedColors& s) { return shown_percent(s.outliers); }),
+         row("No face of similar orientation",
+             [](const OneSidedColors& s) { return shown_percent(s.unmatched); }),
+         row("Cut away by an alpha mask", [](const OneSidedColors& s) { return shown_percent(s.hidden); })});
 }
 
 std::string summary(const ReportPage& page) {
     const MeshInfo &a = page.a.mesh, &b = page.b.mesh;
     const Comparison& c = page.comparison.distances;
     return render::with_commas(b.faces) + " faces instead of " + render::with_commas(a.faces) + ", " +
-           size_text(page.b.bytes) + " instead of " + size_text(page.a.bytes) +
-           ". No point of either surface is farther than " + number(c.hausdorff_bound) + " (" +
-           percent(c.hausdorff_bound / c.diagonal) + " of the diagonal) from the other.";
+           shown_bytes(page.b.bytes) + " instead of " + shown_bytes(page.a.bytes) +
+           ". No point of either surface is farther than " + shown_number(c.hausdorff_bound) + " (" +
+           shown_percent(c.hausdorff_bound / c.diagonal) + " of the diagonal) from the other.";
 }
 
 std::string pictures(const ReportPage& page) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "cli/process/shown_text.hpp"
 #include "faqem/history.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
@@ -33,8 +34,16 @@ TEST_CASE("simplify writes a simplified model, a report and a summary") {
         run(folder, "simplify in.glb out.glb --faces 100 --texture-size 256 --report r.json");
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
-    CHECK(outcome.out.find("800 -> ") != std::string::npos);
-    CHECK(outcome.out.find("reached_target") != std::string::npos);
+    CHECK(outcome.out.find("\n800 -> ") != std::string::npos);
+    CHECK(outcome.out.find(" faces (--faces 100, reached_target)\n") != std::string::npos);
+    const auto bytes = [&](const char* name) {
+        return faqem::cli::shown_bytes(fs::file_size(folder / name));
+    };
+    const std::string image =
+        faqem::cli::shown_bytes(faqem::load(folder / "out.glb").images.at(0).encoded.size());
+    CHECK(outcome.out.find(bytes("in.glb") + " -> " + bytes("out.glb") + " (geometry ") != std::string::npos);
+    CHECK(outcome.out.find(", images " + image + ")\n") != std::string::npos);
+    for (const char* word : {"rejected pairs", "rungs"}) CHECK(outcome.out.find(word) == std::string::npos);
     CHECK(outcome.out.find("warnings") != std::string::npos);
 
     const faqem::Asset simplified = faqem::load(folder / "out.glb");
