@@ -47,7 +47,7 @@ def measure(arguments, file, weights):
                     "--texture-size", TEXTURE_SIZE, "--quiet", "--threads", 1)
         if made.returncode != 0:
             return {"why_not": made.stderr.strip().splitlines()[-1].replace(f"faqem: {file}: ", "")}
-        compared = tool(arguments, "compare", file, out, "--samples", SAMPLES, "--tolerance", 1, "--threads", 1)
+        compared = tool(arguments, "compare", "--json", file, out, "--samples", SAMPLES, "--tolerance", 1, "--threads", 1)
         colors = json.loads(compared.stdout).get("colors") if compared.returncode == 0 else None
         return {"colors": colors} if colors else {"why_not": compared.stderr.strip() or "the model has no colours"}
 

@@ -28,7 +28,8 @@ std::string link_problem(const fs::directory_entry& entry) {
            (status.type() == fs::file_type::not_found ? "No such file or directory" : error.message());
 }
 
-void find_models(const fs::path& folder, const fs::path& out_folder, std::vector<BatchFile>& found) {
+void find_models(const fs::path& folder, const fs::path& out_folder, std::vector<BatchFile>& found,
+                 std::size_t& others) {
     std::error_code error;
     for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
         std::string problem = link_problem(*it);
@@ -36,7 +37,11 @@ void find_models(const fs::path& folder, const fs::path& out_folder, std::vector
             it.disable_recursion_pending();
             continue;
         }
-        if (!is_model_name(it->path()) || (problem.empty() && !it->is_regular_file())) continue;
+        if (problem.empty() && !it->is_regular_file()) continue;
+        if (!is_model_name(it->path())) {
+            ++others;
+            continue;
+        }
         BatchFile file;
         file.in = it->path();
         file.name = it->path().lexically_relative(folder).generic_string();
@@ -63,14 +68,15 @@ void assign_output_paths(std::vector<BatchFile>& files, const fs::path& out_fold
 }  // namespace
 
 std::vector<BatchFile> plan_batch(const fs::path& folder, const fs::path& out_folder,
-                                  const std::string& extension) {
+                                  const std::string& extension, std::size_t& others) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) throw ReadError(folder.string(), "", "is not a directory");
     if (fs::equivalent(folder, out_folder, error))
         throw OptionError(out_folder.string() + ": is the input directory; choose another output directory");
     std::vector<BatchFile> files;
     try {
-        find_models(folder, out_folder, files);
+        others = 0;
+        find_models(folder, out_folder, files, others);
     } catch (const fs::filesystem_error& problem) {
         throw ReadError(problem.path1().empty() ? folder.string() : problem.path1().string(), "",
                         "cannot read: " + problem.code().message());

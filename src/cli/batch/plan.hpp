@@ -24,12 +24,14 @@ struct BatchFile {
 /// \param folder      input directory
 /// \param out_folder  output directory; need not exist
 /// \param extension   of the results, with the dot
+/// \param others      receives the number of files that are no models
 /// \return the models, by decreasing file size, then by name
 /// \throws ReadError    a directory cannot be read
 /// \throws InputError   there are no models
 /// \throws OptionError  both directories are the same, or two models have the same result (the message names
 /// them)
 std::vector<BatchFile> plan_batch(const std::filesystem::path& folder,
-                                  const std::filesystem::path& out_folder, const std::string& extension);
+                                  const std::filesystem::path& out_folder, const std::string& extension,
+                                  std::size_t& others);
 
 }  // namespace faqem::cli

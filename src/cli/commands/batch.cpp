@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "asset/scene/messages.hpp"
 #include "cli/batch/supervisor.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
@@ -15,6 +17,7 @@
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/process/interrupt.hpp"
+#include "cli/process/progress_bar.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/options/option_table.hpp"
 #include "faqem/version.hpp"
@@ -47,7 +50,8 @@ int run(const BatchArguments& arguments) {
     Options options = make_options(arguments.options);
     const std::string extension = extension_of_format(arguments.format);
     options.format = format_of_output("model" + extension);
-    const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, extension);
+    std::size_t others = 0;
+    const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, extension, others);
     check_outputs_unprotected(files, arguments.out);
     for (const std::string& idle :
          detail::idle_options(options, typed_names(arguments.options), detail::command_spelling))
@@ -70,11 +74,29 @@ int run(const BatchArguments& arguments) {
     const double end_after = arguments.end_after > 0 ? arguments.end_after
                              : options.max_seconds   ? 2 * *options.max_seconds + 60
                                                      : 3600;
-    // Flushed, so that a reader of a pipe gets each line immediately.
-    return process_batch(
+    std::map<std::string, std::size_t> counts;  // by status
+    std::size_t finished = 0;
+    ProgressBar bar(Bar::shown);
+    const auto show_count = [&] {
+        bar.show(std::to_string(finished) + " of " + std::to_string(files.size()));
+    };
+    show_count();
+    const ExitCode code = process_batch(
         files, work,
         {static_cast<std::uint32_t>(jobs), end_after, arguments.force ? Overwrite::yes : Overwrite::no},
-        [](const std::string& line) { std::cout << line << std::flush; });
+        [&](const std::string& line) {
+            ++counts[Json::parse(line).at("status").get<std::string>()];
+            ++finished;
+            bar.hide();
+            std::cout << line << std::flush;  // so that a reader of a pipe gets each line immediately
+            show_count();
+        });
+    bar.hide();
+    std::cerr << "faqem: " << detail::pluralized(files.size(), "model") << ":";
+    for (const auto& [status, count] : counts) std::cerr << " " << count << " " << status;
+    if (others > 0) std::cerr << "; " << detail::pluralized(others, "other file") << " passed over";
+    std::cerr << "\n";
+    return code;
 }
 
 }  // namespace

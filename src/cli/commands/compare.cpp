@@ -6,7 +6,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/process/exit_code.hpp"
+#include "cli/process/interrupt.hpp"
 #include "cli/process/json.hpp"
+#include "cli/process/progress_bar.hpp"
 #include "cli/report/model_comparison.hpp"
 
 namespace faqem::cli {
@@ -16,6 +18,7 @@ namespace {
 struct CompareArguments {
     std::string a, b;
     CompareOptions options;
+    bool json = false;
 };
 
 Json one_sided_json(const OneSided& side) {
@@ -42,10 +45,20 @@ Json colors_json(const std::optional<ColorComparison>& colors) {
 }
 
 int run(const CompareArguments& arguments) {
+    install_signal_handlers();
+    const ExitOnInterrupt exit_on_interrupt;
+    std::optional<ProgressBar> bar(Bar::shown);
+    bar->show("load");
     const FlattenedModel a = load_flattened(arguments.a), b = load_flattened(arguments.b);
+    bar->show("compare");
     const ModelComparison comparison = compare_models(a, b, arguments.options);
+    bar.reset();
     if (!comparison.colors_warning.empty())
         std::cerr << "faqem: warning: " << comparison.colors_warning << "\n";
+    if (!arguments.json) {
+        std::cout << comparison_text(comparison, a.asset.file_bytes, b.asset.file_bytes);
+        return exit_ok;
+    }
     const Comparison& result = comparison.distances;
     const double d = result.diagonal;
     print_json({{"a", arguments.a},
@@ -73,13 +86,16 @@ int run(const CompareArguments& arguments) {
 
 CommandInfo compare_command() {
     const auto arguments = std::make_shared<CompareArguments>();
-    return {"compare",
-            "Measure distances and colour differences of two models",
-            {"faqem compare model.glb simplified.glb --samples 1000000"},
-            {positional("A", arguments->a, "The original; *_rel values are relative to its diagonal"),
-             positional("B", arguments->b, "The other model")},
-            compare_options(arguments->options),
-            [arguments] { return run(*arguments); }};
+    CommandInfo command{
+        "compare",
+        "Measure distances and colour differences of two models",
+        {"faqem compare model.glb simplified.glb", "faqem compare model.glb simplified.glb --json"},
+        {positional("A", arguments->a, "The original; *_rel values are relative to its diagonal"),
+         positional("B", arguments->b, "The other model")},
+        compare_options(arguments->options),
+        [arguments] { return run(*arguments); }};
+    add_options(command.options, {flag_option("--json", arguments->json, "Print JSON instead of text")});
+    return command;
 }
 
 }  // namespace faqem::cli

@@ -18,6 +18,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/process/exit_code.hpp"
+#include "cli/process/interrupt.hpp"
 #include "cli/process/json.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
@@ -224,6 +225,8 @@ CommandInfo info_command() {
             {positional("FILE", arguments->file, detail::listed_extensions(detail::FormatUse::read))},
             {flag_option("--json", arguments->json, "Print JSON instead of text")},
             [arguments] {
+                install_signal_handlers();
+                const ExitOnInterrupt exit_on_interrupt;
                 const AssetInfo asset = examine(load(arguments->file));
                 if (arguments->json) print_json(as_json(arguments->file, asset));
                 if (!arguments->json) print_text(arguments->file, asset);

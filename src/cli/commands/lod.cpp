@@ -99,6 +99,20 @@ void check_max_bytes(const LodArguments& a, const Outputs& outputs, const Option
     if (outputs.is_file) throw OptionError("--max-bytes: cannot be used with one file of all levels");
 }
 
+/// Removes in the end the directories of a path that did not exist before and are still empty.
+struct NewFolders {
+    explicit NewFolders(fs::path folder) {
+        for (; !folder.empty() && !fs::exists(folder); folder = folder.parent_path())
+            created.push_back(folder);
+    }
+    ~NewFolders() {
+        std::error_code error;
+        for (const fs::path& folder : created) fs::remove(folder, error);
+    }
+
+    std::vector<fs::path> created;
+};
+
 /// Checks all output files and creates their folder.
 void prepare_outputs(LodArguments& a, const Outputs& outputs) {
     protect_input(a.in);
@@ -303,6 +317,7 @@ int run(LodArguments arguments) {
     const Outputs outputs(arguments);
     check_max_bytes(arguments, outputs, options);
     options.format = format_of_output(outputs.models[0]);
+    const NewFolders folders(outputs.is_file ? "" : arguments.out);
     prepare_outputs(arguments, outputs);
     install_signal_handlers();
     Asset source;

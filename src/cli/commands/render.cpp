@@ -9,6 +9,7 @@
 #include "cli/options/bound_options.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/process/interrupt.hpp"
+#include "cli/process/progress_bar.hpp"
 #include "render/contact_sheet.hpp"
 #include "render/views.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 
 struct RenderArguments {
     std::vector<std::string> models;  ///< then the output image, unless it is `out`
-    std::string out;
+    std::string out, up = "y";
     std::uint32_t size = 480, views = 4;
     bool unlit = false, wireframe = false, force = false;
 };
@@ -39,15 +40,21 @@ int run(const RenderArguments& arguments) {
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;
 
+    ProgressBar bar(Bar::shown);
+    bar.show("load");
     std::vector<render::Scene> scenes;
     for (const std::string& model : models) {
         scenes.push_back(render::make_scene(load(model)));
         for (const std::string& warning : scenes.back().warnings) {
+            bar.hide();
             std::cerr << "faqem: warning: " << model << ": " << warning << "\n";
         }
     }
+    bar.show("draw");
     const std::vector<render::ContactSheetRow> rows =
-        render::draw_rows(scenes, render::cameras_around(scenes[0], models[0], arguments.views),
+        render::draw_rows(scenes,
+                          render::cameras_around(scenes[0], models[0], arguments.views,
+                                                 arguments.up == "z" ? render::UpAxis::z : render::UpAxis::y),
                           arguments.size, arguments.unlit ? render::Shading::unlit : render::Shading::lit,
                           arguments.wireframe ? render::Edges::drawn : render::Edges::hidden);
     const Image sheet = encode_png(render::compose_contact_sheet(rows), "sheet");
@@ -74,7 +81,7 @@ CommandInfo render_command() {
          number_option("--size", "N", arguments->size, {.min = 16, .max = 2048},
                        "Side of one view, pixels (default 480)"),
          number_option("--views", "N", arguments->views, from_one(16), "Views around the models (default 4)"),
-         flag_option("--unlit", arguments->unlit, "Colours without lighting"),
+         up_option(arguments->up), flag_option("--unlit", arguments->unlit, "Colours without lighting"),
          flag_option("--wireframe", arguments->wireframe, "Draw the mesh edges"),
          force_option(arguments->force)},
         [arguments] { return run(*arguments); }};

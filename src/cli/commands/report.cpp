@@ -10,6 +10,7 @@
 #include "cli/options/bound_options.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/process/interrupt.hpp"
+#include "cli/process/progress_bar.hpp"
 #include "cli/report/error_surface.hpp"
 #include "cli/report/model_comparison.hpp"
 #include "cli/report/report_page.hpp"
@@ -30,7 +31,7 @@ constexpr double color_limit_quantile = 0.995;
 constexpr std::uint64_t max_viewer_bytes = 256'000'000;
 
 struct ReportArguments {
-    std::string a, b, out;
+    std::string a, b, out, up = "y";
     std::uint32_t size = 320, views = 4;
     CompareOptions options;
     bool without_view = false, force = false;
@@ -55,7 +56,8 @@ std::vector<Picture> draw_pictures(const ReportArguments& arguments, const Flatt
     for (const FlattenedModel* model : {&a, &b}) scenes.push_back(render::make_scene(model->asset));
     for (const ErrorSurface* error : {&error_a, &error_b})
         errors.push_back(render::make_scene(color_by_distance(*error, limit)));
-    const std::vector<render::Camera> cameras = render::cameras_around(scenes[0], a.file, arguments.views);
+    const std::vector<render::Camera> cameras = render::cameras_around(
+        scenes[0], a.file, arguments.views, arguments.up == "z" ? render::UpAxis::z : render::UpAxis::y);
     const auto draw = [&](const std::vector<render::Scene>& drawn, render::Edges edges) {
         return render::draw_rows(drawn, cameras, arguments.size, render::Shading::lit, edges);
     };
@@ -86,8 +88,12 @@ std::optional<ViewerData> make_viewer_data(const ReportArguments& arguments, con
     const double unit = page.comparison.distances.diagonal;
     ViewerFrame frame{{}, unit};
     for (std::size_t k = 0; k < 3; ++k) frame.centre[k] = 0.5 * info.box_min[k] + 0.5 * info.box_max[k];
-    ViewerData view{viewer_glb(a, error_a, frame), viewer_glb(b, error_b, frame), limit / unit,
-                    max_distance / unit, unit};
+    ViewerData view{viewer_glb(a, error_a, frame),
+                    viewer_glb(b, error_b, frame),
+                    limit / unit,
+                    max_distance / unit,
+                    unit,
+                    arguments.up};
     if (view.a.size() + view.b.size() > max_viewer_bytes) {
         page.notes.push_back("No 3D view: the models exceed the limit of " +
                              std::to_string(max_viewer_bytes / 1'000'000) + " MB.");
@@ -105,8 +111,11 @@ int run(const ReportArguments& arguments) {
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;
 
+    ProgressBar bar(Bar::shown);
+    bar.show("load");
     const FlattenedModel a = load_flattened(arguments.a), b = load_flattened(arguments.b);
     ReportPage page;
+    bar.show("compare");
     page.comparison = compare_models(a, b, arguments.options);
     page.a = describe_model(a, page.comparison.a);
     page.b = describe_model(b, page.comparison.b);
@@ -116,6 +125,7 @@ int run(const ReportArguments& arguments) {
     const double max_distance = distance_quantile(error_a, error_b, 1),
                  within = distance_quantile(error_a, error_b, color_limit_quantile),
                  limit = within > 0 ? within : max_distance;
+    bar.show("draw");
     page.pictures = draw_pictures(arguments, a, b, error_a, error_b, limit);
     page.view = make_viewer_data(arguments, a, b, error_a, error_b, page, limit, max_distance);
     if (!page.comparison.colors_warning.empty()) page.notes.push_back(page.comparison.colors_warning);
@@ -123,6 +133,7 @@ int run(const ReportArguments& arguments) {
         for (const std::string& warning : model->asset.warnings)
             page.notes.push_back(model->file + ": " + warning);
     }
+    bar.hide();
     for (const std::string& note : page.notes) std::cerr << "faqem: warning: " << note << "\n";
     write_only_output(arguments.out, report_html(page), overwrite);
     return exit_ok;
@@ -142,6 +153,7 @@ CommandInfo report_command() {
                                                 "Side of one view of a picture, pixels (default 320)"),
                                   number_option("--views", "N", arguments->views, from_one(16),
                                                 "Views of a picture (default 4)"),
+                                  up_option(arguments->up),
                                   flag_option("--without-view", arguments->without_view,
                                               "Figures and pictures only, without the 3D view")});
     add_options(command.options, compare_options(arguments->options));

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
@@ -114,9 +113,8 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
     if (report.max_error) {
         const MeasuredError& error = *report.max_error;
         out << "distance: at most " << error.bound << " (allowed " << error.allowed << "), "
-            << shown_percent(error.bound / diagonal)
-            << " of the diagonal: less than a pixel where the diagonal has up to "
-            << std::llround(std::min(diagonal / error.bound, 1e15)) << " pixels\n";
+            << shown_percent(error.bound / diagonal) << " of the diagonal"
+            << shown_in_pixels(error.bound, diagonal) << "\n";
     }
     const auto print_meshes = [&](const char* what, std::size_t count) {
         if (count > 0) out << what << ": " << count << (count == 1 ? " mesh\n" : " meshes\n");

@@ -106,6 +106,11 @@ OptionInfo format_option(std::string& format) {
                        "Output format (default " + default_format() + ")");
 }
 
+OptionInfo up_option(std::string& up) {
+    return text_option("--up", "y|z", up,
+                       "Axis that points up; y is that of glTF (default), z that of many scans");
+}
+
 std::vector<OptionInfo> compare_options(CompareOptions& options) {
     return {number_option("--samples", "N", options.samples, from_one(0x1p32),
                           "Samples on each model (default 200000)"),

@@ -58,6 +58,9 @@ OptionInfo quiet_option(bool& quiet);
 /// --format of the commands that write several models.
 OptionInfo format_option(std::string& format);
 
+/// --up of the commands that draw.
+OptionInfo up_option(std::string& up);
+
 /// The options of comparing two models (`faqem compare` and `faqem report`).
 std::vector<OptionInfo> compare_options(CompareOptions& options);
 

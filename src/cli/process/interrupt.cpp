@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <string_view>
 
 #include "asset/io/temporary_file.hpp"
 #include "cli/process/exit_code.hpp"
@@ -22,7 +23,10 @@ static_assert(std::atomic<bool>::is_always_lock_free, "used in a signal handler"
 
 /// Ends the process, unless a thread is replacing files: then the signal is seen by is_interrupted().
 void exit_unless_replacing() {
-    if (detail::remove_temporary_files()) _exit(exit_cancelled);
+    if (!detail::remove_temporary_files()) return;
+    constexpr std::string_view said = "\nfaqem: cancelled\n";
+    [[maybe_unused]] const auto count = write(STDERR_FILENO, said.data(), said.size());
+    _exit(exit_cancelled);
 }
 
 void on_worker_signal(int number) {

@@ -19,8 +19,15 @@ constexpr int width = 40;
 
 ProgressBar::ProgressBar(Bar bar) : shown_(bar == Bar::shown && isatty(STDERR_FILENO) == 1) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { hide(); }
+
+void ProgressBar::hide() {
     if (drawn_) std::cerr << "\r\x1b[K" << std::flush;
+}
+
+void ProgressBar::show(std::string_view text) {
+    drawn_ = shown_;
+    if (shown_) std::cerr << "\r\x1b[K" << text << std::flush;
 }
 
 void ProgressBar::show(Phase phase, double fraction) {
@@ -29,10 +36,9 @@ void ProgressBar::show(Phase phase, double fraction) {
     if (phase == phase_ && percent == percent_) return;
     phase_ = phase;
     percent_ = percent;
-    drawn_ = true;
     const auto full = static_cast<std::size_t>(width * percent / 100);
-    std::cerr << "\r\x1b[K" << phase_names[static_cast<std::size_t>(phase)] << " [" << std::string(full, '#')
-              << std::string(width - full, '.') << "] " << percent << "%" << std::flush;
+    show(std::string(phase_names[static_cast<std::size_t>(phase)]) + " [" + std::string(full, '#') +
+         std::string(width - full, '.') + "] " + std::to_string(percent) + "%");
 }
 
 }  // namespace faqem::cli

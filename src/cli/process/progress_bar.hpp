@@ -2,6 +2,8 @@
 /// \file
 /// A progress bar on stderr.
 
+#include <string_view>
+
 #include "faqem/progress.hpp"
 
 namespace faqem::cli {
@@ -21,6 +23,10 @@ public:
     /// Draws the bar if the phase or the percentage changed. \param fraction  completed share of the phase,
     /// in [0, 1]
     void show(Phase phase, double fraction);
+    /// Draws a text instead.
+    void show(std::string_view text);
+    /// Clears the line, so that other text can be printed.
+    void hide();
 
 private:
     bool drawn_ = false, shown_;

@@ -1,5 +1,6 @@
 #include "cli/process/shown_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -27,6 +28,12 @@ std::string shown_bytes(std::uint64_t bytes) {
     else
         out << static_cast<double>(bytes) / 1e6 << " MB";
     return out.str();
+}
+
+std::string shown_in_pixels(double distance, double diagonal) {
+    if (!(distance > 0)) return {};
+    return ": less than a pixel where the diagonal has up to " +
+           std::to_string(std::llround(std::min(diagonal / distance, 1e15))) + " pixels";
 }
 
 }  // namespace faqem::cli

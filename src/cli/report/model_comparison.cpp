@@ -1,10 +1,14 @@
 #include "cli/report/model_comparison.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/rounding_weld.hpp"
+#include "cli/process/shown_text.hpp"
 #include "faqem/error.hpp"
+#include "render/views.hpp"
 
 namespace faqem::cli {
 
@@ -30,6 +34,22 @@ ModelComparison compare_models(const FlattenedModel& a, const FlattenedModel& b,
         result.colors_warning = std::string("colours are not compared: ") + error.what();
     }
     return result;
+}
+
+std::string comparison_text(const ModelComparison& comparison, std::uint64_t bytes_a, std::uint64_t bytes_b) {
+    const double bound = comparison.distances.hausdorff_bound, diagonal = comparison.distances.diagonal;
+    std::string text = render::with_commas(comparison.b.faces) + " faces instead of " +
+                       render::with_commas(comparison.a.faces) + ", " + shown_bytes(bytes_b) +
+                       " instead of " + shown_bytes(bytes_a) +
+                       ".\nNo point of either surface is farther than " + shown_number(bound) + " (" +
+                       shown_percent(bound / diagonal) + " of the diagonal) from the other" +
+                       shown_in_pixels(bound, diagonal) + ".\n";
+    if (!comparison.colors) return text;
+    const ColorComparison& colors = *comparison.colors;
+    if (!std::isfinite(colors.psnr)) return text + "Colours do not differ.\n";
+    return text + "Colours differ by " + shown_percent(colors.rmse) + " of their range (" +
+           shown_number(colors.psnr, 3) + " dB), and by more than a quarter on " +
+           shown_percent(std::max(colors.a_to_b.outliers, colors.b_to_a.outliers)) + " of the surface.\n";
 }
 
 }  // namespace faqem::cli

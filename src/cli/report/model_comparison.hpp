@@ -2,6 +2,7 @@
 /// \file
 /// Comparison of two models, shared by `faqem compare` and `faqem report`.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -39,5 +40,9 @@ struct ModelComparison {
 /// \param a  the original, whose diagonal is the unit of relative distances
 ModelComparison compare_models(const FlattenedModel& a, const FlattenedModel& b,
                                const CompareOptions& options);
+
+/// What a comparison found, for people: a sentence in each line.
+/// \param bytes_a, bytes_b  total sizes of the files of both models
+std::string comparison_text(const ModelComparison& comparison, std::uint64_t bytes_a, std::uint64_t bytes_b);
 
 }  // namespace faqem::cli

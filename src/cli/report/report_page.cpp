@@ -77,15 +77,6 @@ std::string colors_table(const ReportPage& page) {
          row("Cut away by an alpha mask", [](const OneSidedColors& s) { return shown_percent(s.hidden); })});
 }
 
-std::string summary(const ReportPage& page) {
-    const MeshInfo &a = page.a.mesh, &b = page.b.mesh;
-    const Comparison& c = page.comparison.distances;
-    return render::with_commas(b.faces) + " faces instead of " + render::with_commas(a.faces) + ", " +
-           shown_bytes(page.b.bytes) + " instead of " + shown_bytes(page.a.bytes) +
-           ". No point of either surface is farther than " + shown_number(c.hausdorff_bound) + " (" +
-           shown_percent(c.hausdorff_bound / c.diagonal) + " of the diagonal) from the other.";
-}
-
 std::string pictures(const ReportPage& page) {
     std::string html;
     for (const Picture& picture : page.pictures) {
@@ -118,8 +109,11 @@ std::string scripts(const ReportPage& page) {
                "</script>\n";
     };
     const ViewerData& v = *page.view;
-    const Json data = {
-        {"limit", v.limit}, {"max_distance", v.max_distance}, {"unit", v.unit}, {"ramp", heat_ramp}};
+    const Json data = {{"limit", v.limit},
+                       {"max_distance", v.max_distance},
+                       {"unit", v.unit},
+                       {"up", v.up},
+                       {"ramp", heat_ramp}};
     return block("view-data", "application/json", data.dump()) +
            block("model-a", "application/octet-stream", base64(v.a)) +
            block("model-b", "application/octet-stream", base64(v.b)) + "<script>" +
@@ -145,7 +139,7 @@ std::string report_html(const ReportPage& page) {
                     {"NAME_A", escape_html(name_of(page.a))},
                     {"NAME_B", escape_html(name_of(page.b))},
                     {"STYLE", fill_template(page_style, {{"RAMP", ramp_stops()}})},
-                    {"SUMMARY", escape_html(summary(page))},
+                    {"SUMMARY", escape_html(comparison_text(page.comparison, page.a.bytes, page.b.bytes))},
                     {"VIEW", view(page)},
                     {"TABLES", counts_table(page.a, page.b) + distances_table(page) + colors_table(page)},
                     {"NOTES", notes(page)},

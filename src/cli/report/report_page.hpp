@@ -31,6 +31,7 @@ struct ViewerData {
     double limit = 0;                ///< distance at the end of the colour scale, units of the frame
     double max_distance = 0;         ///< maximum distance, units of the frame
     double unit = 1;                 ///< ViewerFrame::unit, model units
+    std::string up = "y";            ///< axis
 };
 
 struct ReportPage {

@@ -76,5 +76,5 @@ def compare(
     with tempfile.TemporaryDirectory() as folder:
         files = [_file(model, folder, name) for model, name in ((a, "a"), (b, "b"))]
         words = [word for name, number in numbers.items() for word in ("--" + name, number)]
-        found: dict[str, Any] = json.loads(command("compare", *words, "--", *files))
+        found: dict[str, Any] = json.loads(command("compare", "--json", *words, "--", *files))
     return {key: value for key, value in found.items() if key not in ("a", "b")}

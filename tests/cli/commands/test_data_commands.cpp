@@ -50,13 +50,13 @@ TEST_CASE("info lists what was not understood, which --strict accepts") {
     CHECK(run(folder, "simplify in.obj out.glb --strict").code == 0);
 }
 
-TEST_CASE("compare prints two-sided distances and the settings of the measurement") {
+TEST_CASE("compare --json prints two-sided distances and the settings of the measurement") {
     const Folder folder;
     faqem::Asset a = sheet(5, 0), b = sheet(7, 0);
     for (faqem::Vec3& p : b.parts[0].positions) p[2] += 0.5;
     faqem::save(a, folder / "a.glb");
     faqem::save(b, folder / "b.stl");
-    const Outcome outcome = run(folder, "compare a.glb b.stl --samples 1000 --seed 7 --threads 2");
+    const Outcome outcome = run(folder, "compare --json a.glb b.stl --samples 1000 --seed 7 --threads 2");
     REQUIRE(outcome.code == 0);
     const nlohmann::json result = nlohmann::json::parse(outcome.out);
     CHECK(result["hausdorff"].get<double>() == Approx(0.5));
@@ -75,10 +75,10 @@ TEST_CASE("compare prints two-sided distances and the settings of the measuremen
     CHECK(result["info_b"]["faces"] == 98);
     CHECK(result["samples"] == 1000);
     CHECK(result["seed"] == 7);
-    CHECK(run(folder, "compare a.glb b.stl --samples 1000 --seed 7 --threads 1").out == outcome.out);
+    CHECK(run(folder, "compare --json a.glb b.stl --samples 1000 --seed 7 --threads 1").out == outcome.out);
 }
 
-TEST_CASE("compare measures colour differences if both models have colours") {
+TEST_CASE("compare --json measures colour differences if both models have colours") {
     const Folder folder;
     const faqem::Asset sheet = tool_test::sheet(5, 0);
     faqem::Asset blue = sheet;
@@ -90,7 +90,7 @@ TEST_CASE("compare measures colour differences if both models have colours") {
 
     // The red half of the sheet differs from blue by 1 in two of three channels.
     const nlohmann::json result =
-        nlohmann::json::parse(run(folder, "compare sheet.glb blue.glb --samples 10000").out);
+        nlohmann::json::parse(run(folder, "compare --json sheet.glb blue.glb --samples 10000").out);
     const nlohmann::json& colors = result["colors"];
     CHECK(colors["rmse"].get<double>() == Approx(std::sqrt(1.0 / 3)).epsilon(0.02));
     CHECK(colors["psnr"].get<double>() == Approx(10 * std::log10(3)).epsilon(0.02));
@@ -100,26 +100,26 @@ TEST_CASE("compare measures colour differences if both models have colours") {
     CHECK(colors["b_to_a"]["hidden"] == 0);
 
     const nlohmann::json same =
-        nlohmann::json::parse(run(folder, "compare blue.glb blue.glb --samples 1000").out);
+        nlohmann::json::parse(run(folder, "compare --json blue.glb blue.glb --samples 1000").out);
     CHECK(same["colors"]["rmse"] == 0);
     CHECK(same["colors"]["psnr"].is_null());
-    CHECK(nlohmann::json::parse(run(folder, "compare sheet.glb bare.stl --samples 1000").out)["colors"]
+    CHECK(nlohmann::json::parse(run(folder, "compare --json sheet.glb bare.stl --samples 1000").out)["colors"]
               .is_null());
 }
 
-TEST_CASE("compare measures distances even if an image cannot be read") {
+TEST_CASE("compare --json measures distances even if an image cannot be read") {
     const Folder folder;
     faqem::Asset asset = sheet(5, 0);
     asset.images[0].encoded.resize(60);
     faqem::save(asset, folder / "broken.glb");
-    const Outcome outcome = run(folder, "compare broken.glb broken.glb --samples 1000");
+    const Outcome outcome = run(folder, "compare --json broken.glb broken.glb --samples 1000");
     REQUIRE(outcome.code == 0);
     CHECK(nlohmann::json::parse(outcome.out)["colors"].is_null());
     CHECK(nlohmann::json::parse(outcome.out)["hausdorff"].get<double>() < 1e-12);
     CHECK(outcome.err.find("warning: colours are not compared") != std::string::npos);
 }
 
-TEST_CASE("compare transforms instances by their nodes") {
+TEST_CASE("compare --json transforms instances by their nodes") {
     const Folder folder;
     // Two instances of one triangle; the second is translated by 10 and mirrored.
     write(folder / "two.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
@@ -131,7 +131,7 @@ TEST_CASE("compare transforms instances by their nodes") {
         "buffers": [{"byteLength": 36,
             "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
     write(folder / "two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 10 0 0\nv 9 0 0\nv 10 1 0\nf 1 2 3\nf 4 6 5\n");
-    const Outcome outcome = run(folder, "compare two.gltf two.obj --samples 1000");
+    const Outcome outcome = run(folder, "compare --json two.gltf two.obj --samples 1000");
     REQUIRE(outcome.code == 0);
     const nlohmann::json result = nlohmann::json::parse(outcome.out);
     CHECK(result["hausdorff"].get<double>() < 1e-6);

@@ -143,7 +143,9 @@ TEST_CASE("lod writes nothing if a level misses its target or maximum error") {
         run(folder, "lod a.glb out --levels 0.5,4 --lock-boundary --strict-target --bake none");
     CHECK(outcome.code == 5);
     CHECK(outcome.err.find("faqem: a.glb: target missed: ") == 0);
-    CHECK_FALSE(fs::exists(folder / "out/a_LOD0.glb"));
+    CHECK_FALSE(fs::exists(folder / "out"));
+    CHECK(run(folder, "lod a.glb new/inner --levels 0.5,4 --lock-boundary --strict-target").code == 5);
+    CHECK_FALSE(fs::exists(folder / "new"));
     const Outcome far = run(folder, "lod a.glb out --levels 0.5,error:0.0001% --bake none");
     CHECK(far.code == 6);
     CHECK(far.err.find("faqem: a.glb: max error exceeded: ") == 0);

@@ -32,7 +32,7 @@ function connectControls(stage, errorMaterial, view) {
 async function start() {
   const view = JSON.parse(byId('view-data').textContent);
   const errorMaterial = makeErrorMaterial(view.ramp);
-  const stage = makeStage(byId('canvas'), [byId('frame-a'), byId('frame-b')]);
+  const stage = makeStage(byId('canvas'), [byId('frame-a'), byId('frame-b')], view.up);
   const models = ['model-a', 'model-b'].map((id) => readModel(byId(id), errorMaterial));
   stage.setModels(await Promise.all(models));
   connectControls(stage, errorMaterial, view);

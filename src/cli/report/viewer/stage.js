@@ -1,6 +1,6 @@
 // Draws both models with one shared camera on one canvas, which lies behind the frames of both models.
 import {
-  NeutralToneMapping, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
+  NeutralToneMapping, PerspectiveCamera, PMREMGenerator, Quaternion, Scene, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
@@ -26,8 +26,8 @@ function moveByKeys(canvas, controls) {
   });
 }
 
-/// Creates the renderer. \param frames  elements above the canvas, one for each model
-export function makeStage(canvas, frames) {
+/// Creates the renderer. \param frames  elements above the canvas, one for each model \param up  axis: y or z
+export function makeStage(canvas, frames, up) {
   const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
   renderer.toneMapping = NeutralToneMapping;
   renderer.setScissorTest(true);
@@ -35,6 +35,8 @@ export function makeStage(canvas, frames) {
   const environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
   const scenes = frames.map(() => Object.assign(new Scene(), { environment }));
   const camera = new PerspectiveCamera(fieldOfView);
+  const turn = new Quaternion().setFromUnitVectors(camera.up, up === 'z' ? new Vector3(0, 0, 1) : camera.up);
+  camera.up.applyQuaternion(turn);
   const controls = new OrbitControls(camera, canvas);
   let models = [], isDrawScheduled = false;
 
@@ -78,7 +80,7 @@ export function makeStage(canvas, frames) {
 
   const shape = frames[0].getBoundingClientRect();
   const narrow = Math.min(1, shape.width / shape.height);
-  camera.position.copy(initialDirection).multiplyScalar(0.47 / Math.sin((fieldOfView / 360) * Math.PI) / narrow);
+  camera.position.copy(initialDirection).applyQuaternion(turn).multiplyScalar(0.47 / Math.sin((fieldOfView / 360) * Math.PI) / narrow);
   controls.update();
   controls.saveState();
   controls.addEventListener('change', draw);

@@ -65,6 +65,7 @@ TEST_CASE("at a terminal an existing output is replaced only after a yes") {
         CHECK(session.shown.find("); overwrite? [y/N] ") != std::string::npos);
         CHECK((read(folder / "out.glb") == "mine") == (code != 0));
         CHECK(fs::exists(folder / "r.json") == (code == 0));
+        CHECK((session.shown.find("\nfaqem: cancelled") != std::string::npos) == (code == 8));
     }
     write(folder / "r.json", "mine");
     const Session both = run_at_terminal(folder, command, "n\r");
