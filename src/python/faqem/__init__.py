@@ -19,6 +19,7 @@ from .errors import (
     OptionError,
     ReadError,
     TimeLimitError,
+    TryAgainError,
     UnsupportedError,
     WriteError,
 )
@@ -51,6 +52,7 @@ __all__ = [
     "Simplified",
     "Texture",
     "TimeLimitError",
+    "TryAgainError",
     "UnsupportedError",
     "WriteError",
     "bake_truncated",
