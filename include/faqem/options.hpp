@@ -41,7 +41,7 @@ struct BakeOptions {
     NormalMap normal_map = NormalMap::automatic;
     /// Samples per texel along each axis, in [1, 8]: 2 means 2 x 2.
     std::uint32_t samples = 2;
-    Normals normals = Normals::transfer;
+    Normals normals = Normals::automatic;
     /// Angle between normals, in degrees, above which a vertex is split, in [0, 180]. Ignored by
     /// Normals::flat.
     double crease_angle = 40;

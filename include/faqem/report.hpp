@@ -166,6 +166,8 @@ struct Report {
     std::uint64_t faces_in = 0, faces_out = 0;
     /// Input vertices before welding; output vertices before they are split at UV and normal seams.
     std::uint64_t vertices_in = 0, vertices_out = 0;
+    /// Of an asset: vertices that the seams add to those; 0 if every vertex has one set of values.
+    std::uint64_t vertices_split = 0;
     std::uint64_t target_faces = 0;  ///< equal to faces_out after a search by Options::max_error
     StopReason stop = StopReason::reached_target;
     std::uint64_t collapses = 0;

@@ -11,6 +11,12 @@
 namespace faqem::detail {
 namespace {
 
+template <class Values>
+bool no_part_has(const Asset& source, Values values) {
+    return std::all_of(source.parts.begin(), source.parts.end(),
+                       [&](const Part& part) { return (part.*values).empty(); });
+}
+
 // Whether the vertex colours of a part are classes, such as the labels of a segmented scan: nearly all faces have one
 // colour, and most vertices are inside a class. A colour between two classes means nothing. O(faces)
 bool has_color_classes(const Part& part) {
@@ -25,22 +31,26 @@ bool has_color_classes(const Part& part) {
            static_cast<double>(part.positions.size()) <= 0.75 * faces;
 }
 
+// Normals of formats that need not have any stay automatic, since a normal map that is baked needs them.
+void resolve_normals(const Asset& source, const FileFormat& format, BakeOptions& bake) {
+    if (bake.normals == Normals::none && bake.kind == Bake::automatic) bake.normal_map = NormalMap::off;
+    if (bake.normals != Normals::automatic) return;
+    if (format.is_gltf) bake.normals = Normals::transfer;
+    // Flat normals need no map to the original. If the source has normals, save() warns that the format cannot store
+    // them.
+    if (!format.holds_normals)
+        bake.normals = no_part_has(source, &Part::normals) ? Normals::none : Normals::flat;
+}
+
 // Replaces what is automatic by what the format can hold.
 void resolve_bake(const Asset& source, const FileFormat& format, BakeOptions& bake) {
-    const auto no_part_has = [&](auto values) {
-        return std::all_of(source.parts.begin(), source.parts.end(),
-                           [&](const Part& part) { return (part.*values).empty(); });
-    };
-    const bool is_bare = source.materials.empty() && no_part_has(&Part::colors);
-    const bool keeps_uvs = format.keeps_plain_parts && !no_part_has(&Part::uvs);
+    const bool is_bare = source.materials.empty() && no_part_has(source, &Part::colors);
+    const bool keeps_uvs = format.keeps_plain_parts && !no_part_has(source, &Part::uvs);
     bake.kind = !is_bare ? format.bake : keeps_uvs ? Bake::keep : format.bare_bake;
     if (bake.kind == Bake::vertex && source.images.empty() &&
         std::any_of(source.parts.begin(), source.parts.end(), has_color_classes))
         bake.kind = Bake::keep;
     if (format.is_gltf && names_objects_by_number(source)) bake.kind = Bake::keep;
-    // Flat normals need no map to the original. If the source has normals, save() warns that the format cannot store
-    // them.
-    if (!format.holds_normals) bake.normals = no_part_has(&Part::normals) ? Normals::none : Normals::flat;
     if (bake.untouched != UntouchedParts::automatic || !format.keeps_plain_parts) return;
     if (source.materials.empty()) bake.untouched = UntouchedParts::kept;
     if (source.source) bake.untouched = UntouchedParts::baked;
@@ -59,6 +69,7 @@ Options resolved_options(const Asset& source, Options options) {
         options.quantize.kind = Quantize::off;
     }
     BakeOptions& bake = options.bake;
+    resolve_normals(source, format, bake);
     if (bake.kind == Bake::automatic) resolve_bake(source, format, bake);
     const bool needs_pixels = makes_atlas(bake.kind) || bake.kind == Bake::vertex;
     if (needs_pixels && std::any_of(source.images.begin(), source.images.end(), is_passed_through))
@@ -80,7 +91,8 @@ std::vector<std::string> idle_options(const Asset& source, const Options& option
 bool may_keep_uvs(const Options& options) {
     const BakeOptions& bake = options.bake;
     return bake.kind == Bake::automatic && bake.normal_map == NormalMap::automatic && !bake.texel_density &&
-           bake.correspondence == Recording::off && bake.normals == Normals::transfer &&
+           bake.correspondence == Recording::off &&
+           (bake.normals == Normals::automatic || bake.normals == Normals::transfer) &&
            bake.untouched != UntouchedParts::baked && options.history == Recording::off && !options.max_error;
 }
 

@@ -94,7 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Options options = fuzz::options_of(in);
     const std::uint8_t bits = in.byte(), kinds = in.byte(), more = in.byte();
     options.bake.kind = static_cast<Bake>(kinds % 6);
-    options.bake.normals = static_cast<Normals>(kinds / 6 % 4);
+    options.bake.normals = static_cast<Normals>(kinds / 6 % 5);
     options.bake.normal_map = static_cast<NormalMap>(more % 3);
     options.bake.image_format = static_cast<ImageFormat>(more / 3 % 4);
     options.bake.crease_angle = more / 9 * 8;

@@ -6,7 +6,8 @@ namespace {
 bool keeps_untouched_parts(const BakeOptions& bake) {
     if (bake.untouched != UntouchedParts::automatic) return bake.untouched == UntouchedParts::kept;
     const BakeOptions standard;
-    if (bake.normals != standard.normals || bake.crease_angle != standard.crease_angle) return false;
+    const bool has_usual_normals = bake.normals == Normals::automatic || bake.normals == Normals::transfer;
+    if (!has_usual_normals || bake.crease_angle != standard.crease_angle) return false;
     if (bake.kind == Bake::keep) return true;
     const bool keeps_format =
         bake.image_format == standard.image_format || bake.image_format == ImageFormat::source;

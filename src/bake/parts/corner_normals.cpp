@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bake/parts/corner_points.hpp"
+#include "bake/source/facets.hpp"
 #include "bake/source/source_normals.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "scene/vector_conversion.hpp"
@@ -41,7 +42,10 @@ struct RawNormals {
     std::vector<Vector3> normals;       // by corner
     std::vector<Index> facets;          // by corner; no_index: of no facet that is as large as the face
     std::vector<float> min_cosines;     // by corner: the cosine of the angle to the face must be above
+    std::vector<std::uint8_t>
+        is_joined;  // by facet: its corners at a vertex have one normal whatever their angle
 
+    bool joins(Index facet) const { return facet != no_index && !is_joined.empty() && is_joined[facet]; }
     bool is_accepted(std::uint64_t corner, const Vector3& normal) const {
         const Vector3& of_face = face_normals[corner / 3];
         return of_face.isZero(0) || normal.dot(of_face) > min_cosines[corner];
@@ -58,7 +62,7 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
         const Vector3& n = raw.normals[corners[i]];
         const Index facet = raw.facets[corners[i]];
         const auto joins = [&](const Cluster& cluster) {
-            return cluster.facet == facet && cluster.seed.dot(n) >= min_normal_cosine;
+            return cluster.facet == facet && (raw.joins(facet) || cluster.seed.dot(n) >= min_normal_cosine);
         };
         std::size_t k = 0;
         const std::size_t searched = std::min(clusters.size(), max_clusters);
@@ -77,7 +81,7 @@ void smooth_vertex(const TriangleMesh& mesh, std::span<const std::uint64_t> corn
         Index& first = number[member[i]];
         Index cluster = first == no_index ? first = static_cast<Index>(c) : first;
         if (n.isZero(0)) n = raw.normals[c];
-        if (!raw.is_accepted(c, n)) {
+        if (!raw.joins(raw.facets[c]) && !raw.is_accepted(c, n)) {
             n = raw.face_normals[c / 3];
             cluster = static_cast<Index>(c);
         }
@@ -118,9 +122,17 @@ float min_normal_cosine_at(double source_cosine) {
 }
 
 // Sets the normals of the corners for which the source has one.
-void transfer_normals(const BakePart& part, const RunContext& context, RawNormals& raw) {
+// \param keeps_vertices  whether vertices are not split on facets of the source on which its own are not
+void transfer_normals(const BakePart& part, bool keeps_vertices, const RunContext& context, RawNormals& raw) {
     const Facets facets = normal_facets(*part.source);
     const TriangleMesh& mesh = part.simplified->mesh;
+    if (keeps_vertices && !facets.of_face.empty()) {
+        raw.is_joined = facets.is_seamless;
+        for (std::size_t c = 0; c < raw.facets.size(); ++c) {
+            const Index facet = facets.of_face[part.simplified->history.remaining_faces[c / 3]];
+            if (facets.is_seamless[facet]) raw.facets[c] = facet;
+        }
+    }
     const auto set = [&](std::uint64_t corner, const SurfacePoint& point) {
         const Vector3 original = interpolated_normal(*part.source, point);
         if (original.isZero(0)) return;
@@ -157,9 +169,13 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
 CornerNormals make_normals(const BakePart& part, const BakeOptions& options, const RunContext& context) {
     const TriangleMesh& mesh = part.simplified->mesh;
     const std::size_t corners = 3 * mesh.triangles.size();
-    const bool transfers = options.normals == Normals::transfer;
-    RawNormals raw{std::vector<Vector3>(mesh.triangles.size()), std::vector<Vector3>(corners),
-                   std::vector<Index>(corners, no_index), std::vector<float>(corners, 0.0f)};
+    const bool transfers = options.normals != Normals::smooth && options.normals != Normals::flat;
+    const bool keeps_vertices = options.normals == Normals::automatic && !makes_atlas(options.kind);
+    RawNormals raw{std::vector<Vector3>(mesh.triangles.size()),
+                   std::vector<Vector3>(corners),
+                   std::vector<Index>(corners, no_index),
+                   std::vector<float>(corners, 0.0f),
+                   {}};
     CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners),
                          faces_with_reversed_winding(part)};
     parallel_blocks(mesh.triangles.size(), 256, context, [&](std::size_t begin, std::size_t end) {
@@ -170,7 +186,7 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, con
             for (std::size_t c = 3 * f; c < 3 * f + 3; ++c) raw.normals[c] = face_normal;
         }
     });
-    if (transfers) transfer_normals(part, context, raw);
+    if (transfers) transfer_normals(part, keeps_vertices, context, raw);
     for (std::size_t c = 0; c < corners; ++c) {
         Vector3& n = raw.normals[c];
         if (n.isZero(0)) n = Vector3(0, 0, 1);

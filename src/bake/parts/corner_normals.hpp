@@ -22,13 +22,15 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
                std::size_t other_corner);
 
 /// Computes the normals of a simplified part according to BakeOptions::normals.
-/// With Normals::transfer the normal of a corner is that of the source (of its face, if it has no normals) at
+/// Unless they are smooth or flat, the normal of a corner is that of the source (of its face, if it has no normals) at
 /// a point slightly inside the simplified face; with Normals::smooth it is the normal of the simplified face.
 /// Corners of a vertex whose normals differ by at most the crease angle get their mean, weighted by corner
 /// angle times face area; those on different facets of the source (normal_facets()) do not, if the facets are as large
 /// as the faces. A normal that is not within 90 degrees of the face normal is replaced by the latter, which is
 /// oriented_face_normal() with Normals::transfer, and otherwise given by the winding. Where the normals of the source
 /// are more than 60 degrees from its faces, those of the result may be farther from its faces.
+/// With Normals::automatic, unless the kind makes an atlas, all corners of a vertex on a facet on which the source has one
+/// normal at each position get their mean, whatever their angle.
 /// Normals::flat has the clusters of Normals::smooth, but keeps the face normals.
 /// Complexity: O(corners) for a bounded number of creases per vertex.
 /// \param part  its normals are not used

@@ -30,7 +30,9 @@ struct BakePart {
     const SimplifyResult* simplified = nullptr;
     /// Null if the simplified mesh has no faces, if the part is kept, or if at most normals are transferred from the source.
     std::unique_ptr<const SurfaceMap> map;
-    CornerNormals normals = {};  ///< empty without faces, if it is kept, and with Normals::none
+    CornerNormals normals = {};  ///< empty without faces, if it is kept, and if no normals are needed
+    /// Whether the result has the normals; otherwise only a part with a normal map has them.
+    bool writes_normals = true;
     /// Whether baking leaves it empty in the result, because it is added later with its own vertices or UVs.
     bool is_kept = false;
 

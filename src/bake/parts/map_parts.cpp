@@ -33,11 +33,16 @@ std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyRes
                                 std::span<const std::uint8_t> kept, const BakeOptions& bake,
                                 const RunContext& context) {
     std::vector<BakePart> parts(source.parts.size());
+    const bool writes_normals = bake.normals == Normals::automatic
+                                    ? std::any_of(source.parts.begin(), source.parts.end(),
+                                                  [](const Part& part) { return !part.normals.empty(); })
+                                    : bake.normals != Normals::none;
     for (std::size_t p = 0; p < parts.size(); ++p) {
         parts[p].index = static_cast<Index>(p);
         parts[p].source = &source.parts[p];
         parts[p].simplified = &simplified[p];
         parts[p].is_kept = kept[p] != 0;
+        parts[p].writes_normals = writes_normals;
     }
     // Several parts at a time: the tree of a map is built by one thread.
     const auto map_part = [&](std::size_t p, std::size_t, const RunContext& block_context) {
@@ -47,7 +52,7 @@ std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyRes
             part.map = std::make_unique<const SurfaceMap>(
                 make_surface_map(part.simplified->history, part.source->triangles, block_context));
         }
-        if (bake.normals != Normals::none) part.normals = make_normals(part, bake, block_context);
+        if (writes_normals || makes_atlas(bake.kind)) part.normals = make_normals(part, bake, block_context);
     };
     reported_blocks(parts.size(), 1, context, Phase::map, 0, 1, map_part);
     context.report(Phase::map, 1);

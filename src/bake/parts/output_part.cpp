@@ -10,7 +10,7 @@ namespace faqem::detail {
 
 Part make_output_part(const BakePart& part, CornerValues values, std::vector<Index> materials,
                       const engine::RunContext& context) {
-    values.normals = part.normals.normals;
+    if (part.writes_normals || !values.tangents.empty()) values.normals = part.normals.normals;
     values.custom_attributes = corner_custom_attributes(part, context);
     WeldedPart welded = weld_corners(part, values);
     transfer_skin_and_morphs(part, welded, context);

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "asset/scene/influences.hpp"
+#include "bake/source/facets.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/engine/mesh/vector.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -37,6 +39,10 @@ double shortest_edge(const TriangleMesh& mesh, std::size_t face) {
         least = std::min(least, (to_eigen(mesh.positions[t[i]]) - to_eigen(mesh.positions[t[i + 1]])).norm());
     }
     return least;
+}
+
+double face_area(const TriangleMesh& mesh, Index face) {
+    return area_vector(mesh.positions, mesh.triangles[face]).norm() / 2;
 }
 
 // Sum of premultiplied colours, so that transparent corners do not tint the others. Corners with an alpha of 0
@@ -96,6 +102,9 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
                                  const RunContext& context) {
     const TriangleMesh& mesh = part.simplified->mesh;
     std::vector<LinearColor> raw(3 * mesh.triangles.size());
+    const Facets facets = part.normals.clusters.empty() ? color_facets(*part.source) : Facets{};
+    std::vector<Index> sets = part.normals.clusters;
+    sets.resize(raw.size(), no_index);
     parallel_blocks(mesh.triangles.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
             const Index face = static_cast<Index>(c / 3);
@@ -103,6 +112,10 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
             const double spacing = shortest_edge(mesh, face) / 4;
             const SurfacePoint point = part.map->map(face, barycentrics_near_corner(c % 3, 1e-3));
             raw[c] = sampler.sample(part.index, point, spacing).base;
+            if (!facets.of_face.empty()) {
+                const Index facet = facets.of_face[point.face];
+                if (2 * facets.areas[facet] >= face_area(mesh, face)) sets[c] = facet;
+            }
             if (raw[c][3] > 0) continue;
             const Vec3f stored = sampler.stored_base_color(part.index, point);
             raw[c] = {stored[0], stored[1], stored[2], 0};
@@ -115,7 +128,7 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
     std::vector<Vec4f> result(raw.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         std::vector<std::uint64_t> corners(at.at(v).begin(), at.at(v).end());
-        const auto key = [&](std::uint64_t c) { return std::pair(part.normals.clusters[c], group(c)); };
+        const auto key = [&](std::uint64_t c) { return std::pair(sets[c], group(c)); };
         std::sort(corners.begin(), corners.end(), [&](std::uint64_t a, std::uint64_t b) {
             return key(a) != key(b) ? key(a) < key(b) : a < b;
         });

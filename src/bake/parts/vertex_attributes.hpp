@@ -16,7 +16,8 @@ void transfer_skin_and_morphs(const BakePart& part, WeldedPart& welded,
                               const engine::RunContext& context = {});
 
 /// Colours at the corners of the simplified mesh (FA-QEM: "encoded as per-vertex color attributes"): the base
-/// colour of the source, averaged over the corners of a vertex with the same cluster and face group.
+/// colour of the source, averaged over the corners of a vertex with the same face group and the same cluster of normals or,
+/// without normals, color_facets() as large as the faces.
 /// \return 3 * faces colours, linear, not premultiplied, in [0, 1]
 /// \throws whatever `context` throws
 std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& sampler,

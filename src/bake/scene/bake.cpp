@@ -219,6 +219,11 @@ UnencodedResult run_bake(const Asset& given, const SimplifiedParts& simplified, 
     const Stopwatch watch;
     try {
         work(source, options, out);
+        for (std::size_t p = 0; p < source.parts.size(); ++p) {
+            const std::size_t vertices = out.asset.asset.parts[p].positions.size();
+            const std::size_t unsplit = simplified.parts[p].mesh.positions.size();
+            report.vertices_split += vertices - std::min(vertices, unsplit);
+        }
         set_quantization(source, options, out.asset.asset, report);
     } catch (const engine::Cancelled&) {
         set_cancelled(out.asset);

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "asset/scene/value_numbers.hpp"
 #include "bake/source/extension_layers.hpp"
 #include "bake/source/tangents.hpp"
-#include "faqem/engine/mesh/union_find.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/vector_conversion.hpp"
 
@@ -93,39 +91,6 @@ Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner) {
     Vector3 n = Vector3::Zero();
     if (!part.normals.empty()) n = unit_or_zero(to_vector(part.normals[t[corner]]));
     return n.isZero(0) ? winding_normal(part.positions, t) : n;
-}
-
-Facets normal_facets(const Part& part) {
-    Facets result;
-    if (part.normals.empty()) return result;
-    // One vertex at which the rounded normals are equal connects two facets, so that those that differ only by
-    // rounding do not divide a smooth surface.
-    constexpr double steps = 64;
-    UniqueValues<std::array<double, 6>> vertices;
-    vertices.reserve(part.positions.size());
-    std::vector<Index> vertex(part.positions.size());
-    for (std::size_t v = 0; v < vertex.size(); ++v) {
-        const Vec3& p = part.positions[v];
-        std::array<double, 6> key{p[0], p[1], p[2]};
-        for (std::size_t k = 0; k < 3; ++k) key[3 + k] = std::round(steps * part.normals[v][k]) + 0.0;
-        vertex[v] = vertices.insert(key);
-    }
-    engine::UnionFind sets(vertices.values().size());
-    for (const Triangle& t : part.triangles) {
-        sets.unite(vertex[t[0]], vertex[t[1]]);
-        sets.unite(vertex[t[0]], vertex[t[2]]);
-    }
-    std::vector<Index> number(vertices.values().size(), no_index);
-    for (const Triangle& t : part.triangles) {
-        Index& facet = number[sets.find(vertex[t[0]])];
-        if (facet == no_index) {
-            facet = static_cast<Index>(result.areas.size());
-            result.areas.push_back(0);
-        }
-        result.of_face.push_back(facet);
-        result.areas[facet] += area_vector(part.positions, t).norm() / 2;
-    }
-    return result;
 }
 
 std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part) {

@@ -43,16 +43,6 @@ engine::Vector3 interpolated_normal(const Part& part, const SurfacePoint& point)
 /// Unit normal of a part at a corner of a face, as interpolated_normal().
 engine::Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner);
 
-/// Sets of faces that are connected by vertices with about the same normal: the surface is shaded with an edge where
-/// two of them meet.
-struct Facets {
-    std::vector<Index> of_face;  ///< by face; empty if the part has no normals
-    std::vector<double> areas;   ///< by facet
-};
-
-/// The facets of a part. Complexity: O(n) expected.
-Facets normal_facets(const Part& part);
-
 /// Tangents at the corners of all faces whose material has a normal map, in the part's coordinates. Faces
 /// whose corners all have tangents in the source keep them; the other ones get MikkTSpace tangents from the
 /// texture coordinates after the texture transform.

@@ -77,7 +77,8 @@ std::uint64_t keep_part(const BakeJob& job, const BakePart& part, Part& to) {
             "simplify_parts() transfers if bake.kind is Bake::keep");
     }
     KeptCorners kept = kept_corners(part, job.context);
-    kept.values.tangents = kept_tangents(job.source, part, kept.materials, kept.values.uvs);
+    if (part.writes_normals)
+        kept.values.tangents = kept_tangents(job.source, part, kept.materials, kept.values.uvs);
     to = make_output_part(part, std::move(kept.values), std::move(kept.materials), job.context);
     return kept.crossing_faces;
 }

@@ -50,7 +50,7 @@ class CommonModelOptions(CommonOptions, total=False):
     texture_size: int | None
     texel_density: float | None
     normal_map: Literal["automatic", "on", "off"] | None
-    normals: Literal["transfer", "smooth", "flat", "none"] | None
+    normals: Literal["auto", "transfer", "smooth", "flat", "none"] | None
     crease_angle: float | None
     image_format: Literal["auto", "png", "jpeg", "source", "webp", "png-or-jpeg", "png_or_jpeg"] | None
     image_quality: float | None

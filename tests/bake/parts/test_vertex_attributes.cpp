@@ -308,3 +308,23 @@ TEST_CASE("interpolated skin weights keep the four largest and sum to one") {
     }
     CHECK(blended);
 }
+
+TEST_CASE("vertex colours without normals are split where those of the source are and not at creases") {
+    Options options = of_kind(Bake::vertex);
+    options.bake.normals = Normals::none;
+    Asset asset = cube_asset();
+    asset.parts[0].colors.assign(8, Vec4f{0, 1, 0, 1});
+    CHECK(bake(asset, unchanged(asset), options).asset.parts[0].positions.size() == 8);
+
+    // The face z = 1 is red.
+    Part& part = asset.parts[0];
+    for (Index v = 4; v < 8; ++v) {
+        part.positions.push_back(part.positions[v]);
+        part.colors.push_back({1, 0, 0, 1});
+    }
+    part.triangles[2] = {8, 9, 11};
+    part.triangles[3] = {8, 11, 10};
+    const Part split = bake(asset, unchanged_welded(asset), options).asset.parts[0];
+    CHECK(split.positions.size() == 12);
+    for (const Vec4f& color : split.colors) CHECK((color[0] == 0 || color[0] == 1));
+}

@@ -69,9 +69,84 @@ TEST_CASE("normals can be omitted without baking and then no vertex is split") {
     const Part part = normals_of(Normals::none, 40);
     CHECK(part.normals.empty());
     CHECK(part.positions.size() == 6);
+}
+
+TEST_CASE("normals can be omitted with every kind that makes no atlas, also if it is automatic") {
+    for (const Bake kind : {Bake::automatic, Bake::vertex, Bake::keep, Bake::none}) {
+        Options options = lossless();
+        options.bake.normals = Normals::none;
+        options.bake.kind = kind;
+        const SimplifiedAsset flat = bake(roof(), unchanged(roof()), options);
+        CHECK(flat.asset.parts[0].normals.empty());
+        CHECK(flat.asset.parts[0].positions.size() == 6);
+        CHECK(flat.report.vertices_split == 0);
+    }
+    for (const Bake kind : {Bake::atlas, Bake::per_triangle}) {
+        Options options = lossless();
+        options.bake.normals = Normals::none;
+        options.bake.kind = kind;
+        CHECK_THROWS_AS(bake(roof(), unchanged(roof()), options), OptionError);
+    }
+}
+
+TEST_CASE("a new texture without normals has no normal map, and is no error") {
+    Asset asset = textured_square(ramp(16));
+    asset.materials[0].normal_texture = asset.materials[0].base_color_texture;
     Options options = lossless();
     options.bake.normals = Normals::none;
-    CHECK_THROWS_AS(bake(roof(), unchanged(roof()), options), OptionError);
+    options.bake.untouched = UntouchedParts::baked;
+    const SimplifiedAsset baked = bake(asset, unchanged(asset), options);
+    REQUIRE(baked.report.pages.size() == 1);
+    CHECK(baked.asset.parts[0].normals.empty());
+    CHECK(!baked.asset.materials[0].normal_texture);
+    options.bake.normal_map = NormalMap::on;
+    CHECK_THROWS_AS(bake(asset, unchanged(asset), options), OptionError);
+}
+
+TEST_CASE("automatic normals are in PLY and OBJ only if the source has some or there is a normal map") {
+    Asset bare = roof();
+    bare.parts[0].normals.clear();
+    for (const ModelFormat format : {ModelFormat::ply, ModelFormat::obj, ModelFormat::glb}) {
+        Options options = lossless();
+        options.format = format;
+        options.bake.untouched = UntouchedParts::baked;
+        CHECK(bake(bare, unchanged(bare), options).asset.parts[0].normals.empty() ==
+              (format != ModelFormat::glb));
+        CHECK(!bake(roof(), unchanged(roof()), options).asset.parts[0].normals.empty());
+    }
+    Asset textured = textured_square(ramp(16));
+    textured.parts[0].normals.clear();
+    Options options = lossless();
+    options.format = ModelFormat::obj;
+    options.bake.kind = Bake::atlas;
+    CHECK(bake(textured, unchanged(textured), options).asset.parts[0].normals.empty());
+    textured.materials[0].normal_texture = textured.materials[0].base_color_texture;
+    CHECK(!bake(textured, unchanged(textured), options).asset.parts[0].normals.empty());
+}
+
+TEST_CASE("automatic normals split a vertex in PLY where the source has two normals and only there") {
+    // The ridge is sharp, but both sides share its normals; then they have normals of their own.
+    const auto vertices = [](const Asset& asset, std::uint64_t& split) {
+        Options options = lossless();
+        options.format = ModelFormat::ply;
+        options.bake.untouched = UntouchedParts::baked;
+        const SimplifiedAsset baked = bake(asset, unchanged_welded(asset), options);
+        split = baked.report.vertices_split;
+        return baked.asset.parts[0].positions.size();
+    };
+    Asset asset = roof();
+    const float h = std::sqrt(0.75f);
+    asset.parts[0].normals = {up, up, {-h, 0, 0.5f}, {-h, 0, 0.5f}, {h, 0, 0.5f}, {h, 0, 0.5f}};
+    std::uint64_t split = 1;
+    CHECK(vertices(asset, split) == 6);
+    CHECK(split == 0);
+    Part& part = asset.parts[0];
+    part.positions.insert(part.positions.end(), {{0, 0, 0}, {0, 1, 0}});
+    part.triangles = {{0, 1, 3}, {0, 3, 2}, {6, 4, 5}, {6, 5, 7}};
+    part.normals = {{-h, 0, 0.5f}, {-h, 0, 0.5f}, {-h, 0, 0.5f}, {-h, 0, 0.5f},
+                    {h, 0, 0.5f},  {h, 0, 0.5f},  {h, 0, 0.5f},  {h, 0, 0.5f}};
+    CHECK(vertices(asset, split) == 8);
+    CHECK(split == 2);
 }
 
 TEST_CASE("baked images are PNG or JPEG or have the format of the source") {

@@ -123,7 +123,7 @@ TEST_CASE("docs/profile.schema.json is the schema of all options of simplify, lo
     CHECK(properties["texel-density"]["minimum"] == 0.125);
     CHECK(properties["texel-density"]["maximum"] == 8);
     CHECK(properties["texture-size"]["enum"].size() == 9);
-    CHECK(properties["normals"]["pattern"] == "^(transfer|smooth(:[0-9.]+)?|flat|none)$");
+    CHECK(properties["normals"]["pattern"] == "^(auto|transfer|smooth(:[0-9.]+)?|flat|none)$");
     CHECK(properties["virtual-edges"]["type"] == "number");
     CHECK(properties["report"]["description"].get<std::string>().starts_with("simplify: "));
     for (const char* other : {"help", "config", "output", "source"}) CHECK(!properties.contains(other));

@@ -87,9 +87,9 @@ inline constexpr OptionRow appearance_rows[] = {
          .idle = without_new_texture}),
     option_row<&Options::bake, &BakeOptions::normals>(
         {.name = "normals",
-         .choices = "transfer|smooth|flat|none",
-         .help = "Vertex normals; transfer (from the original), smooth or smooth:ANGLE (averaged below ANGLE "
-                 "degrees, default 40), flat, none (only with --bake none and keep)",
+         .choices = "auto|transfer|smooth|flat|none",
+         .help = "Vertex normals; auto (in OBJ and PLY only if the input has some), transfer (from the "
+                 "original), smooth or smooth:ANGLE (averaged below ANGLE degrees, default 40), flat, none",
          .suffix_choice = "smooth",
          .suffix_option = "crease-angle",
          .entry_points = in_all}),

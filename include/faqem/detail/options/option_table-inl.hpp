@@ -31,9 +31,10 @@ inline constexpr OptionRule option_rules[] = {
     {[](const Options& o) { return !o.max_bytes || !o.max_error; },
      "{max-bytes} cannot be given with {max-error}"},
     {[](const Options& o) {
-         return o.bake.normals != Normals::none || o.bake.kind == Bake::none || o.bake.kind == Bake::keep;
+         return o.bake.normals != Normals::none || !makes_atlas(o.bake.kind) ||
+                (o.bake.kind == Bake::automatic && o.bake.normal_map != NormalMap::on);
      },
-     "{normals} may be none only if {bake} is none or keep"},
+     "{normals} may be none only if {bake} is not atlas or per-triangle, and {normal-map} not on"},
 };
 
 FAQEM_INLINE OptionTable option_table() {

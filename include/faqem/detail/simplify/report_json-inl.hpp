@@ -113,6 +113,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["faces_out"] = report.faces_out;
     json["vertices_in"] = report.vertices_in;
     json["vertices_out"] = report.vertices_out;
+    json["vertices_split"] = report.vertices_split;
     json["target_faces"] = report.target_faces;
     json["stop_reason"] = name(report.stop);
     json["removed_components"] = detail::removed_components_json(report);

@@ -123,8 +123,9 @@ TEST_CASE("simplify accepts every documented value of its options") {
     for (const std::string arguments :
          {"--bake vertex", "--bake keep", "--bake none", "--bake per-triangle", "--normal-map auto",
           "--normal-map on", "--normal-map off", "--normals transfer", "--normals smooth",
-          "--normals smooth:30", "--normals flat", "--image-format png", "--image-format jpeg",
-          "--image-format jpeg:50", "--image-format source", "--correspondence map.bin"})
+          "--normals smooth:30", "--normals flat", "--normals auto", "--normals none", "--image-format png",
+          "--image-format jpeg", "--image-format jpeg:50", "--image-format source",
+          "--correspondence map.bin"})
         accepts(arguments);
     run(folder, "simplify in.glb none.glb --bake none --quiet");
     CHECK(faqem::load(folder / "none.glb").images.empty());
