@@ -140,6 +140,19 @@ struct Part {
     FileOrder file_order = FileOrder::given;
 };
 
+/// How a file stores coordinates. Their values do not tell: whole metres far from the origin are floats, too.
+struct StoredPrecision {
+    enum class Type {
+        unknown,
+        float32,
+        float64,
+        decimal,  ///< text
+    };
+    Type type = Type::unknown;
+    /// Of `decimal`: the most significant digits of a coordinate, and the most decimals.
+    std::uint32_t digits = 0, decimals = 0;
+};
+
 /// Data that a format's reader preserves for its writer (for glTF: scene graph, cameras, animations, extras).
 struct SourceDocument;
 
@@ -154,6 +167,9 @@ struct Asset {
     ModelFormat format = ModelFormat::automatic;
     /// Size of the file that load() has read and of the files that it refers to, bytes; 0: there is none.
     std::uint64_t file_bytes = 0;
+    /// How the file that load() has read stores positions. Results for other formats than glTF are rounded to it, and save()
+    /// stores doubles in PLY files if it is `float64`.
+    StoredPrecision precision = {};
     /// Geometry compression of a glTF file: of the file that was read, and of the one that save() writes.
     Compression compression = Compression::none;
     /// 0, or in [8, 16]: glTF files have integers instead of floats for normals and tangents of all parts, but with

@@ -47,7 +47,7 @@ struct CollapseHistory {
     std::vector<Index> remaining_versions;   ///< version of each simplified vertex
     std::vector<Index> remaining_faces;      ///< input face of each simplified face
     /// Empty, or the final position of each simplified vertex, if vertices moved after the last collapse
-    /// (Preset::best). The positions of the versions are those before that.
+    /// (Preset::best, or rounding to Asset::precision). The positions of the versions are those before that.
     std::vector<Vec3> final_positions;
 
     bool empty() const { return remaining_faces.empty(); }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "asset/scene/messages.hpp"
+#include "asset/scene/position_rounding.hpp"
 #include "asset/scene/source_traits.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
@@ -93,7 +94,11 @@ class PartsRun {
 public:
     PartsRun(const Asset& source, const Options& options, const RunContext& context,
              std::span<const detail::LevelTarget> levels = {})
-        : source_(source), options_(options), context_(context), levels_(levels) {
+        : source_(source),
+          options_(options),
+          context_(context),
+          levels_(levels),
+          precision_(detail::result_precision(source, options.format)) {
         const Bake kind = options.bake.kind;
         const bool merged = kind != Bake::keep && kind != Bake::none;
         if (merged) groups_ = detail::group_materials(source, options.bake);
@@ -138,6 +143,7 @@ private:
                 simplify_part(source_.parts[p], view, share[p], own, of_part);
             is_cancelled_ = results.back().report.stop == StopReason::cancelled;
             for (std::size_t i = 0; i < results.size(); ++i) {
+                round_result(results[i]);
                 results_[i].parts[p] = std::move(results[i]);
                 if (groups_) restore_face_groups(p, results_[i].parts[p]);
                 detail::add_part_report(results_[i].report, results_[i].parts[p].report,
@@ -156,6 +162,13 @@ private:
         }
         for (SimplifiedParts& level : results_) level.report.seconds.total = level.report.seconds.simplify;
         return std::move(results_);
+    }
+
+    // Rounds the positions as the file will have them, so that this is what is measured.
+    void round_result(SimplifyResult& result) const {
+        const std::vector<Vec3> before = result.mesh.positions;
+        detail::round_positions(precision_, result.mesh.triangles, result.mesh.positions);
+        if (result.mesh.positions != before) result.history.final_positions = result.mesh.positions;
     }
 
     // run_to_targets(), with a hint of its shape for a part that is flat at rest and not in a morph target.
@@ -279,6 +292,7 @@ private:
     std::vector<std::uint8_t> has_own_uvs_;  // by part
     std::vector<SimplifiedParts> results_;
     std::span<const detail::LevelTarget> levels_;  // see simplify_parts_to_targets()
+    StoredPrecision precision_;                    // to which results are rounded
     std::vector<std::vector<double>> shares_;      // by target: of proportional_shares(), or empty
     std::vector<detail::CostCurve> curves_;
     std::vector<double> cost_weights_;  // by part

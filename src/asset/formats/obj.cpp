@@ -19,6 +19,7 @@
 #include "asset/scene/part_arrays.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/scene/triangulate.hpp"
+#include "asset/text/number_digits.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
@@ -33,6 +34,7 @@ constexpr std::array<const char*, 3> corner_index_names = {"position", "texture 
 /// The statements of an OBJ file as written, with indices starting at 0.
 struct ObjStatements {
     std::vector<Vec3> positions;
+    StoredPrecision precision;
     std::vector<Vec4f> colors;  // empty, or one per position
     std::vector<Vec2f> uvs;
     std::vector<Vec3f> normals;
@@ -99,7 +101,8 @@ private:
         std::size_t count = 0;
         while (!in_.at_line_end()) {
             if (count == n.size()) in_.fail("v has more than 7 numbers");
-            n[count++] = in_.number<double>();
+            n[count] = count < 3 ? read_coordinate(in_, out_.precision) : in_.number<double>();
+            ++count;
         }
         if (count < 3 || count == 5)
             in_.fail("v has " + std::to_string(count) + " numbers; expected 3, 4, 6 or 7");
@@ -297,6 +300,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     Asset asset;
     Part& part = asset.parts.emplace_back();
     ObjStatements in = ObjParser(text, file.string(), asset.warnings).run();
+    asset.precision = in.precision;
     check_index_count(in.positions.size(), file.string(), "v");
     check_index_count(in.sizes.size(), file.string(), "f");
     add_smoothed_normals(in.positions, in.sizes, in.face_smoothing, in.corners, in.normals);

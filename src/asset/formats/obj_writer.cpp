@@ -15,6 +15,7 @@
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/objects.hpp"
+#include "asset/scene/position_rounding.hpp"
 #include "asset/scene/value_numbers.hpp"
 #include "asset/text/text_buffer.hpp"
 
@@ -225,7 +226,7 @@ EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
     const std::optional<DividedAsset> divided = divided_into_objects(asset);
     const Asset& parts = divided ? divided->asset : asset;
     const std::vector<Instance> all = instances(parts);
-    const Part flat = flatten(parts);
+    const Part flat = flatten_for_file(parts);
     const std::string stem = file.stem().string();
     const UsedMaterials used = used_materials(flat, asset.materials.size());
     MtlLibrary library = make_mtl(asset, used.materials, stem, losses);

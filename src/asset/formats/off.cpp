@@ -12,6 +12,7 @@
 #include "asset/io/file.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/scene/triangulate.hpp"
+#include "asset/text/number_digits.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
@@ -69,8 +70,8 @@ struct ColorWords {
 /// Parser of an OFF file.
 class OffReader {
 public:
-    OffReader(std::span<const std::uint8_t> text, const std::string& file, std::vector<std::string>& warnings)
-        : in_(text, file, Continuation::no), warnings_(warnings) {}
+    OffReader(std::span<const std::uint8_t> text, const std::string& file, Asset& asset)
+        : in_(text, file, Continuation::no), warnings_(asset.warnings), precision_(asset.precision) {}
 
     Part run() {
         keyword_ = read_keyword(in_);
@@ -108,7 +109,7 @@ private:
 
     void read_vertex(std::size_t v) {
         if (!in_.skip_to_content()) in_.fail("the file ends before vertex " + std::to_string(v));
-        for (double& x : part_.positions[v]) x = in_.number<double>();
+        for (double& x : part_.positions[v]) x = read_coordinate(in_, precision_);
         if (keyword_.normals)
             for (float& x : part_.normals[v]) x = in_.number<float>();
         if (keyword_.colors) read_color(part_.colors[v]);
@@ -190,6 +191,7 @@ private:
 
     TextScanner in_;
     std::vector<std::string>& warnings_;
+    StoredPrecision& precision_;
     Keyword keyword_;
     Part part_;
     Polygons polygons_;
@@ -201,7 +203,7 @@ private:
 
 Asset read_off(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
     Asset asset;
-    asset.parts.push_back(OffReader(text, file.string(), asset.warnings).run());
+    asset.parts.push_back(OffReader(text, file.string(), asset).run());
     asset.parts[0].name = file.stem().string();
     return asset;
 }

@@ -350,6 +350,20 @@ private:
     double largest_float_color_ = 0;
 };
 
+/// The type of the positions; that of integers is unknown.
+StoredPrecision position_precision(const PlyHeader& header) {
+    const auto has_type = [&](PlyType type) {
+        const auto is_coordinate = [&](const PlyProperty& p) {
+            return p.type == type && !p.is_list && vertex_property(p) <= z;
+        };
+        return std::any_of(header.elements.begin(), header.elements.end(), [&](const PlyElement& e) {
+            return e.name == "vertex" && std::any_of(e.properties.begin(), e.properties.end(), is_coordinate);
+        });
+    };
+    if (has_type(PlyType::float64)) return {StoredPrecision::Type::float64};
+    return {has_type(PlyType::float32) ? StoredPrecision::Type::float32 : StoredPrecision::Type::unknown};
+}
+
 }  // namespace
 
 Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
@@ -362,7 +376,9 @@ Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path&
                   .run()
             : PlyReader(header, PlyBinaryData(data, file.string(), header.format), file.string(), warnings)
                   .run();
-    return ply_asset(std::move(content), header.texture_files, file, std::move(warnings));
+    Asset asset = ply_asset(std::move(content), header.texture_files, file, std::move(warnings));
+    asset.precision = position_precision(header);
+    return asset;
 }
 
 Asset read_ply(const std::filesystem::path& file) { return read_ply(read_file(file), file); }

@@ -10,6 +10,7 @@
 #include "asset/formats/ply.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/position_rounding.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -72,12 +73,13 @@ EncodedModel encode_ply(const Asset& asset, const std::filesystem::path& file) {
     EncodedModel model;
     std::vector<std::string>& losses = model.losses;
     losses = flattening_losses(asset, "PLY");
-    const Part flat = flatten(asset);
+    const Part flat = flatten_for_file(asset);
     if (!asset.materials.empty()) losses.push_back("PLY cannot hold materials and textures");
     if (flat.uvs.size() > 1) losses.push_back("PLY cannot hold more than one set of texture coordinates");
 
     PlyVertexLayout layout;
-    layout.doubles = !is_float_representable(flat.positions);
+    layout.doubles =
+        asset.precision.type == StoredPrecision::Type::float64 || !is_float_representable(flat.positions);
     layout.normals = !flat.normals.empty();
     layout.colors = !flat.colors.empty();
     layout.alpha = std::any_of(flat.colors.begin(), flat.colors.end(),

@@ -16,8 +16,10 @@
 #include "asset/io/little_endian.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/part_arrays.hpp"
+#include "asset/scene/position_rounding.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/scene/value_numbers.hpp"
+#include "asset/text/number_digits.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
@@ -100,7 +102,7 @@ bool is_junk(TextScanner in) {
            rest.find("FACET") == std::string_view::npos;
 }
 
-Part read_ascii(std::span<const std::uint8_t> text, const std::string& file,
+Part read_ascii(std::span<const std::uint8_t> text, const std::string& file, StoredPrecision& precision,
                 std::vector<std::string>& warnings) {
     TextScanner in(text, file, Continuation::no);
     Welder welder;
@@ -118,7 +120,7 @@ Part read_ascii(std::span<const std::uint8_t> text, const std::string& file,
             std::array<Vec3, 3> corners;
             for (Vec3& p : corners) {
                 expect(in, "vertex");
-                for (double& x : p) x = in.number<double>();
+                for (double& x : p) x = read_coordinate(in, precision);
             }
             expect(in, "endloop");
             expect(in, "endfacet");
@@ -167,13 +169,14 @@ Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path&
         bytes.size() == stl_header_bytes + facet_bytes * std::uint64_t{u32_at(bytes, 80)};
     Part part;
     if (has_binary_size || !looks_like_text(bytes)) {
+        asset.precision.type = StoredPrecision::Type::float32;
         const BinaryStl content = read_binary_stl(bytes, file.string(), asset.warnings);
         Welder welder;
         for (std::size_t f = 0; f < content.facets; ++f)
             welder.add(content.corners(f), content.colors.empty() ? Vec4f{1, 1, 1, 1} : content.colors[f]);
         part = welder.part(file.string());
     } else {
-        part = read_ascii(bytes, file.string(), asset.warnings);
+        part = read_ascii(bytes, file.string(), asset.precision, asset.warnings);
     }
     part.name = file.stem().string();
     repair_non_finite(part, file.string(), 0, asset.warnings);
@@ -192,7 +195,7 @@ EncodedModel encode_stl(const Asset& asset, const std::filesystem::path& file) {
         for (const double x : p)
             if (!(std::abs(x) <= std::numeric_limits<float>::max()))
                 throw WriteError(file.string() + ": STL cannot hold coordinates beyond 3.4e38");
-    if (!is_float_representable(flat.positions))
+    if (loses_digits_as_floats(asset.precision, flat.positions))
         losses.push_back("STL cannot hold positions in double precision");
     if (!flat.normals.empty()) losses.push_back("STL cannot hold vertex normals");
     if (!flat.uvs.empty()) losses.push_back("STL cannot hold texture coordinates");

@@ -26,6 +26,9 @@ public:
     /// \param magnitude  of the largest coordinates that take part in the rounding, >= 0
     double tolerance(double magnitude) const;
 
+    /// Whether the coordinates are floats, as numbers or as text.
+    bool is_float() const { return is_float_; }
+
 private:
     // Significant digits, and the exponent of the last decimal place.
     struct Decimals {

@@ -40,6 +40,7 @@ std::optional<DividedAsset> divided_into_objects(const Asset& asset) {
     divided.materials = asset.materials;
     divided.images = asset.images;
     divided.source = asset.source;
+    divided.precision = asset.precision;
     divided.compression = asset.compression;
     divided.normal_bits = asset.normal_bits;
     divided.uv_bits = asset.uv_bits;

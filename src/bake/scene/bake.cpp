@@ -13,6 +13,7 @@
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
+#include "asset/scene/position_rounding.hpp"
 #include "bake/keep/kept_images.hpp"
 #include "bake/keep/kept_parts.hpp"
 #include "bake/keep/kept_uvs.hpp"
@@ -215,12 +216,17 @@ UnencodedResult run_bake(const Asset& given, const SimplifiedParts& simplified, 
     out.asset.asset.source = source.source;
     out.asset.asset.format = options.format;
     out.asset.asset.warnings = source.warnings;
+    out.asset.asset.precision = source.precision;
     if (report.stop == StopReason::cancelled) return out;
     const Stopwatch watch;
     try {
         work(source, options, out);
+        // Those of simplify_parts() are rounded already, those of histories are not.
+        const StoredPrecision precision = result_precision(source, options.format);
         for (std::size_t p = 0; p < source.parts.size(); ++p) {
-            const std::size_t vertices = out.asset.asset.parts[p].positions.size();
+            Part& part = out.asset.asset.parts[p];
+            round_positions(precision, part.triangles, part.positions);
+            const std::size_t vertices = part.positions.size();
             const std::size_t unsplit = simplified.parts[p].mesh.positions.size();
             report.vertices_split += vertices - std::min(vertices, unsplit);
         }

@@ -344,3 +344,16 @@ TEST_CASE("the PLY writer reports what it leaves out", "[ply]") {
     for (const char* what : {"materials", "more than one set", "tangents", "skins", "morph targets"})
         CHECK(any_contains(losses, what));
 }
+
+TEST_CASE("PLY: doubles stay doubles even if all values are floats") {
+    const TemporaryFolder folder;
+    Asset asset;
+    asset.parts.resize(1);
+    asset.parts[0].positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    asset.parts[0].triangles = {{0, 1, 2}};
+    for (const auto type : {StoredPrecision::Type::float32, StoredPrecision::Type::float64}) {
+        asset.precision.type = type;
+        save(asset, folder / "a.ply", Overwrite::yes);
+        CHECK(load(folder / "a.ply").precision.type == type);
+    }
+}

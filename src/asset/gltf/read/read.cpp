@@ -143,6 +143,7 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
     if (faces == 0 && dropped_faces != 0)
         throw InputError(loaded.file, "/meshes", "all faces have a non-finite position");
     read_vertex_bits(loaded, asset);
+    asset.precision.type = StoredPrecision::Type::float32;
     if (loaded.source->has_draco) asset.compression = Compression::draco;
     if (loaded.source->has_meshopt) asset.compression = Compression::meshopt;
     loaded.source->unused = unused_objects(loaded.source->document);

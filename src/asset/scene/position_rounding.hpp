@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// Rounds the positions of results to what their files store.
+
+#include <vector>
+
+#include "faqem/asset.hpp"
+#include "faqem/export.hpp"
+
+namespace faqem::detail {
+
+/// Whether floats resolve positions: their steps at the largest coordinate are at most a millionth of the bounding box,
+/// and, if the positions were text, they are what programs print for floats. Complexity: O(n)
+bool suits_floats(const std::vector<Vec3>& positions, const StoredPrecision& stored);
+
+/// The precision in which a file of the format stores the positions of a result, in units of its parts.
+/// \param format  of the result, known
+/// \return `unknown` if the positions are not rounded: for glTF, which has other rules; for doubles; if the file has them
+///     in other units, because of transforms; and if floats do not resolve them
+/// Complexity: O(vertices of the source)
+FAQEM_EXPORT StoredPrecision result_precision(const Asset& source, ModelFormat format);
+
+/// Whether a format with floats loses digits of the source. \param positions  of the result, possibly rounded
+bool loses_digits_as_floats(const StoredPrecision& stored, const std::vector<Vec3>& positions);
+
+/// flatten() for a file. A scene of glTF has floats in the coordinates of the world, too, if these resolve them.
+Part flatten_for_file(const Asset& asset);
+
+/// Rounds positions to floats or to decimals: those of `precision`, or one more digit and decimal if it has fewer than six
+/// digits. If this would leave a face without area, one more is tried, and else nothing is rounded.
+/// \param precision  as result_precision()
+/// Complexity: O(n)
+FAQEM_EXPORT void round_positions(const StoredPrecision& precision, const std::vector<Triangle>& triangles,
+                                  std::vector<Vec3>& positions);
+
+}  // namespace faqem::detail

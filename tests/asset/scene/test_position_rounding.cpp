@@ -1,0 +1,105 @@
+#include "asset/scene/position_rounding.hpp"
+
+#include <cmath>
+
+#include "asset/formats/obj.hpp"
+#include "asset/formats/off.hpp"
+#include "asset/formats/ply.hpp"
+#include "faqem/error.hpp"
+#include "support/catch.hpp"
+
+using namespace faqem;
+
+namespace {
+
+using Type = StoredPrecision::Type;
+
+std::vector<std::uint8_t> bytes(const std::string& text) { return {text.begin(), text.end()}; }
+
+StoredPrecision of_obj(const std::string& coordinates) {
+    return detail::read_obj(bytes("v " + coordinates + "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "a.obj").precision;
+}
+
+double rounded(const StoredPrecision& precision, double x) {
+    std::vector<Vec3> positions = {{x, 0, 0}};
+    detail::round_positions(precision, {}, positions);
+    return positions[0][0];
+}
+
+// A square of the given size at a place, with a vertex beside a middle that no float and no short decimal is.
+Asset square_at(double x, double size, StoredPrecision precision) {
+    Asset asset;
+    asset.precision = precision;
+    Part& part = asset.parts.emplace_back();
+    part.positions = {{x, 0, 0}, {x + size, 0, 0}, {x, size, 0}, {x + size, size, 0}};
+    part.triangles = {{0, 1, 3}, {0, 3, 2}};
+    return asset;
+}
+
+}  // namespace
+
+TEST_CASE("text records the most digits from the first that is not zero and the most decimals") {
+    const auto has = [](const StoredPrecision& p, std::uint32_t digits, std::uint32_t decimals) {
+        return p.type == Type::decimal && p.digits == digits && p.decimals == decimals;
+    };
+    CHECK(has(of_obj("0.500000 -12.250000 0.000012"), 8, 6));
+    CHECK(has(of_obj("5121946 3 100"), 7, 0));
+    CHECK(has(of_obj("1.25e-05 0 +2.5E+3"), 3, 7));
+    const std::string off = "OFF\n3 1 0\n0.125 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    CHECK(has(detail::read_off(bytes(off), "a.off").precision, 3, 3));
+}
+
+TEST_CASE("PLY files record the type and not whether the values are floats") {
+    for (const std::string type : {"float", "double", "int"}) {
+        const std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty " + type +
+                                 " x\nproperty " + type + " y\nproperty " + type +
+                                 " z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+        const Type expected = type == "float"    ? Type::float32
+                              : type == "double" ? Type::float64
+                                                 : Type::unknown;
+        CHECK(detail::read_ply(bytes(text), "a.ply").precision.type == expected);
+    }
+}
+
+TEST_CASE("decimals have the digits of the source, and one more where it has fewer than six") {
+    CHECK(rounded({Type::decimal, 7, 6}, 1.23456789) == 1.234568);
+    CHECK(rounded({Type::decimal, 6, 6}, 12.3456789) == 12.3457);
+    CHECK(rounded({Type::decimal, 3, 2}, 1.23456789) == 1.235);
+    CHECK(rounded({Type::decimal, 1, 0}, 0.5678) == 0.6);
+    CHECK(rounded({Type::decimal, 13, 6}, 5121946.51312345678) == 5121946.513123);
+    CHECK(rounded({Type::decimal, 6, 6}, -1e-9) == 0);
+    CHECK(rounded({Type::decimal, 17, 17}, 0.1 + 0.2) == 0.1 + 0.2);
+    CHECK(rounded({Type::float32}, 0.1) == double{0.1f});
+    CHECK(rounded({}, 0.1) == 0.1);
+}
+
+TEST_CASE("a face that rounding would leave without area keeps its exact corners, or gets one more digit") {
+    const std::vector<Triangle> faces = {{0, 1, 2}};
+    std::vector<Vec3> sliver = {{0, 0, 0}, {1, 0, 0}, {0.5, 3e-7, 0}};
+    detail::round_positions({Type::decimal, 7, 6}, faces, sliver);
+    CHECK(sliver[2][1] == 3e-7);
+    // Floats near 1e6 have steps of 1/16.
+    std::vector<Vec3> far = {{1e6, 0, 0}, {1e6 + 0.01, 0, 0}, {1e6, 1, 0}};
+    const std::vector<Vec3> before = far;
+    detail::round_positions({Type::float32}, faces, far);
+    CHECK(far == before);
+}
+
+TEST_CASE("results have the precision of the source as far as the format has it") {
+    const StoredPrecision text = {Type::decimal, 7, 3};
+    const auto type = [](const Asset& asset, ModelFormat format) {
+        return detail::result_precision(asset, format).type;
+    };
+    CHECK(type(square_at(1, 1, {Type::float32}), ModelFormat::ply) == Type::float32);
+    CHECK(type(square_at(1e6, 1, {Type::float32}), ModelFormat::ply) == Type::float32);
+    CHECK(type(square_at(1, 1, {Type::float64}), ModelFormat::ply) == Type::unknown);
+    CHECK(type(square_at(1, 1, {Type::float64}), ModelFormat::stl) == Type::float32);
+    CHECK(type(square_at(1, 1, text), ModelFormat::obj) == Type::decimal);
+    CHECK(type(square_at(1, 1, text), ModelFormat::ply) == Type::float32);
+    // Whole metres far from the origin are floats, but points between them are not.
+    CHECK(type(square_at(5121946, 20, text), ModelFormat::ply) == Type::unknown);
+    CHECK(type(square_at(1, 1, text), ModelFormat::glb) == Type::unknown);
+    CHECK(detail::loses_digits_as_floats(text, {{5121946, 0, 0}, {5121966, 20, 0}}));
+    CHECK(!detail::loses_digits_as_floats(text, {{0, 0, 0}, {20, 20, 0}}));
+}
