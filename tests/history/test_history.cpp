@@ -10,6 +10,7 @@
 #include "faqem/simplify.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
+#include "support/message_of.hpp"
 #include "support/results.hpp"
 
 using namespace faqem;
@@ -59,21 +60,12 @@ CollapseHistory read(const std::string& text) {
     return read_history(in);
 }
 
-std::string error_message(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "accepted";
-}
-
 // The error message of validate() for a modified history; checks that read_history() gives the same.
 std::string changed(const std::function<void(CollapseHistory&)>& change) {
     CollapseHistory h = with_deleted_part();
     change(h);
-    const std::string message = error_message([&] { validate(h); });
-    CHECK(error_message([&] { read(file_bytes(h)); }) == message);
+    const std::string message = testing::message_of([&] { validate(h); });
+    CHECK(testing::message_of([&] { read(file_bytes(h)); }) == message);
     return message;
 }
 
@@ -115,18 +107,18 @@ TEST_CASE("history: writing and reading restores the same bytes") {
 TEST_CASE("history: a truncated file is an error that names the section") {
     const std::string text = file_bytes(with_deleted_part());
     for (std::size_t size = 0; size < text.size(); ++size) {
-        const std::string message = error_message([&] { read(text.substr(0, size)); });
+        const std::string message = testing::message_of([&] { read(text.substr(0, size)); });
         if (message.find("history: ") != 0 || message.find("ends too early") == std::string::npos)
             FAIL("truncated to " << size << " bytes: " << message);
     }
-    CHECK(error_message([&] { read(text.substr(0, 5)); }) == "history: header: ends too early");
-    CHECK(error_message([&] { read(text.substr(0, 20)); }) == "history: positions: ends too early");
-    CHECK(error_message([&] { read(text.substr(0, text.size() - 1)); }) ==
+    CHECK(testing::message_of([&] { read(text.substr(0, 5)); }) == "history: header: ends too early");
+    CHECK(testing::message_of([&] { read(text.substr(0, 20)); }) == "history: positions: ends too early");
+    CHECK(testing::message_of([&] { read(text.substr(0, text.size() - 1)); }) ==
           "history: remaining_faces: ends too early");
 }
 
 TEST_CASE("history: a file of another format is an error") {
-    CHECK(error_message([] { read("glTF............"); }) ==
+    CHECK(testing::message_of([] { read("glTF............"); }) ==
           "history: header: not a collapse history, or of an unsupported version");
 }
 
@@ -142,7 +134,7 @@ TEST_CASE("history: an invalid element count does not allocate memory") {
         for (const std::uint64_t invalid : {std::uint64_t{1} << 60, ~std::uint64_t{0}, count + 1}) {
             std::string forged = text;
             std::memcpy(&forged[at], &invalid, sizeof invalid);
-            CHECK(error_message([&] { read(forged); }) != "accepted");
+            CHECK(testing::message_of([&] { read(forged); }) != "accepted");
         }
         at += 8 + count * size;
     }
@@ -159,7 +151,7 @@ TEST_CASE("history: final positions are written and read, and a wrong number of 
     CHECK(again.final_positions == history.final_positions);
     CHECK(replay(again).positions == history.final_positions);
     history.final_positions.pop_back();
-    CHECK(error_message([&] { validate(history); }) ==
+    CHECK(testing::message_of([&] { validate(history); }) ==
           "history: final_positions: needs one entry per remaining version or none");
 }
 
@@ -179,16 +171,16 @@ TEST_CASE("history: edge flips are written, read and replayed") {
 TEST_CASE("history: an edge flip needs two remaining faces with a common edge") {
     CollapseHistory history = flipped();
     history.patch_faces = {0, 0};
-    CHECK(error_message([&] { validate(history); }) ==
+    CHECK(testing::message_of([&] { validate(history); }) ==
           "history: patch_begin[0]: faces of an edge flip must remain and share an edge");
     history.patch_faces = {0};
     history.patch_begin = {0, 1};
-    CHECK(error_message([&] { validate(history); }) ==
+    CHECK(testing::message_of([&] { validate(history); }) ==
           "history: patch_begin[0]: an edge flip must have two faces");
     history = small();  // face 0 is not in the simplified mesh
     history.patch_faces.insert(history.patch_faces.end(), {0, 1});
     history.patch_begin.push_back(4);
-    CHECK(error_message([&] { validate(history); }) ==
+    CHECK(testing::message_of([&] { validate(history); }) ==
           "history: patch_begin[1]: faces of an edge flip must remain and share an edge");
 }
 
@@ -199,11 +191,13 @@ TEST_CASE("history: arrays of different lengths are an error, also empty ones") 
     std::string forged = text;
     forged.erase(times + 8, 8);
     forged[times] = 0;
-    CHECK(error_message([&] { read(forged); }) == "history: deleted_faces: arrays have different lengths");
+    CHECK(testing::message_of([&] { read(forged); }) ==
+          "history: deleted_faces: arrays have different lengths");
     forged = text;
     forged.erase(times + 24, 4);
     forged[times + 16] = 0;
-    CHECK(error_message([&] { read(forged); }) == "history: deleted_faces: arrays have different lengths");
+    CHECK(testing::message_of([&] { read(forged); }) ==
+          "history: deleted_faces: arrays have different lengths");
 }
 
 TEST_CASE("history: invalid indices are errors that name the first invalid element") {
@@ -267,7 +261,7 @@ TEST_CASE("history: an empty history must not have elements that refer to others
     const auto empty_but = [](const std::function<void(H&)>& change) {
         H h;
         change(h);
-        return error_message([&] { validate(h); });
+        return testing::message_of([&] { validate(h); });
     };
     CHECK(empty_but([](H&) {}) == "accepted");
     CHECK(empty_but([](H& h) { h.remaining_versions = {5}; }) != "accepted");

@@ -251,8 +251,7 @@ TEST_CASE("levels: values out of range or order are errors that name the level")
     CHECK(message({ratio(1.5)}).find("level 0") != std::string::npos);
     CHECK(message({faces(0)}).find("level 0") != std::string::npos);
     CHECK(message({Target{}}).find("level 0") != std::string::npos);
-    Options options;
-    options.target = ratio(0.5);
+    Options options{.target = ratio(0.5)};
     CHECK(message({ratio(0.5)}, options).find("target") != std::string::npos);
     options = {};
     options.max_error = model_units(1);

@@ -80,8 +80,7 @@ void check_same_points(const SimplifyResult& result, int block) {
 TEST_CASE("local map: gives the points of the whole map") {
     for (const double gap : {1e-3, 0.2}) {
         const TriangleMesh mesh = double_sheet(24, gap);
-        Options options;
-        options.target = ratio(0.1);
+        Options options{.target = ratio(0.1)};
         options.history = Recording::on;
         const SimplifyResult result = simplify(mesh.view(), options);
         check_same_points(result, 8);
@@ -90,8 +89,7 @@ TEST_CASE("local map: gives the points of the whole map") {
 }
 
 TEST_CASE("local map: is the whole map until it is prepared") {
-    Options options;
-    options.target = ratio(0.3);
+    Options options{.target = ratio(0.3)};
     options.history = Recording::on;
     const SimplifyResult result = simplify(double_sheet(6, 0.1).view(), options);
     const SurfaceMap map(result.history);

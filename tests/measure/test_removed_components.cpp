@@ -90,8 +90,7 @@ TEST_CASE("removed components: a visible component that is collapsed is named in
 }
 
 TEST_CASE("removed components: a run that removes none reports none") {
-    Options options;
-    options.target = ratio(0.5);
+    Options options{.target = ratio(0.5)};
     const SimplifyResult result = simplify(test::icosphere(2).view(), options);
     CHECK(result.report.components_collapsed == 0);
     CHECK(result.report.removed_components.empty());

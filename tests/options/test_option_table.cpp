@@ -6,6 +6,7 @@
 #include "faqem/error.hpp"
 #include "faqem/report.hpp"
 #include "support/catch.hpp"
+#include "support/message_of.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;
@@ -14,12 +15,8 @@ namespace {
 
 /// The error message of setting an option by its name, or "accepted".
 std::string set_complaint(Options& options, std::string_view name, std::string_view text) {
-    try {
-        set_option(options, named_option(name), text, name_spelling);
-    } catch (const OptionError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return testing::message_of<OptionError>(
+        [&] { set_option(options, named_option(name), text, name_spelling); });
 }
 
 /// A valid text of each option that differs from its default.

@@ -5,6 +5,7 @@
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
+#include "support/message_of.hpp"
 
 using namespace faqem;
 
@@ -17,12 +18,7 @@ template <class Change>
 std::string option_complaint(Change change) {
     Options options;
     change(options);
-    try {
-        validate(options);
-    } catch (const OptionError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return testing::message_of<OptionError>([&] { validate(options); });
 }
 
 }  // namespace

@@ -13,8 +13,7 @@ using namespace faqem::detail;
 using namespace tool_test;
 
 TEST_CASE("the memory estimate of a model grows with faces, preserved attributes, images and texture size") {
-    faqem::Options options;
-    options.bake.kind = faqem::Bake::none;
+    faqem::Options options{.bake = {.kind = faqem::Bake::none}};
     const faqem::Asset small = sheet(20);
     const auto more = [&](const faqem::Asset& asset, const faqem::Options& with) {
         return static_cast<double>(estimated_simplify_memory(asset, with)) -
@@ -128,8 +127,7 @@ TEST_CASE("the memory estimate of a file grows with its size, the texture size a
 }
 
 TEST_CASE("batch and simplify estimate the same memory per face") {
-    faqem::Options options;
-    options.bake.kind = faqem::Bake::none;
+    faqem::Options options{.bake = {.kind = faqem::Bake::none}};
     for (const auto preset :
          {faqem::Preset::fast, faqem::Preset::balanced, faqem::Preset::best, faqem::Preset::qem}) {
         options.preset = preset;

@@ -44,8 +44,7 @@ faqem::SimplifiedAsset halved(const faqem::Asset& asset, faqem::Options options 
 }
 
 faqem::Options atlas_options() {
-    faqem::Options options;
-    options.bake.kind = faqem::Bake::atlas;
+    faqem::Options options{.bake = {.kind = faqem::Bake::atlas}};
     options.bake.normal_map = faqem::NormalMap::off;
     return options;
 }
@@ -55,8 +54,7 @@ std::uint64_t bytes_of(const faqem::SimplifiedAsset& result) {
 }
 
 std::uint64_t bytes_with_source_uvs(const faqem::Asset& asset) {
-    faqem::Options options;
-    options.bake.kind = faqem::Bake::keep;
+    faqem::Options options{.bake = {.kind = faqem::Bake::keep}};
     return bytes_of(halved(asset, options));
 }
 
@@ -210,8 +208,7 @@ TEST_CASE("a normal map that the source does not have goes first, with the tange
 
 TEST_CASE("nothing is given up where no image is new") {
     const faqem::Asset asset = model_with_small_image();
-    faqem::Options options;
-    options.target = faqem::ratio(1);
+    faqem::Options options{.target = faqem::ratio(1)};
     const std::uint64_t bytes = model_size(asset, faqem::ModelFormat::glb).total() - 1;
     const auto result = simplify(from_files(asset, bytes), options);
     CHECK(result.report.given_up.empty());
@@ -223,8 +220,7 @@ TEST_CASE("models without files, bare ones and options without new images have n
         return result.report.given_up.empty() && !has_warning(result, "input");
     };
     CHECK(has_no_rule(halved(model_with_small_image(), atlas_options())));
-    faqem::Options options;
-    options.bake.kind = faqem::Bake::none;
+    faqem::Options options{.bake = {.kind = faqem::Bake::none}};
     CHECK(has_no_rule(halved(from_files(model_with_small_image(), 1), options)));
     faqem::Asset bare = sheet(6);
     bare.images.clear();

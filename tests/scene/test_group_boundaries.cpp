@@ -17,8 +17,7 @@ TEST_CASE("boundaries between materials that stay are preserved without being as
     asset.parts[0].face_material.clear();
     const auto cell = [](Index square) { return (square % 20 / 5 + square / 20 / 5) % 2; };
     for (Index f = 0; f < 800; ++f) asset.parts[0].face_material.push_back(cell(f / 2));
-    Options options;
-    options.target = ratio(0.1);
+    Options options{.target = ratio(0.1)};
     options.bake.kind = GENERATE(Bake::automatic, Bake::keep, Bake::none);
     const SimplifiedParts simplified = simplify_parts(asset, options);
     const SimplifyResult& part = simplified.parts[0];
@@ -45,8 +44,7 @@ TEST_CASE("group boundaries are preserved even if the materials share a page") {
     asset.materials.resize(2);
     asset.parts[0].face_material.clear();
     for (Index f = 0; f < 800; ++f) asset.parts[0].face_material.push_back(f / 2 % 20 / 10);
-    Options options;
-    options.target = ratio(0.05);
+    Options options{.target = ratio(0.05)};
     options.bake.kind = GENERATE(Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none);
     options.topology.group_boundaries = GroupBoundaries::preserved;
     const SimplifiedParts simplified = simplify_parts(asset, options);

@@ -45,8 +45,7 @@ double largest_error(const Part& part) {
 TEST_CASE("a sheet that is flat at rest keeps its shape in a morph target") {
     Asset asset;
     asset.parts = {bending_sheet()};
-    Options options;
-    options.target = ratio(0.15);
+    Options options{.target = ratio(0.15)};
     const SimplifiedAsset result = simplify(asset, options);
     const Part& part = result.asset.parts[0];
     CHECK(part.triangles.size() <= 172);
@@ -62,8 +61,7 @@ TEST_CASE("beside a bumpy part, a flat part with a shape in a morph target gets 
                        return Vec3{x, y, height(x, y)};
                    })};
     asset.parts[1].face_material.clear();
-    Options options;
-    options.target = ratio(0.2);
+    Options options{.target = ratio(0.2)};
     const SimplifiedParts result = simplify_parts(asset, options);
     CHECK(result.parts[0].mesh.triangles.size() > 140);
     CHECK(result.report.faces_out <= 460);

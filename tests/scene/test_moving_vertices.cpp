@@ -102,8 +102,7 @@ TEST_CASE("vertices that move together are welded beside some that do not") {
 TEST_CASE("what moves apart stays apart in the result, with its own joints") {
     Asset asset;
     asset.parts = {skinned_sheets(10)};
-    Options options;
-    options.target = ratio(0.2);
+    Options options{.target = ratio(0.2)};
     const SimplifiedAsset result = simplify(asset, options);
     const Part& part = result.asset.parts[0];
     REQUIRE(part.joints.size() == part.positions.size());
@@ -121,8 +120,7 @@ TEST_CASE("what moves apart stays apart in the result, with its own joints") {
 TEST_CASE("closed lips can be opened by a morph target of the result") {
     Asset asset;
     asset.parts = {opening_sheets(10)};
-    Options options;
-    options.target = ratio(0.2);
+    Options options{.target = ratio(0.2)};
     const SimplifiedAsset result = simplify(asset, options);
     const Part& part = result.asset.parts[0];
     REQUIRE(part.morph_targets.size() == 1);

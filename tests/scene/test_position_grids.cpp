@@ -27,8 +27,7 @@ Asset two_sheets(Index n) {
 }
 
 Options quantized(std::uint32_t bits) {
-    Options options;
-    options.bake.kind = Bake::none;
+    Options options{.bake = {.kind = Bake::none}};
     options.quantize = {.kind = Quantize::on, .position_bits = bits};
     return options;
 }
@@ -65,8 +64,7 @@ TEST_CASE("a source of floats has no grid by default, and none without quantisat
 TEST_CASE("the grid of the source is kept, unless it is coarse for max_error") {
     Asset asset = two_sheets(8);
     for (Part& part : asset.parts) part.position_spacing = 0x1p-9;
-    Options options;
-    options.bake.kind = Bake::none;
+    Options options{.bake = {.kind = Bake::none}};
     CHECK(simplify(asset, options).asset.parts[1].position_spacing == 0x1p-9);
     options.max_error = model_units(0.1);
     CHECK(simplify(asset, options).asset.parts[1].position_spacing == 0x1p-9);

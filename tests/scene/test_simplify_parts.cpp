@@ -28,8 +28,7 @@ TEST_CASE("the budget by error gives a flat part few faces") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(20), Part{}};
     for (Vec3& p : asset.parts[1].positions) p[2] = 0;
-    Options options;
-    options.target = GENERATE(ratio(0.25), faces(400));
+    Options options{.target = GENERATE(ratio(0.25), faces(400))};
     const SimplifiedParts simplified = simplify_parts(asset, options);
     CHECK(simplified.report.target_faces == 400);
     CHECK(simplified.report.faces_out <= 400);
@@ -45,8 +44,7 @@ TEST_CASE("a part keeps 65% of its share, however small it is beside another one
     const double size = GENERATE(30.0, 1e3, 1e6);
     for (Vec3& p : asset.parts[1].positions)
         for (double& x : p) x *= size;
-    Options options;
-    options.target = ratio(0.25);
+    Options options{.target = ratio(0.25)};
     const SimplifiedParts simplified = simplify_parts(asset, options);
     CHECK(simplified.report.faces_out <= 400);
     CHECK(simplified.report.faces_out > 390);
@@ -73,8 +71,7 @@ TEST_CASE("a warning names a flat part that keeps less than a tenth of its share
     asset.parts = {bumpy(20), bumpy(20)};
     for (Vec3& p : asset.parts[1].positions) p[2] = 0;
     asset.parts[1].name = "floor";
-    Options options;
-    options.target = ratio(0.5);
+    Options options{.target = ratio(0.5)};
     const SimplifiedParts simplified = simplify_parts(asset, options);
     REQUIRE(simplified.report.warnings.size() == 1);
     CHECK(simplified.report.warnings[0].find("part 'floor' (") != std::string::npos);
@@ -87,8 +84,7 @@ TEST_CASE("a surface split into two parts gets about as many faces as one part")
     cut.parts = {bumpy(30), bumpy(30)};
     cut.parts[0].triangles.resize(1200);
     cut.parts[1].triangles.erase(cut.parts[1].triangles.begin(), cut.parts[1].triangles.begin() + 1200);
-    Options options;
-    options.target = ratio(0.3);
+    Options options{.target = ratio(0.3)};
     options.topology.boundary = Boundary::locked;
     const SimplifyResult one = simplify_parts(whole, options).parts[0];
     const SimplifiedParts two = simplify_parts(cut, options);
@@ -102,8 +98,7 @@ TEST_CASE("the budget per mesh is proportional to face counts and tiny parts kee
     Asset asset;
     asset.parts = {bumpy(20), bumpy(10), square(), Part{}};
     asset.parts[2].face_material.clear();
-    Options options;
-    options.target = faces(500);
+    Options options{.target = faces(500)};
     options.budget = Budget::mesh;
     const SimplifiedParts simplified = simplify_parts(asset, options);
     REQUIRE(simplified.parts.size() == 4);
@@ -127,8 +122,7 @@ TEST_CASE("the budget per mesh is proportional to face counts and tiny parts kee
 TEST_CASE("with a budget per mesh the ratio applies to every part") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(10)};
-    Options options;
-    options.target = ratio(0.25);
+    Options options{.target = ratio(0.25)};
     options.budget = Budget::mesh;
     const SimplifiedParts simplified = simplify_parts(asset, options);
     CHECK(simplified.parts[0].mesh.triangles.size() <= 200);
@@ -204,8 +198,7 @@ TEST_CASE("small components are pruned from every part except its largest one") 
     Asset asset;
     asset.parts = {dusty, dusty, speck};
     for (Vec3& p : asset.parts[1].positions) p = {10 * p[0], 10 * p[1], 10 * p[2]};
-    Options options;
-    options.bake.kind = Bake::none;
+    Options options{.bake = {.kind = Bake::none}};
     options.topology.prune = GENERATE(model_units(5), of_diagonal(0.015));
     options.budget = GENERATE(Budget::scene, Budget::mesh);
     const SimplifiedParts simplified = simplify_parts(asset, options);
@@ -221,8 +214,7 @@ TEST_CASE("pruned components of a scene are ignored by max_error") {
     const Part dusty = with_speck(bumpy(20), 60);
     Asset asset;
     asset.parts = {dusty};
-    Options options;
-    options.bake.kind = Bake::none;
+    Options options{.bake = {.kind = Bake::none}};
     options.max_error = model_units(0.2);
     options.topology.prune = model_units(2);
     const SimplifiedParts simplified = simplify_parts(asset, options);
@@ -270,8 +262,7 @@ TEST_CASE("simplifying and baking preserves the colours of the source") {
         part.uvs[0].push_back({static_cast<float>(p[0] / 24), static_cast<float>(p[1] / 24)});
     }
     part.face_material.assign(part.triangles.size(), 0);
-    Options options;
-    options.target = ratio(0.2);
+    Options options{.target = ratio(0.2)};
     options.bake.texture_size = 512;
     options.history = Recording::on;
     const SimplifiedAsset simplified = simplify(asset, options);
@@ -301,8 +292,7 @@ TEST_CASE("invalid assets are rejected with the name of the part or material") {
         spoil(asset, asset.parts[0]);
         for (const Bake kind :
              {Bake::automatic, Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
-            Options options;
-            options.bake.kind = kind;
+            Options options{.bake = {.kind = kind}};
             CHECK_THROWS_WITH(simplify(asset, options), why);
         }
     };
@@ -343,8 +333,7 @@ TEST_CASE("coincident faces with different materials are kept although they shar
     part.triangles = {{0, 1, 2}, {4, 5, 3}, {3, 4, 5}, {0, 2, 1}, {3, 4, 2}};
     part.face_material = {0, 1, 0, 0, 2};
     asset.parts = {part};
-    Options options;
-    options.target = ratio(1);
+    Options options{.target = ratio(1)};
     const SimplifiedParts simplified = simplify_parts(asset, options);
     CHECK(simplified.parts[0].face_origin == std::vector<Index>{0, 1, 3, 4});
     CHECK(simplified.report.faces_dropped == 1);
@@ -378,8 +367,7 @@ TEST_CASE("coincident layers with opposite normals are kept with any winding") {
     }
     part.face_material.assign(part.triangles.size(), 0);
     asset.parts = {part};
-    Options options;
-    options.target = ratio(0.25);
+    Options options{.target = ratio(0.25)};
     const SimplifiedAsset simplified = simplify(asset, options);
     CHECK(simplified.report.faces_dropped == 0);
     const Part& out = simplified.asset.parts[0];

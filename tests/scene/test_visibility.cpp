@@ -145,8 +145,7 @@ TEST_CASE("visibility does not depend on the number of threads") {
 
 TEST_CASE("weighted visibility moves faces from hidden to visible surface") {
     const Asset asset = shell_around(test::shaken(icosphere(4), 0.02, 3), 4);
-    Options options;
-    options.target = ratio(0.1);
+    Options options{.target = ratio(0.1)};
     const SimplifiedParts all = simplify_parts(asset, options);
     CHECK(all.report.vertices_hidden == 0);
     options.visibility = Visibility::weighted;

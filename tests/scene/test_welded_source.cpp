@@ -24,11 +24,7 @@ Asset asset_of(const TriangleMesh& mesh) {
     return asset;
 }
 
-Options tenth() {
-    Options options;
-    options.target = ratio(0.1);
-    return options;
-}
+Options tenth() { return {.target = ratio(0.1)}; }
 
 const std::string by_rounding = "that differ from another one by rounding welded";
 
@@ -85,8 +81,7 @@ TEST_CASE("arrays are welded where positions are equal") {
 
 TEST_CASE("levels of a torn soup are closed") {
     const Asset ball = asset_of(float_soup(icosphere(3), 1));
-    Options options;
-    options.bake.kind = Bake::none;
+    Options options{.bake = {.kind = Bake::none}};
     const LevelTextures textures = GENERATE(LevelTextures::each, LevelTextures::shared);
     if (textures == LevelTextures::shared) options.bake.kind = Bake::automatic;
     const auto levels = simplify_levels(ball, {ratio(0.4), ratio(0.1)}, options, textures);

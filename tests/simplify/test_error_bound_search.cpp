@@ -104,8 +104,7 @@ TEST_CASE("results with clearly fewer faces than found by the error search excee
     const SimplifyResult result = simplify(mesh.view(), within(model_units(0.02)));
     const auto found = static_cast<double>(result.mesh.triangles.size());
     for (const double share : {0.93, 0.85, 0.7, 0.5}) {
-        Options options;
-        options.target = faces(static_cast<std::uint64_t>(share * found));
+        Options options{.target = faces(static_cast<std::uint64_t>(share * found))};
         CHECK(hausdorff(mesh.view(), simplify(mesh.view(), options).mesh.view()).bound > 0.02);
     }
 }
@@ -124,8 +123,7 @@ TEST_CASE("with a target and max_error there is one run and one measurement") {
     const TriangleMesh mesh = test::icosphere(3);
     const Target target = GENERATE(faces(100), ratio(0.05));
     for (const double allowed : {1e-3, 0.5}) {
-        Options options;
-        options.target = target;
+        Options options{.target = target};
         const SimplifyResult plain = simplify(mesh.view(), options);
         CHECK(!plain.report.max_error);
         options.max_error = model_units(allowed);

@@ -48,8 +48,7 @@ std::vector<std::size_t> left(const std::vector<double>& sizes, const Length& si
 using Which = std::vector<std::size_t>;
 
 Options pruning(const Length& size, double keep = 1) {
-    Options options;
-    options.target = ratio(keep);
+    Options options{.target = ratio(keep)};
     options.topology.prune = size;
     return options;
 }
@@ -139,8 +138,7 @@ TEST_CASE("pruned components are counted, reported and recorded in the history")
 TEST_CASE("a pruned mesh is simplified like the mesh without its small components") {
     const TriangleMesh clean = test::icosphere(3);
     const TriangleMesh mesh = test::both(clean, test::scaled(test::tetrahedron(), 0.01));
-    Options options;
-    options.target = faces(128);
+    Options options{.target = faces(128)};
     const SimplifyResult without = simplify(clean.view(), options);
     options.topology.prune = of_diagonal(0.02);
     const SimplifyResult pruned = simplify(mesh.view(), options);

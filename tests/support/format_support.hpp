@@ -12,6 +12,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
+#include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace faqem::testing {
@@ -44,17 +45,6 @@ inline Image image_of(const std::string& bytes, const std::string& name = "") {
     image.name = name;
     image.encoded.assign(bytes.begin(), bytes.end());
     return image;
-}
-
-/// Message of the Exception that the call throws. Other exceptions are passed on.
-template <class Exception = InputError, class Call>
-std::string message_of(Call&& call) {
-    try {
-        call();
-    } catch (const Exception& error) {
-        return error.what();
-    }
-    return "(nothing thrown)";
 }
 
 inline bool contains(const std::string& text, const std::string& part) {

@@ -30,7 +30,7 @@ TEST_CASE("a GLB truncated at any byte is rejected") {
     REQUIRE_NOTHROW(load_glb(glb));
     for (std::size_t size = 4; size < glb.size(); ++size) {
         INFO(size);
-        CHECK(refusal(glb.substr(0, size)) != "(nothing thrown)");
+        CHECK(refusal(glb.substr(0, size)) != "accepted");
     }
     check_refused(glb.substr(0, glb.size() - 4), {"GLB header", "truncated"});
 }
@@ -282,7 +282,7 @@ TEST_CASE("unsupported required extensions are rejected with their name") {
     for (const char* name :
          {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_variants",
           "KHR_lights_punctual", "KHR_texture_basisu", "EXT_texture_avif"})
-        CHECK(required(name) == "(nothing thrown)");
+        CHECK(required(name) == "accepted");
 }
 
 TEST_CASE("textures whose only image is of an unknown kind, or KTX2 without its extension, are unsupported") {

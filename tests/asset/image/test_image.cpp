@@ -88,11 +88,11 @@ TEST_CASE("damaged images are rejected") {
         Image cut = whole;
         cut.encoded.resize(size);
         INFO(size);
-        CHECK(message_of<InputError>([&] { decode(cut); }) != "(nothing thrown)");
+        CHECK(message_of<InputError>([&] { decode(cut); }) != "accepted");
     }
     Image flipped = whole;
     flipped.encoded[flipped.encoded.size() / 2] ^= 0xff;
-    CHECK(message_of<InputError>([&] { decode(flipped); }) != "(nothing thrown)");
+    CHECK(message_of<InputError>([&] { decode(flipped); }) != "accepted");
 }
 
 TEST_CASE("unsupported image formats are rejected with their name") {

@@ -157,9 +157,8 @@ TEST_CASE("a JPEG is decoded, and rejected if it is truncated") {
     CHECK_FALSE(pixels.has_alpha);
     REQUIRE(pixels.rgba.size() == 256);
     for (std::size_t i = 0; i < 256; ++i) CHECK(pixels.rgba[i] == (i % 4 == 3 ? 255 : 128));
-    CHECK(message_of<InputError>([&] { decode(image_x(jpeg.substr(0, 100))); }) != "(nothing thrown)");
-    CHECK(message_of<InputError>([&] { decode(image_x(jpeg.substr(0, jpeg.size() - 3))); }) !=
-          "(nothing thrown)");
+    CHECK(message_of<InputError>([&] { decode(image_x(jpeg.substr(0, 100))); }) != "accepted");
+    CHECK(message_of<InputError>([&] { decode(image_x(jpeg.substr(0, jpeg.size() - 3))); }) != "accepted");
 }
 
 TEST_CASE("JPEGs with given steps have them in both tables, rising to 2.4 times at the highest frequency") {

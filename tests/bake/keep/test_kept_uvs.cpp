@@ -113,8 +113,7 @@ std::vector<detail::PartSet> possible_sets(const Asset& asset, SimplifiedParts s
 }
 
 Options tenth() {
-    Options options;
-    options.target = ratio(0.1);
+    Options options{.target = ratio(0.1)};
     options.bake.texture_size = 256;
     return options;
 }

@@ -59,8 +59,7 @@ Asset sheet_and_square() {
 TEST_CASE("untouched: a part with no more faces than the target keeps its arrays and image bytes") {
     Asset asset = textured_square(ramp(64));
     asset.parts = {odd_square()};
-    Options options;
-    options.target = GENERATE(ratio(1), faces(1000));
+    Options options{.target = GENERATE(ratio(1), faces(1000))};
     options.bake.kind = GENERATE(Bake::automatic, Bake::keep);
     options.bake.image_format = GENERATE(ImageFormat::automatic, ImageFormat::source);
     options.history = GENERATE(Recording::off, Recording::on);
@@ -81,8 +80,7 @@ TEST_CASE("untouched: a part with no more faces than the target keeps its arrays
 TEST_CASE("untouched: an option that would change the part bakes it") {
     Asset asset = textured_square(ramp(64));
     asset.parts = {odd_square()};
-    Options options;
-    options.target = ratio(1);
+    Options options{.target = ratio(1)};
     BakeOptions& bake = options.bake;
     SECTION("texture size") { bake.texture_size = 256; }
     SECTION("texel density") { bake.texel_density = 1; }
@@ -101,8 +99,7 @@ TEST_CASE("untouched: an option that would change the part bakes it") {
 TEST_CASE("untouched: with UntouchedParts::kept no option changes the part") {
     Asset asset = textured_square(ramp(64));
     asset.parts = {odd_square()};
-    Options options;
-    options.target = ratio(1);
+    Options options{.target = ratio(1)};
     options.bake.untouched = UntouchedParts::kept;
     options.bake.texture_size = 64;
     options.bake.kind = GENERATE(Bake::automatic, Bake::atlas, Bake::vertex, Bake::keep);
@@ -116,8 +113,7 @@ TEST_CASE("untouched: with UntouchedParts::kept no option changes the part") {
 
 TEST_CASE("untouched: the other parts of the scene are baked, beside the images that are kept") {
     const Asset asset = sheet_and_square();
-    Options options;
-    options.target = faces(100);
+    Options options{.target = faces(100)};
     options.bake.kind = GENERATE(Bake::automatic, Bake::keep);
     const SimplifiedAsset simplified = simplify(asset, options);
     const Asset& result = simplified.asset;
@@ -148,8 +144,7 @@ TEST_CASE("untouched: images of untouched parts are not decoded") {
     Asset asset = textured_square(ramp(64));
     asset.parts = {odd_square()};
     asset.images[0].encoded = {1, 2, 3};
-    Options options;
-    options.target = ratio(1);
+    Options options{.target = ratio(1)};
     CHECK(simplify(asset, options).asset.images[0].encoded == asset.images[0].encoded);
     options.bake.kind = Bake::atlas;
     CHECK_THROWS(simplify(asset, options));
@@ -161,8 +156,7 @@ TEST_CASE("untouched: duplicate faces are dropped, the rest of the part stays") 
     Part& part = asset.parts[0];
     part.triangles = {{3, 2, 1}, {2, 1, 3}, {3, 1, 0}, {0, 0, 1}};
     part.face_material.assign(4, 0);
-    Options options;
-    options.target = ratio(1);
+    Options options{.target = ratio(1)};
     const SimplifiedAsset simplified = simplify(asset, options);
     const Part& result = simplified.asset.parts[0];
     CHECK(simplified.report.faces_dropped == 2);
@@ -182,8 +176,7 @@ TEST_CASE("untouched: a part whose vertices are welded at a distance is baked") 
     part.uvs[1].push_back({1, 0});
     part.colors.push_back({1, 1, 1, 1});
     part.triangles[1] = {3, 4, 0};
-    Options options;
-    options.target = ratio(1);
+    Options options{.target = ratio(1)};
     CHECK(simplify(asset, options).report.untouched_parts.size() == 1);
     options.topology.weld_distance = 1e-3;
     CHECK(simplify(asset, options).report.untouched_parts.empty());
@@ -202,8 +195,7 @@ TEST_CASE("untouched: every preset leaves a part with few faces as it is") {
 
 TEST_CASE("untouched: both stages decide as one call, and a restored history as the run") {
     const Asset asset = sheet_and_square();
-    Options options;
-    options.target = faces(100);
+    Options options{.target = faces(100)};
     options.history = Recording::on;
     const SimplifiedAsset one_call = simplify(asset, options);
     const SimplifiedParts parts = simplify_parts(asset, options);

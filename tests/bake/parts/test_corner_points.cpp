@@ -19,8 +19,7 @@ struct Simplified {
     Simplified(const TriangleMesh& mesh, double share) {
         part.positions = mesh.positions;
         part.triangles = mesh.triangles;
-        Options options;
-        options.target = ratio(share);
+        Options options{.target = ratio(share)};
         options.history = Recording::on;
         result = simplify(mesh.view(), options);
     }

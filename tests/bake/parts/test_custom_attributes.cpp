@@ -52,8 +52,7 @@ Part two_features() {
 TEST_CASE("feature ids are copied to each side of a border, and floats interpolated") {
     Asset asset;
     asset.parts = {two_features()};
-    Options options;
-    options.target = ratio(0.2);
+    Options options{.target = ratio(0.2)};
     options.bake.kind = GENERATE(Bake::automatic, Bake::keep, Bake::none);
     const SimplifiedAsset result = simplify(asset, options);
     const Part& part = result.asset.parts[0];

@@ -10,11 +10,7 @@ using namespace faqem::test;
 
 namespace {
 
-Options of_kind(Bake kind) {
-    Options options;
-    options.bake.kind = kind;
-    return options;
-}
+Options of_kind(Bake kind) { return {.bake = {.kind = kind}}; }
 
 // The cube [0, 1]^3 with 8 vertices and no normals.
 Asset cube_asset() {

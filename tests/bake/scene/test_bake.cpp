@@ -388,8 +388,7 @@ TEST_CASE("a model without textures keeps its materials and objects at any ratio
         part.face_material.push_back(is_high ? 1 : is_east ? 0 : 2);
     }
     source.parts = {part};
-    Options options;
-    options.target = ratio(GENERATE(0.3, 0.05));
+    Options options{.target = ratio(GENERATE(0.3, 0.05))};
     const Asset result = simplify(source, options).asset;
     CHECK(result.images.empty());
     REQUIRE(result.materials.size() == 2);
@@ -423,8 +422,7 @@ TEST_CASE("of several damaged images, the error names the material of the first"
     asset.materials[1].base_color_texture.image = add_texture(asset, ramp(8));
     asset.parts[0].face_material = {0, 1};
     for (Image& image : asset.images) image.encoded.resize(40);
-    Options options;
-    options.bake.kind = Bake::atlas;
+    Options options{.bake = {.kind = Bake::atlas}};
     for (const std::uint32_t threads : {1u, 4u}) {
         options.threads = threads;
         CHECK_THROWS_WITH(bake(asset, unchanged(asset), options), ContainsSubstring("first"));

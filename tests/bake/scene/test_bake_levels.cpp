@@ -21,11 +21,7 @@ Part rolling_sheet(Index n, double height, double x) {
     });
 }
 
-Options plain() {
-    Options options;
-    options.bake.kind = Bake::none;
-    return options;
-}
+Options plain() { return {.bake = {.kind = Bake::none}}; }
 
 /// A sphere with a texture that is projected along z, so that red and green identify x and y.
 Asset ball_painted_along_z() {

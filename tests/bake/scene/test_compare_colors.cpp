@@ -178,8 +178,7 @@ TEST_CASE("a new page shows where colours end, also if UVs are points of a palet
         part.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
     }
     part.face_material.assign(part.triangles.size(), 0);
-    Options options;
-    options.target = ratio(0.1);
+    Options options{.target = ratio(0.1)};
     options.bake.kind = Bake::atlas;
     const SimplifiedAsset result = simplify(asset, options);
     REQUIRE(result.report.pages.size() == 1);

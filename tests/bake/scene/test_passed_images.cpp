@@ -49,8 +49,7 @@ TEST_CASE("KTX2 and AVIF images are passed through, with their extensions") {
     };
     check(asset);
     for (const Bake kind : {Bake::automatic, Bake::atlas, Bake::vertex, Bake::keep}) {
-        Options options;
-        options.target = ratio(0.5);
+        Options options{.target = ratio(0.5)};
         options.bake.kind = kind;
         const SimplifiedAsset result = simplify(asset, options);
         check(result.asset);
@@ -61,8 +60,7 @@ TEST_CASE("KTX2 and AVIF images are passed through, with their extensions") {
         REQUIRE(levels.size() == 1);
         check(levels[0].result.asset);
     }
-    Options options;
-    options.bake.kind = Bake::none;
+    Options options{.bake = {.kind = Bake::none}};
     CHECK(simplify(asset, options).asset.images.empty());
     CHECK_THROWS_AS(decode(asset.images[0]), UnsupportedError);
 }
@@ -89,8 +87,7 @@ TEST_CASE("KTX2 and AVIF images as core sources are those of extensions that the
     CHECK(asset.warnings ==
           std::vector<std::string>{"1 texture with " + std::string(media_type) +
                                    " as the core source: read as the source of " + extension});
-    Options options;
-    options.target = ratio(0.5);
+    Options options{.target = ratio(0.5)};
     for (const Asset& out : {asset, simplify(asset, options).asset}) {
         const Json json = json_of(saved(out));
         CHECK(json["textures"] ==
@@ -132,8 +129,7 @@ TEST_CASE(
         CHECK(json["meshes"][0]["primitives"][0]["attributes"].contains("TEXCOORD_0"));
         CHECK(json["meshes"][0]["primitives"][0]["material"] == 1);
     };
-    Options options;
-    options.target = ratio(0.5);
+    Options options{.target = ratio(0.5)};
     options.bake.untouched = UntouchedParts::baked;
     options.bake.image_format = ImageFormat::jpeg;
     check(simplify(asset, options));

@@ -37,11 +37,7 @@ Asset plain_sheet() {
     return asset;
 }
 
-Options tenth() {
-    Options options;
-    options.target = ratio(0.1);
-    return options;
-}
+Options tenth() { return {.target = ratio(0.1)}; }
 
 void check_uvs(const Part& part) {
     CHECK(part.triangles.size() <= 115);

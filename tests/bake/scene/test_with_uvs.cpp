@@ -33,11 +33,7 @@ Asset textured_sheet() {
     return asset;
 }
 
-Options keeping() {
-    Options options;
-    options.bake.kind = Bake::keep;
-    return options;
-}
+Options keeping() { return {.bake = {.kind = Bake::keep}}; }
 
 UnencodedResult with_uvs(const Asset& asset) {
     const Options options = keeping();

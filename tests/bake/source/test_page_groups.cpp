@@ -104,8 +104,7 @@ TEST_CASE("parts that are not on a page do not count") {
 
 TEST_CASE("sixteen textures keep their texels, on pages that do not have more than they") {
     const Asset asset = tiled_scan(16);
-    Options options;
-    options.target = ratio(1);
+    Options options{.target = ratio(1)};
     options.bake.kind = Bake::atlas;
     options.bake.untouched = UntouchedParts::baked;
     options.bake.texture_size = 2 * image_side;

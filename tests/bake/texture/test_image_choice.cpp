@@ -263,8 +263,7 @@ TEST_CASE("automatic formats are WebP only if a glTF source has WebP images") {
         return Rgba{static_cast<std::uint8_t>(120 + 100 * std::sin(0.3 * x)),
                     static_cast<std::uint8_t>(120 + 100 * std::sin(0.2 * y)), 90, 255};
     }));
-    Options options;
-    options.bake.kind = Bake::atlas;
+    Options options{.bake = {.kind = Bake::atlas}};
     const auto mime_type = [&] { return bake(asset, unchanged(asset), options).asset.images[0].mime_type; };
     asset.images[0] = encode_webp(decode(asset.images[0]), "wave", {.mode = WebpMode::lossless});
     CHECK(mime_type() != "image/webp");
@@ -291,8 +290,7 @@ TEST_CASE("with webp, colours are WebP, and normals are not larger than as PNG o
 TEST_CASE("baked images are chosen by loss unless a format, a density or a correspondence is requested") {
     const Asset asset = textured_square(ramp(256));
     const auto width = [&](const BakeOptions& bake) {
-        Options options;
-        options.target = ratio(1);
+        Options options{.target = ratio(1)};
         options.bake = bake;
         options.bake.kind = Bake::atlas;
         return base_color_image(faqem::bake(asset, unchanged(asset), options).asset).width;

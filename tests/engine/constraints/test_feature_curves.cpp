@@ -92,8 +92,7 @@ double area_of(const TriangleMesh& mesh, Index group) {
 }
 
 Options keeping(double keep, Preset preset = Preset::balanced) {
-    Options options;
-    options.target = ratio(keep);
+    Options options{.target = ratio(keep)};
     options.preset = preset;
     options.topology.group_boundaries = GroupBoundaries::preserved;
     return options;

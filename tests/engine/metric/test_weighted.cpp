@@ -46,8 +46,7 @@ struct Globe {
     SimplifyResult simplified(Preset preset) const {
         MeshView view = mesh.view();
         view.vertex_weights = weights;
-        Options options;
-        options.target = ratio(0.1);
+        Options options{.target = ratio(0.1)};
         options.preset = preset;
         return simplify(view, options);
     }
@@ -155,8 +154,7 @@ TEST_CASE("vertex weights: weights of 1 do not change the result") {
     for (const Preset preset : all_presets) {
         CAPTURE(name(preset));
         const SimplifyResult ones = none.simplified(preset);
-        Options options;
-        options.target = ratio(0.1);
+        Options options{.target = ratio(0.1)};
         options.preset = preset;
         const SimplifyResult plain = simplify(none.mesh.view(), options);
         CHECK(ones.mesh.positions == plain.mesh.positions);
@@ -174,8 +172,7 @@ TEST_CASE("vertex weights: a uniform weight does not change the result, lifted r
     const std::vector<float> weights(mesh.positions.size(), 4);
     for (const Preset preset : all_presets) {
         CAPTURE(name(preset));
-        Options options;
-        options.target = ratio(0.1);
+        Options options{.target = ratio(0.1)};
         options.preset = preset;
         const SimplifyResult plain = simplify(mesh.view(), options);
         MeshView view = mesh.view();

@@ -151,8 +151,7 @@ TEST_CASE("boundary bindings: a new loop is ignored if the original has no bound
 
 TEST_CASE("boundary bindings: a simplified disc is nearly as close as a regular polygon") {
     const TriangleMesh disc = test::fan(128);
-    Options options;
-    options.target = faces(16);
+    Options options{.target = faces(16)};
     const SimplifyResult result = simplify(disc.view(), options);
     const double side_height = 1 - std::cos(test::pi / 16);
     CHECK(compare(disc.view(), result.mesh.view()).hausdorff <= 2 * side_height);
