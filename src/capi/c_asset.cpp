@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "capi/c_mesh.hpp"
 #include "scene/resolved_options.hpp"

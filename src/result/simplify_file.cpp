@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "asset/file_format.hpp"
 #include "asset/finest_level.hpp"

@@ -2,7 +2,6 @@
 
 #include "asset/scene/messages.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

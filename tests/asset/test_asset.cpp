@@ -1,7 +1,5 @@
 // Format detection and instances of the scene.
 
-#include <cmath>
-
 #include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
 

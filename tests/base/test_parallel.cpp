@@ -5,9 +5,7 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <numeric>
 #include <stdexcept>
-#include <string>
 
 #include "support/catch.hpp"
 #include "support/sanitizers.hpp"

@@ -2,7 +2,6 @@
 #include "faqem/engine/engine.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "support/catch.hpp"
 #include "support/engine_script.hpp"

@@ -1,7 +1,6 @@
 #include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/engine/simplify_with.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "support/catch.hpp"

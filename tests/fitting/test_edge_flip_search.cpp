@@ -1,7 +1,6 @@
 #include "faqem/detail/fitting/edge_flip_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "faqem/detail/geometry/edge_flip.hpp"
 #include "support/catch.hpp"

@@ -8,7 +8,6 @@
 #include <faqem/truncate.hpp>
 #include <faqem/version.hpp>
 
-#include <cstring>
 #include <fstream>
 #include <iostream>
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <vector>
 
 #include "faqem/simplify.hpp"
 #include "support/catch.hpp"

@@ -1,6 +1,5 @@
 #include "faqem/detail/measure/removed_components.hpp"
 
-#include <limits>
 #include <vector>
 
 #include "support/catch.hpp"

@@ -1,6 +1,5 @@
 #include "faqem/detail/options/option_table.hpp"
 
-#include <algorithm>
 #include <set>
 
 #include "faqem/error.hpp"

@@ -1,9 +1,7 @@
 // --max-bytes where the faces are not chosen by it: lod and truncate; and in batch.
 
 #include <cstdint>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "support/catch.hpp"

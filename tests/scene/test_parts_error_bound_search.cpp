@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "faqem/compare.hpp"
 #include "support/catch.hpp"

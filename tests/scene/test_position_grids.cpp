@@ -1,6 +1,5 @@
 #include "scene/position_grids.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "faqem/bake_levels.hpp"

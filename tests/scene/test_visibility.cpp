@@ -1,8 +1,6 @@
 #include "scene/visibility.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include "faqem/bake.hpp"
 #include "support/catch.hpp"

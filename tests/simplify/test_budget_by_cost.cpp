@@ -1,7 +1,5 @@
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 
-#include <algorithm>
-
 #include "faqem/compare.hpp"
 #include "faqem/options.hpp"
 #include "support/catch.hpp"

@@ -1,6 +1,5 @@
 // Meshes whose bounding box says nothing about the size of what is visible: specks and stray faces, as in scans.
 #include <cmath>
-#include <vector>
 
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"

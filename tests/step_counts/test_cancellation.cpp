@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"

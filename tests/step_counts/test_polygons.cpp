@@ -1,7 +1,6 @@
 // The work of triangulating large polygons, whose sources are compiled into this program with instrumentation.
 
 #include <cmath>
-#include <functional>
 #include <random>
 #include <string>
 #include <utility>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <functional>
 
 #include "asset/image/image.hpp"

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <iterator>
 #include <set>
-#include <string>
 #include <system_error>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "asset/scene/triangulate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 

@@ -1,7 +1,6 @@
 #include "bake/parts/vertex_attributes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "asset/scene/influences.hpp"
 #include "bake/source/facets.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "cli/commands/commands.hpp"
 #include "cli/options/bound_options.hpp"

@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <iomanip>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <string>
 

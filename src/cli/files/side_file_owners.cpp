@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <system_error>
-#include <vector>
 
 #include "asset/file_format.hpp"
 #include "asset/model_files.hpp"

@@ -1,6 +1,5 @@
 #include "cli/options/simplify_options.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "asset/scene/repair.hpp"
 #include "faqem/detail/base/parallel.hpp"

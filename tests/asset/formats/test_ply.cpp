@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 
 #include "asset/image/srgb.hpp"
 #include "support/catch.hpp"

@@ -2,8 +2,6 @@
 
 #include "asset/formats/ply_content.hpp"
 
-#include <set>
-
 #include "asset/formats/ply.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/model_files.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "support/catch.hpp"
 #include "support/curved_grid.hpp"

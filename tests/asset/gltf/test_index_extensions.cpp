@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "asset/gltf/accessor.hpp"
 #include "support/catch.hpp"
 #include "support/gltf_builder.hpp"

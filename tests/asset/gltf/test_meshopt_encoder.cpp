@@ -1,7 +1,6 @@
 // Writing of EXT_meshopt_compression.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "asset/gltf/write/meshopt_encoder.hpp"

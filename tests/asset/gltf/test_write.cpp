@@ -1,7 +1,5 @@
 // Writing of loaded and new assets as glTF.
 
-#include <cmath>
-
 #include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
 

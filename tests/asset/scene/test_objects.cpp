@@ -1,7 +1,5 @@
 #include "asset/scene/objects.hpp"
 
-#include <filesystem>
-
 #include "faqem/save_levels.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"

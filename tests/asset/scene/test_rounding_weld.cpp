@@ -1,9 +1,6 @@
 #include "asset/scene/rounding_weld.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <string>
 
 #include "asset/scene/coordinate_precision.hpp"
 #include "support/catch.hpp"

@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cmath>
-#include <set>
 
 #include "bake/atlas/charts.hpp"
 #include "bake/atlas/occupancy_grid.hpp"

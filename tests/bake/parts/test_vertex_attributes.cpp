@@ -1,5 +1,4 @@
 #include <cmath>
-#include <set>
 
 #include "faqem/error.hpp"
 #include "support/catch.hpp"

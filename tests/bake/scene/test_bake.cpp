@@ -1,6 +1,5 @@
 #include <bit>
 #include <cmath>
-#include <set>
 
 #include "faqem/error.hpp"
 #include "support/catch.hpp"

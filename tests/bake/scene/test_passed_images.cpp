@@ -1,7 +1,5 @@
 // Images that are not decoded, but passed through.
 
-#include <algorithm>
-
 #include "faqem/bake_levels.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"

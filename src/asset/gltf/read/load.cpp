@@ -3,7 +3,6 @@
 #include <exception>
 #include <limits>
 #include <string_view>
-#include <utility>
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/container.hpp"

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include <cmath>
-#include <map>
 #include "asset/scene/messages.hpp"
 
 #include "asset/gltf/read/read.hpp"

@@ -1,7 +1,6 @@
 #include "asset/gltf/write/feature_metadata.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <set>

@@ -3,8 +3,6 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 
 #include "cli/process/shown_text.hpp"
 #include "faqem/history.hpp"
