@@ -25,7 +25,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "used in a signal handler"
 void exit_unless_replacing() {
     if (!detail::remove_temporary_files()) return;
     constexpr std::string_view said = "\nfaqem: cancelled\n";
-    [[maybe_unused]] const auto count = write(STDERR_FILENO, said.data(), said.size());
+    [[maybe_unused]] const auto count = ::write(STDERR_FILENO, said.data(), said.size());
     _exit(exit_cancelled);
 }
 
