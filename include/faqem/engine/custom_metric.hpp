@@ -60,6 +60,10 @@ public:
         return candidate.cost;
     }
 
+    static double contraction_cost(const CollapseMesh&, const Contraction&, const Candidate& candidate) {
+        return candidate.cost;
+    }
+
     double weight(Index u, Index v) const { return inner_.weight(u, v); }
 
     void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,

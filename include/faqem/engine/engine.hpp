@@ -8,24 +8,24 @@
 ///         compute the position of the new vertex
 ///         illegal?  count the reason and drop the pair until its neighbourhood changes; or, if the violated
 ///                rule depends on the pair's length, requeue the pair at the cost at which the rule is lifted
-///         record the collapse, collapse, merge pairs
-///         re-evaluate the pairs around the new vertex
+///         record the collapse, collapse, merge pairs, re-evaluate the pairs around the new vertex
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "faqem/engine/constraints/boundary_loops.hpp"
+#include "faqem/engine/constraints/contraction.hpp"
 #include "faqem/engine/constraints/feature_curves.hpp"
 #include "faqem/engine/constraints/legality.hpp"
 #include "faqem/engine/constraints/rule_exceptions.hpp"
 #include "faqem/engine/constraints/wedges.hpp"
 #include "faqem/engine/ladder.hpp"
 #include "faqem/engine/loop_options.hpp"
+#include "faqem/engine/loop_progress.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/components.hpp"
 #include "faqem/engine/mesh/degenerate.hpp"
@@ -70,6 +70,7 @@ public:
           legality_(mesh),
           queue_(std::move(queue)),
           has_rejected_(mesh.vertex_slots(), 0),
+          contraction_(mesh.vertex_slots()),
           exceptions_(pairs.size()) {}
 
     /// Collapses pairs until the target face count is reached or no legal collapse is left.
@@ -79,17 +80,18 @@ public:
     /// O(n log n) in the number of pairs, for bounded valence and HeapQueue.
     LoopResult run(const LoopOptions& options) {
         rules_ = options.rules;
+        contraction_.keep_closed(options.closed, options.first_context_vertex != no_index);
         if (!curves_ || curves_->empty()) rules_.groups = GroupBoundaries::free;  // there is nothing to keep
         distance_weight_ = options.distance_weight;
-        set_progress(options);
-        const auto ask = [this](Phase, double) { return progress_ ? report_progress() : Continue::yes; };
+        progress_.start(options, mesh_.face_count());
+        const auto ask = [this](Phase, double) { return progress_.report(mesh_.face_count()); };
         context_.emplace(1, ask, options.deadline);
         return run_cancellable([&] {
             degenerate_ = DegenerateFaces(mesh_);
             if (distance_weight_ > 0) boundary_loops_.emplace(mesh_, pairs_, options.first_context_vertex);
             context_->check_now();
             queue_.reserve(pairs_.size());
-            queue_.set_target(expected_pair_count(options.target_faces));
+            queue_.set_target(progress_.target_share_of(pairs_.size()));
             metric_.initialise(mesh_, pairs_);
             evaluate_all_pairs();
             face_count_at_last_pass_ = mesh_.face_count();
@@ -106,7 +108,7 @@ public:
         distance_weight_ = options.distance_weight;
         metric_.set_target(options.target_faces, options.distance_weight);
         rung_ = 0;
-        set_progress(options);
+        progress_.start(options, mesh_.face_count());
         result_.stop = StopReason::reached_target;
         return run_cancellable([&] {
             context_->check_now();  // costs are incomplete if the time was over before
@@ -115,18 +117,12 @@ public:
     }
 
 private:
-    void set_progress(const LoopOptions& options) {
-        progress_ = options.progress;
-        initial_face_count_ = mesh_.face_count();
-        target_face_count_ = options.target_faces;
-    }
-
     template <class Work>
     LoopResult run_cancellable(Work&& work) {
         try {
             work();
         } catch (const Cancelled& stopped) {
-            if (stopped.reason == StopReason::cancelled || mesh_.face_count() > target_face_count_)
+            if (stopped.reason == StopReason::cancelled || mesh_.face_count() > progress_.target_faces())
                 result_.stop = stopped.reason;
         }
         return result_;
@@ -143,18 +139,11 @@ private:
         }
     }
 
-    std::size_t expected_pair_count(std::size_t faces) const {
-        const double share =
-            static_cast<double>(faces) / static_cast<double>(std::max<std::size_t>(initial_face_count_, 1));
-        return static_cast<std::size_t>(share * static_cast<double>(pairs_.size()));
-    }
-
     // Returns true if all pairs are to be evaluated again, possibly after taking a rung of the ladder.
     bool retry_or_relax(const LoopOptions& options) {
         const std::size_t removed_faces = face_count_at_last_pass_ - mesh_.face_count();
         const std::size_t excess = mesh_.face_count() - options.target_faces;
-        // Evaluating all pairs again is expensive. It is repeated only if the faces removed since the last
-        // time are at least a tenth of those still in excess.
+        // This is expensive. It is repeated only if the faces removed since are a tenth of those in excess.
         const bool worth_it = 10 * removed_faces >= excess && removed_faces > 0;
         if (!worth_it && (rung_ > 0 || result_.rungs[0] > 0)) return take_next_rung(options);
         ++result_.rungs[static_cast<std::size_t>(Rung::reseed)];
@@ -171,8 +160,7 @@ private:
         }
     }
 
-    // Collapses pairs. Returns true once the target is reached, false if the queue becomes empty before
-    // that.
+    // Collapses pairs. Returns true once the target is reached, false if the queue becomes empty before.
     bool process_queue(const LoopOptions& options) {
         while (mesh_.face_count() > options.target_faces) {
             if (queue_.empty()) return false;
@@ -181,13 +169,6 @@ private:
             if (!try_collapse(pair)) mark_rejected(pair);
         }
         return true;
-    }
-
-    Continue report_progress() const {
-        const double done = static_cast<double>(initial_face_count_ - mesh_.face_count());
-        const double all =
-            static_cast<double>(initial_face_count_ - std::min(target_face_count_, initial_face_count_));
-        return progress_(all > 0 ? std::min(done / all, 1.0) : 1.0);
     }
 
     void count_refusal(Refusal reason) { ++result_.refusals[static_cast<std::size_t>(reason)]; }
@@ -246,8 +227,7 @@ private:
         has_rejected_[pairs_.first(pair)] = has_rejected_[pairs_.second(pair)] = 1;
     }
 
-    // Returns false if the pair must not be collapsed and has left the queue. True means that it was
-    // collapsed or requeued.
+    // False: the pair must not be collapsed and has left the queue. True: it was collapsed or requeued.
     bool try_collapse(Index pair) {
         if (is_deferred(pair)) return false;
         Index u = pairs_.first(pair), v = pairs_.second(pair);
@@ -255,14 +235,12 @@ private:
         if (!found) return false;
         found->cost += boundary_cost(pair);
         if (requeue_if_costlier(pair, found->cost)) return true;
+        if (exceptions_.rules_for(pair, rules_).link == LinkCondition::off && contraction_.find(mesh_, u, v))
+            return try_contraction(pair, found->cost);
         if (degenerate_.are_last_faces(mesh_, pairs_, pair)) return count_refusal(Refusal::last_faces), false;
-        if (const auto refusal = legality_.check(mesh_, pairs_, u, v, pair, found->point,
-                                                 exceptions_.rules_for(pair, rules_))) {
-            count_refusal(*refusal);
-            const bool may_lift = RuleExceptions::is_liftable(rules_, *refusal);
-            if (may_lift) lift_rule(pair, found->cost, *refusal);
-            return may_lift;
-        }
+        if (const auto refusal =
+                legality_.check(mesh_, pairs_, u, v, pair, found->point, exceptions_.rules_for(pair, rules_)))
+            return refuse(pair, found->cost, *refusal);
         if constexpr (Metric::has_exact_cost) {
             found->cost = metric_.exact_cost(mesh_, pairs_, u, v, *found);
             if (requeue_if_costlier(pair, found->cost)) return true;
@@ -271,10 +249,47 @@ private:
         // a high-valence vertex are not moved to another vertex again and again.
         const bool swap = locked_[u] != locked_[v] ? locked_[v] != 0 : mesh_.degree(v) > mesh_.degree(u);
         if (swap) std::swap(u, v);
-        if (exceptions_.lifts_link(pair)) ++result_.rungs[static_cast<std::size_t>(Rung::without_link)];
-        if (exceptions_.lifts_fold(pair)) ++result_.rungs[static_cast<std::size_t>(Rung::fold)];
+        count_lifted_rules(pair);
         collapse(u, v, pair, *found);
         return true;
+    }
+
+    // Contracts contraction_, which begins with the pair, all of it or nothing. Returns as try_collapse().
+    bool try_contraction(Index pair, double cost) {
+        if (const auto reason = contraction_.refusal(mesh_, degenerate_.max_count(), locked_))
+            return count_refusal(*reason), false;
+        Index fixed = no_index;
+        const auto allowed = [this](Index u, Index v) { return allowed_position(u, v); };
+        if (!contraction_.find_fixed_vertex(pairs_, allowed, fixed)) return false;
+        Candidate to = contraction_.candidate(mesh_, fixed);
+        to.cost = std::max(cost, to.cost * metric_.weight(pairs_.first(pair), pairs_.second(pair)));
+        if (requeue_if_costlier(pair, to.cost)) return true;
+        if (const auto reason =
+                legality_.check(mesh_, contraction_, to.point, exceptions_.rules_for(pair, rules_)))
+            return refuse(pair, to.cost, *reason);
+        if constexpr (Metric::has_exact_cost) {
+            to.cost = metric_.contraction_cost(mesh_, contraction_, to);
+            if (requeue_if_costlier(pair, to.cost)) return true;
+        }
+        count_lifted_rules(pair);
+        contraction_.apply(mesh_, pairs_, fixed, [&](Index survivor, Index removed, Index inner) {
+            collapse(survivor, removed, inner, to);
+        });
+        return true;
+    }
+
+    // Counts the refusal of a pair. Returns as try_collapse(): true if the rule is lifted at a higher cost.
+    bool refuse(Index pair, double cost, Refusal reason) {
+        count_refusal(reason);
+        if (!RuleExceptions::is_liftable(rules_, reason)) return false;
+        if (!contraction_.may_lift(reason, pairs_.first(pair), pairs_.second(pair))) return false;
+        lift_rule(pair, cost, reason);
+        return true;
+    }
+
+    void count_lifted_rules(Index pair) {
+        if (exceptions_.lifts_link(pair)) ++result_.rungs[static_cast<std::size_t>(Rung::without_link)];
+        if (exceptions_.lifts_fold(pair)) ++result_.rungs[static_cast<std::size_t>(Rung::fold)];
     }
 
     double boundary_cost(Index pair) {
@@ -293,8 +308,7 @@ private:
         mark_rejected(pair);
     }
 
-    // If the queue has a pair to pop before one of this cost, requeues this pair at the cost and returns
-    // true.
+    // If the queue has a pair to pop before one of this cost, requeues this pair at it and returns true.
     bool requeue_if_costlier(Index pair, double cost) {
         if constexpr (!Queue::is_exact) {
             // Testing a pair at a high-valence vertex is expensive. Such a queue returns pairs only
@@ -322,6 +336,7 @@ private:
         result_.components_collapsed += mesh_.degree(survivor) == 0;
         legality_.after_collapse(mesh_, survivor);
         locked_[survivor] |= locked_[removed];
+        contraction_.after_collapse(survivor, removed);
         killed_.clear();
         pairs_.merge(mesh_, survivor, removed, killed_, changes_);
         for (const Index killed : killed_) queue_.erase(killed);
@@ -380,15 +395,7 @@ private:
     // lose its only face, so that this is not done if groups are preserved.
     bool delete_duplicate_faces(const LoopOptions& options) {
         if (keeps_groups()) return false;
-        bool any = false;
-        for (const Index f : duplicate_faces(mesh_)) {
-            if (mesh_.face_count() <= options.target_faces) break;
-            const Triangle corners = mesh_.triangle(f);
-            recorder_.before_deletion(f);
-            mesh_.remove_face(f);
-            pairs_.after_face_removal(mesh_, corners);
-            any = true;
-        }
+        const bool any = remove_duplicate_faces(mesh_, pairs_, options.target_faces, recorder_);
         if (any && boundary_loops_) boundary_loops_.emplace(mesh_, pairs_, no_index);  // new boundary edges
         return any;
     }
@@ -398,17 +405,12 @@ private:
     // Deletes removable components, smallest first, until the target is reached. The largest component is
     // never deleted.
     bool delete_components(const LoopOptions& options, const ComponentSize& largest) {
-        bool any = false;
-        for (const Component& component : removable_components(mesh_, locked_, largest)) {
-            if (mesh_.face_count() <= options.target_faces) break;
-            for (const Index f : component.faces) recorder_.before_deletion(f);
-            killed_.clear();
-            remove_component(mesh_, pairs_, component, killed_);
-            for (const Index pair : killed_) queue_.erase(pair);
-            ++result_.components_deleted;
-            any = true;
-        }
-        return any;
+        killed_.clear();
+        const std::size_t deleted =
+            remove_components(mesh_, pairs_, locked_, largest, options.target_faces, recorder_, killed_);
+        for (const Index pair : killed_) queue_.erase(pair);
+        result_.components_deleted += deleted;
+        return deleted > 0;
     }
 
     // An estimate for the cancellation check: evaluating a pair visits all faces at both vertices.
@@ -416,8 +418,7 @@ private:
         return 1 + (mesh_.degree(pairs_.first(pair)) + mesh_.degree(pairs_.second(pair))) / 16;
     }
 
-    // Components with a larger share of the area are not tiny.
-    static constexpr double visible_area_share = 0.02;
+    static constexpr double visible_area_share = 0.02;  // components with a larger one are not tiny
 
     CollapseMesh& mesh_;
     PairTable& pairs_;
@@ -433,14 +434,13 @@ private:
     Queue queue_;
     std::vector<std::uint8_t> has_rejected_;  // per vertex: its pairs may have been rejected
     bool defers_high_valence_ = true;         // see is_deferred()
+    Contraction contraction_;
     RuleExceptions exceptions_;
     Rules rules_;
     LoopResult result_;
     std::size_t rung_ = 0;
-    std::size_t initial_face_count_ = 0;
     std::size_t face_count_at_last_pass_ = 0;  // when all pairs were last evaluated
-    std::size_t target_face_count_ = 0;
-    std::function<Continue(double)> progress_;
+    LoopProgress progress_;
     std::optional<RunContext> context_;  // since run()
     std::vector<Index> killed_;
     std::vector<PairTable::Change> changes_;

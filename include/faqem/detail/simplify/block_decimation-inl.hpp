@@ -78,6 +78,7 @@ public:
         for (Index v = 0; v < own_ + others_.size(); ++v) {
             positions.push_back(input.positions[slot(v)]);
             locked.push_back(v >= own_ || input.locked[slot(v)]);
+            if (!input.closed.empty()) closed.push_back(input.closed[slot(v)]);
         }
         for (const Index f : faces) {
             const Triangle& t = input.triangles[f];
@@ -101,7 +102,7 @@ public:
     std::span<const Index> faces;  ///< face slots of the whole surface
     std::vector<Vector3> positions;
     std::vector<Triangle> triangles;
-    std::vector<std::uint8_t> locked;
+    std::vector<std::uint8_t> locked, closed;
     std::size_t between = 0;  ///< number of faces with a corner in another block
 
     /// The vertex of the block for a vertex slot of the whole surface.
@@ -217,6 +218,7 @@ BlockResult simplify_block(Block& block, Metric metric, const engine::LoopOption
     engine::Wedges wedges;
     engine::LoopOptions options = block_options(loop, mesh.face_count(), block.between, share);
     options.first_context_vertex = block.own();
+    options.closed = block.closed;
     const std::size_t to_remove = mesh.face_count() - std::min(options.target_faces, mesh.face_count());
     StepRecorder recorder(block, patches, to_remove, result);
     std::size_t known = 0;

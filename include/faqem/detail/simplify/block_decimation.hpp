@@ -79,6 +79,7 @@ struct BlockInput {
     std::span<const Triangle> triangles;         ///< each with three different corners
     std::span<const std::uint8_t> locked;        ///< one per vertex; nonzero: must not move
     std::size_t per_block;                       ///< vertices per block
+    std::span<const std::uint8_t> closed = {};   ///< empty, or one per vertex: see LoopOptions::closed
 
     std::size_t block_count() const { return (positions.size() + per_block - 1) / per_block; }
     std::size_t block_of(Index v) const { return v / per_block; }

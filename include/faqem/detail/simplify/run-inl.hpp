@@ -116,6 +116,12 @@ private:
         return all > 0 ? (before + done * (after - before)) / all : done;
     }
 
+    // See LoopOptions::closed. `paper` and `stmw` are as published.
+    std::span<const std::uint8_t> closed() const {
+        const bool is_published = options_.preset == Preset::paper || options_.preset == Preset::stmw;
+        return is_published ? std::span<const std::uint8_t>() : state_.closed();
+    }
+
     double min_pair_length() const { return 1e-8 * settings_.diagonal; }
 
     // Whether boundaries between groups are more than free.
@@ -152,7 +158,7 @@ private:
         const std::size_t few = has_used_blocks_ ? max_vertices_per_block / 4 : max_vertices_per_block;
         const ReorderedMesh& now = state_.mesh();
         const BlockInput input{now.positions, now.triangles, state_.locked(),
-                               vertices_per_block(now.positions.size(), few)};
+                               vertices_per_block(now.positions.size(), few), closed()};
         const BlockSteps blocks =
             simplify_in_blocks(input, loop_, least, tracking, options_.history,
                                context_.step(Phase::simplify, progress_at(done_in_blocks_),
@@ -207,6 +213,7 @@ private:
                 collapse_mesh, {state_.mesh().per_face<float>(values, std::size_t{3} * width), width});
         }
         work.locked = state_.locked();
+        loop_.closed = closed();
         if (has_curves()) {
             work.groups = state_.mesh().per_face(mesh_.face_groups);
             work.curves = engine::FeatureCurves(collapse_mesh, work.groups);

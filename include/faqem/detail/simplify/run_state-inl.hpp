@@ -1,6 +1,7 @@
 #pragma once
 
 #include "faqem/detail/simplify/run_state.hpp"
+#include "faqem/engine/mesh/closed_vertices.hpp"
 #include "faqem/export.hpp"
 
 #include <cassert>
@@ -21,6 +22,7 @@ std::vector<T> gather(const std::vector<T>& of, const std::vector<Index>& slots)
 FAQEM_INLINE RunState::RunState(const PreprocessedMesh& prepared, const std::vector<std::uint8_t>& locked,
                                 Boundary boundary)
     : mesh_(reorder(prepared)), source_vertices_(mesh_.vertex), locked_(gather(locked, mesh_.vertex)) {
+    closed_ = engine::closed_vertices(mesh_.triangles, mesh_.positions.size());
     if (boundary != Boundary::locked) return;
     for (const auto& [a, b] : engine::find_boundary_edges(mesh_.triangles, mesh_.positions.size()))
         locked_[a] = locked_[b] = 1;
@@ -30,6 +32,7 @@ FAQEM_INLINE void RunState::advance_to(CompactedMesh&& compacted) {
     source_vertices_ = gather(source_vertices_, compacted.source_slots);
     vertex_map_ = gather(compacted.vertex_map, vertex_map_);
     locked_ = gather(locked_, compacted.vertices);
+    closed_ = gather(closed_, compacted.vertices);
     ReorderedMesh less{gather(mesh_.vertex, compacted.vertices), gather(mesh_.face, compacted.faces),
                        std::move(compacted.positions), std::move(compacted.triangles)};
     std::swap(mesh_, less);

@@ -49,6 +49,8 @@ public:
     const ReorderedMesh& mesh() const { return mesh_; }
     /// One per vertex slot; nonzero: must not move.
     const std::vector<std::uint8_t>& locked() const { return locked_; }
+    /// One per vertex slot; nonzero: in a closed component of the preprocessed mesh.
+    const std::vector<std::uint8_t>& closed() const { return closed_; }
     /// One per vertex slot: the vertex of the preprocessed mesh that has exactly the same position, or
     /// no_index.
     const std::vector<Index>& source_vertices() const { return source_vertices_; }
@@ -73,7 +75,7 @@ private:
     bool keeps_initial_surface_ = false;
     std::optional<engine::OriginalSurface> original_;
     std::vector<Index> vertex_map_, source_vertices_;
-    std::vector<std::uint8_t> locked_;
+    std::vector<std::uint8_t> locked_, closed_;
 };
 
 }  // namespace detail

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "faqem/engine/constraints/contraction.hpp"
 #include "faqem/engine/constraints/fold_test.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/degenerate.hpp"
@@ -62,6 +63,24 @@ public:
         return std::nullopt;
     }
 
+    /// Tests whether a set of vertices may be contracted to a point. Complexity: as check()
+    /// \param contraction  the set; begins with the pair
+    /// \param p            position of the new vertex, engine units
+    /// \param rules        only min_normal_cosine and min_fold_cosine are tested
+    /// \return the reason why the contraction is illegal, or nothing
+    std::optional<Refusal> check(const CollapseMesh& mesh, const Contraction& contraction, const Vector3& p,
+                                 const Rules& rules) {
+        moved_faces_.clear();
+        for (const auto& [f, a, b] : contraction.remaining()) {
+            if (const auto refusal = check_face(mesh, f, a, b, p, rules.min_normal_cosine)) return refusal;
+        }
+        if (rules.min_fold_cosine > -1 &&
+            folds_.adds_folds(mesh, contraction.vertices()[0], contraction.vertices()[1], moved_faces_,
+                              rules.min_fold_cosine))
+            return Refusal::fold;
+        return std::nullopt;
+    }
+
     /// To be called after each collapse.
     /// \param survivor  the vertex that remains
     void after_collapse(const CollapseMesh& mesh, Index survivor) { folds_.after_collapse(mesh, survivor); }
@@ -75,21 +94,25 @@ private:
         mesh.all_of_faces(moved, [&](Index f, unsigned corner) {
             if (mesh.has_corner(f, partner)) return true;
             const Triangle& t = mesh.triangle(f);
-            const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
-            const Vector3 to_a = mesh.position(a) - p, to_b = mesh.position(b) - p;
-            const Vector3 area_vector = to_a.cross(to_b);
-            const double length = area_vector.norm();
-            const double along = mesh.normal(f).dot(area_vector);
-            if (min_normal_cosine > -1 && mesh.area(f) > 0 && !(along >= min_normal_cosine * length)) {
-                refusal = Refusal::flip;
-            } else if (is_degenerate(length, to_a, to_b) && !is_degenerate(mesh, f)) {
-                refusal = Refusal::degenerate;
-            }
-            const double scale = length > 0 ? 1 / length : 0;
-            moved_faces_.push_back({f, a, b, scale * area_vector, scale * along});
+            refusal = check_face(mesh, f, t[(corner + 1) % 3], t[(corner + 2) % 3], p, min_normal_cosine);
             return !refusal;
         });
         return refusal;
+    }
+
+    // Tests a face whose corners become p, a and b, and adds it to moved_faces_.
+    std::optional<Refusal> check_face(const CollapseMesh& mesh, Index f, Index a, Index b, const Vector3& p,
+                                      double min_normal_cosine) {
+        const Vector3 to_a = mesh.position(a) - p, to_b = mesh.position(b) - p;
+        const Vector3 area_vector = to_a.cross(to_b);
+        const double length = area_vector.norm();
+        const double along = mesh.normal(f).dot(area_vector);
+        const double scale = length > 0 ? 1 / length : 0;
+        moved_faces_.push_back({f, a, b, scale * area_vector, scale * along});
+        if (min_normal_cosine > -1 && mesh.area(f) > 0 && !(along >= min_normal_cosine * length))
+            return Refusal::flip;
+        if (is_degenerate(length, to_a, to_b) && !is_degenerate(mesh, f)) return Refusal::degenerate;
+        return std::nullopt;
     }
 
     // If (u, v) is an edge, and no edge at u or v has more than two faces: the link condition for surfaces

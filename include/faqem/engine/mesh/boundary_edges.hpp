@@ -36,40 +36,49 @@ inline std::uint32_t edge_face_count(const CollapseMesh& mesh, const PairTable& 
 
 }  // namespace boundary_edges
 
-/// Finds the boundary edges, which have exactly one face. O(triangles) for bounded valence; 12 bytes of
-/// temporary memory per triangle
+/// Calls visit(a, b, up, down) for each edge in lexicographic order, a < b, where `up` faces pass it from a to b
+/// and `down` faces from b to a. O(triangles) for bounded valence; 12 bytes of temporary memory per triangle
 /// \param triangles        with pairwise different corners
-/// \param vertices         number of vertices; larger than any corner
-/// \return the edges, each with its smaller end first, in lexicographic order
-inline std::vector<std::array<Index, 2>> find_boundary_edges(std::span<const Triangle> triangles,
-                                                             std::size_t vertices) {
+/// \param vertices         number of vertices; larger than any corner, below 2^31
+template <class Visit>
+void for_each_edge(std::span<const Triangle> triangles, std::size_t vertices, Visit&& visit) {
     std::vector<std::size_t> offsets(vertices + 1, 0);
-    const auto for_each_edge = [&](auto&& visit) {
+    const auto for_each_side = [&](auto&& visit_side) {
         for (const Triangle& t : triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
-                visit(std::min(a, b), std::max(a, b));
+                visit_side(std::min(a, b), 2 * std::max(a, b) + (a < b ? 0 : 1));
             }
         }
     };
-    for_each_edge([&](Index a, Index) { ++offsets[a + 1]; });
+    for_each_side([&](Index a, Index) { ++offsets[a + 1]; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    std::vector<Index> larger(offsets.back());
-    for_each_edge([&](Index a, Index b) { larger[offsets[a]++] = b; });
-    std::vector<std::array<Index, 2>> open;
+    std::vector<Index> larger(
+        offsets.back());  // twice the larger end, plus 1 for the direction to the smaller one
+    for_each_side([&](Index a, Index side) { larger[offsets[a]++] = side; });
     std::size_t begin = 0;
     for (Index a = 0; a < vertices; ++a) {  // offsets[a] is now the end of the edges of a
         const std::size_t end = offsets[a];
         std::sort(larger.begin() + static_cast<std::ptrdiff_t>(begin),
                   larger.begin() + static_cast<std::ptrdiff_t>(end));
         for (std::size_t i = begin; i < end;) {
-            std::size_t next = i + 1;
-            while (next < end && larger[next] == larger[i]) ++next;
-            if (next == i + 1) open.push_back({a, larger[i]});
-            i = next;
+            std::array<std::uint32_t, 2> faces = {};
+            const Index b = larger[i] / 2;
+            for (; i < end && larger[i] / 2 == b; ++i) ++faces[larger[i] % 2];
+            visit(a, b, faces[0], faces[1]);
         }
         begin = end;
     }
+}
+
+/// Finds the boundary edges, which have exactly one face. Complexity and parameters: as for_each_edge()
+/// \return the edges, each with its smaller end first, in lexicographic order
+inline std::vector<std::array<Index, 2>> find_boundary_edges(std::span<const Triangle> triangles,
+                                                             std::size_t vertices) {
+    std::vector<std::array<Index, 2>> open;
+    for_each_edge(triangles, vertices, [&](Index a, Index b, std::uint32_t up, std::uint32_t down) {
+        if (up + down == 1) open.push_back({a, b});
+    });
     return open;
 }
 

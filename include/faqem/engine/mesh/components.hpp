@@ -107,5 +107,23 @@ inline void remove_component(CollapseMesh& mesh, PairTable& pairs, const Compone
     }
 }
 
+/// Removes removable_components(), smallest first, until the target is reached.
+/// \param recorder  notified before each deletion of a face
+/// \param killed    receives the removed pairs
+/// \return number of removed components
+template <class Recorder>
+std::size_t remove_components(CollapseMesh& mesh, PairTable& pairs, std::span<const std::uint8_t> locked,
+                              const ComponentSize& largest, std::size_t target_faces, Recorder& recorder,
+                              std::vector<Index>& killed) {
+    std::size_t removed = 0;
+    for (const Component& component : removable_components(mesh, locked, largest)) {
+        if (mesh.face_count() <= target_faces) break;
+        for (const Index f : component.faces) recorder.before_deletion(f);
+        remove_component(mesh, pairs, component, killed);
+        ++removed;
+    }
+    return removed;
+}
+
 }  // namespace engine
 FAQEM_NAMESPACE_END

@@ -74,6 +74,9 @@ public:
         return with_area + max_count_ >= mesh.face_count();
     }
 
+    /// The bound.
+    std::size_t max_count() const { return max_count_; }
+
     /// Must be called before a pair is collapsed. O(smaller valence of the pair); O(1) if the bound is 0
     void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index pair) {
         if (max_count_ > 0) max_count_ -= std::min(max_count_, count_at_pair(mesh, pairs, pair));

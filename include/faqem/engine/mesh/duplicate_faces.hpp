@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "faqem/engine/mesh/collapse_mesh.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -31,6 +32,23 @@ inline std::vector<Index> duplicate_faces(const CollapseMesh& mesh) {
     }
     std::sort(duplicates.begin(), duplicates.end());
     return duplicates;
+}
+
+/// Removes duplicate_faces() until the target is reached.
+/// \param recorder  notified before each deletion
+/// \return whether any was removed
+template <class Recorder>
+bool remove_duplicate_faces(CollapseMesh& mesh, PairTable& pairs, std::size_t target_faces,
+                            Recorder& recorder) {
+    const std::size_t before = mesh.face_count();
+    for (const Index f : duplicate_faces(mesh)) {
+        if (mesh.face_count() <= target_faces) break;
+        const Triangle corners = mesh.triangle(f);
+        recorder.before_deletion(f);
+        mesh.remove_face(f);
+        pairs.after_face_removal(mesh, corners);
+    }
+    return mesh.face_count() < before;
 }
 
 }  // namespace engine

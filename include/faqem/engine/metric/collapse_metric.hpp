@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "faqem/engine/constraints/contraction.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/engine/quadric/placement.hpp"
@@ -30,8 +31,8 @@ template <class M>
 concept CollapseMetric = requires(M metric, const M& const_metric, const CollapseMesh& mesh,
                                   const PairTable& pairs, Index pair, Index u, Index v,
                                   AllowedPosition allowed_position, const Vector3& p,
-                                  const Candidate& candidate, std::size_t target_faces, double weight,
-                                  const PairTable::Change& change,
+                                  const Candidate& candidate, const Contraction& contraction,
+                                  std::size_t target_faces, double weight, const PairTable::Change& change,
                                   std::span<const PairTable::Change> around) {
     // True if evaluate() returns a lower bound of the cost. The engine then calls exact_cost() for pairs that
     // are about to be collapsed.
@@ -42,6 +43,8 @@ concept CollapseMetric = requires(M metric, const M& const_metric, const Collaps
     { const_metric.evaluate(mesh, pairs, pair, allowed_position) } -> std::same_as<std::optional<Candidate>>;
     // Exact cost of a candidate returned by evaluate(); at least candidate.cost.
     { metric.exact_cost(mesh, pairs, u, v, candidate) } -> std::same_as<double>;
+    // Cost of contracting several vertices to candidate.point; at least candidate.cost.
+    { metric.contraction_cost(mesh, contraction, candidate) } -> std::same_as<double>;
     // The factor > 0 by which the costs of the pair (u, v) were multiplied.
     { const_metric.weight(u, v) } -> std::same_as<double>;
     // Changes the target to a lower face count. `weight` is the cost of a squared distance; it is not smaller
@@ -61,6 +64,9 @@ struct MetricDefaults {
     static void initialise(const CollapseMesh&, const PairTable&) {}
     static double exact_cost(const CollapseMesh&, const PairTable&, Index, Index,
                              const Candidate& candidate) {
+        return candidate.cost;
+    }
+    static double contraction_cost(const CollapseMesh&, const Contraction&, const Candidate& candidate) {
         return candidate.cost;
     }
     static constexpr double weight(Index, Index) { return 1; }

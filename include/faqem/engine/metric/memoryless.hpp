@@ -81,7 +81,10 @@ public:
         const Eigen::AlignedBox3d bounds(placement_bounds_.min() - origin, placement_bounds_.max() - origin);
         const Vector3 p = optimal_position(q, Vector3::Zero(), d, allowed_position, &bounds);
         double cost = std::max(q(p), 0.0);
-        if (faces > 0 && mesh.degree(u) == faces && mesh.degree(v) == faces) cost += component_cost(mesh, u);
+        if (faces > 0 && mesh.degree(u) == faces && mesh.degree(v) == faces) {
+            cost += last_faces_price(
+                mesh, [&](auto&& visit) { mesh.for_each_face(u, [&](Index f, unsigned) { visit(f); }); });
+        }
         if (!std::isfinite(cost)) return std::nullopt;
         if (allowed_position == AllowedPosition::at_second) return Candidate{mesh.position(v), cost};
         return Candidate{p == d ? mesh.position(v) : Vector3(origin + p), cost};
@@ -109,11 +112,6 @@ public:
     Reevaluation reevaluation(const PairTable::Change&) const { return Reevaluation::deferred; }
 
 private:
-    /// Factor of the cost of collapsing the last faces of a connected component, in units of the fourth
-    /// power of its longest edge. The component causes an error of at least its own size, and may be the
-    /// only surface in a large neighbourhood.
-    static constexpr double component_weight = 100;
-
     /// Sum of w n n^T.
     struct Planes {
         double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
@@ -245,19 +243,6 @@ private:
         mesh.for_each_face(lower, [&, other = higher](Index f, unsigned) {
             if (mesh.has_corner(f, other)) visit(f);
         });
-    }
-
-    // \pre the faces of u are all faces of their component
-    static double component_cost(const CollapseMesh& mesh, Index u) {
-        double longest = 0;
-        mesh.for_each_face(u, [&](Index f, unsigned) {
-            const Triangle& t = mesh.triangle(f);
-            for (unsigned k = 0; k < 3; ++k) {
-                const Vector3 edge = mesh.position(t[(k + 1) % 3]) - mesh.position(t[k]);
-                longest = std::max(longest, edge.squaredNorm());
-            }
-        });
-        return component_weight * longest * longest;
     }
 
     double edge_weight(const CollapseMesh& mesh, const PairTable& pairs, Index pair, Index u, Index v) const {

@@ -51,6 +51,12 @@ public:
         }
     }
 
+    double contraction_cost(const CollapseMesh& mesh, const Contraction& contraction,
+                            const Candidate& candidate) {
+        const double w = weight(contraction.vertices()[0], contraction.vertices()[1]);
+        return w * inner_.contraction_cost(mesh, contraction, {candidate.point, candidate.cost / w});
+    }
+
     void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,
                          const Vector3& p) {
         inner_.before_collapse(mesh, pairs, survivor, removed, p);

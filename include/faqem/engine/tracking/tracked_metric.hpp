@@ -89,6 +89,23 @@ public:
         return candidate.cost + weight_ * farthest;
     }
 
+    double contraction_cost(const CollapseMesh& mesh, const Contraction& contraction,
+                            const Candidate& candidate) {
+        if (!is_tracking_ || contraction.remaining().empty()) return candidate.cost;
+        faces_after_.clear();
+        bound_.clear();
+        const auto gather_bound = [&](Index f) {
+            bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
+        };
+        for (const Index f : contraction.vanishing()) gather_bound(f);
+        for (const auto& [f, a, b] : contraction.remaining()) {
+            gather_bound(f);
+            faces_after_.emplace_back(candidate.point, mesh.position(a), mesh.position(b));
+        }
+        return candidate.cost + weight_ * std::max(squared_distance_to_result(),
+                                                   squared_distance_to_original(candidate.point));
+    }
+
     void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,
                          const Vector3& p) {
         memoryless_.before_collapse(mesh, pairs, survivor, removed, p);
