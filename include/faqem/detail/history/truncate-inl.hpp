@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -88,8 +89,35 @@ inline std::size_t faces_at_level(const ChainHistory& history, std::size_t level
                                           : history.before[level].remaining_faces.size();
 }
 
+// Whether collapses k - 1 and k belong to one contraction (engine::Contraction), which is done as a whole: they have
+// the same survivor and position, and k - 1 leaves an edge with more than two faces or two faces with equal corners.
+// \param corners  of each face before collapse k, as versions
+inline bool is_within_contraction(const CollapseHistory& h, std::size_t k,
+                                  std::span<const Triangle> corners) {
+    if (k == 0 || k >= h.collapses.size()) return false;
+    const Index center = static_cast<Index>(h.positions.size() + k - 1);
+    const Collapse &before = h.collapses[k - 1], &next = h.collapses[k];
+    if (next.first != center || next.position != before.position) return false;
+    std::vector<Index> ends;
+    std::vector<std::pair<Index, Index>> opposite;
+    for (const Index f : h.patch(k - 1)) {
+        if (corners[f][0] == no_index) continue;
+        Triangle t = corners[f];
+        std::rotate(t.begin(), std::find(t.begin(), t.end(), center), t.end());
+        ends.insert(ends.end(), {t[1], t[2]});
+        opposite.push_back(std::minmax(t[1], t[2]));
+    }
+    std::sort(ends.begin(), ends.end());
+    std::sort(opposite.begin(), opposite.end());
+    for (std::size_t i = 2; i < ends.size(); ++i) {
+        if (ends[i] == ends[i - 2]) return true;
+    }
+    return std::adjacent_find(opposite.begin(), opposite.end()) != opposite.end();
+}
+
 // The point at which a run to the given face count would have stopped. Faces are counted as by the collapse
-// loop, that is, with faces of zero area. All deletions between two collapses belong together.
+// loop, that is, with faces of zero area. All deletions between two collapses belong together, and all collapses
+// of a contraction.
 inline HistoryLength length_at_face_count(const CollapseHistory& h, std::uint64_t faces) {
     const Index made = static_cast<Index>(h.positions.size());
     std::vector<Triangle> corners = h.triangles;
@@ -106,7 +134,8 @@ inline HistoryLength length_at_face_count(const CollapseHistory& h, std::uint64_
             remove(h.deleted_faces[now.deleted++].face);
     };
     remove_deleted();  // includes the pruned components
-    while (left > faces && now.collapses < h.collapses.size()) {
+    while ((left > faces && now.collapses < h.collapses.size()) ||
+           is_within_contraction(h, now.collapses, corners)) {
         const Collapse& c = h.collapses[now.collapses];
         for (const Index f : h.patch(now.collapses)) {
             if (corners[f][0] == no_index) continue;
