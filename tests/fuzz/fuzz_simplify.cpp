@@ -1,5 +1,7 @@
 // Simplifies a random mesh with random options. Refused input must be invalid, and results must be valid.
 
+#include <set>
+
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
 #include "fuzz/fuzz.hpp"
@@ -63,6 +65,19 @@ bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
 }
 
+// Whether every edge has two faces of opposite direction. Faces that were dropped do not count.
+bool is_closed(const std::vector<Triangle>& triangles) {
+    std::set<std::pair<Index, Index>> sides;
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (t[k] != no_index && !sides.insert({t[k], t[(k + 1) % 3]}).second) return false;
+        }
+    }
+    return std::all_of(sides.begin(), sides.end(), [&](const auto& side) {
+        return sides.contains({side.second, side.first});
+    });
+}
+
 void expect_sound(const TriangleMesh& mesh, const SimplifyResult& result) {
     const TriangleMesh& simplified = result.mesh;
     for (const Vec3& p : simplified.positions) fuzz::expect(fuzz::is_finite(p), "finite positions");
@@ -81,6 +96,9 @@ void expect_sound(const TriangleMesh& mesh, const SimplifyResult& result) {
                  "the target reached, or another stop reason");
     fuzz::expect(!report.max_error || !(report.max_error->bound < report.max_error->value),
                  "a bound that is not below the value");
+    const bool is_published = report.preset == Preset::paper || report.preset == Preset::stmw;
+    if (is_closed(result.history.triangles) && !is_published && report.faces_dropped == 0)
+        fuzz::expect(is_closed(simplified.triangles), "closed surfaces stay closed");
     validate(result.history);
     const TriangleMesh again = replay(result.history);
     fuzz::expect(same_bits(again.positions, simplified.positions) && again.triangles == simplified.triangles,
