@@ -40,7 +40,8 @@ typedef enum faqem_status FAQEM_ENUM {
     FAQEM_ERROR_CANCELLED = 8,   /**< the progress callback returned nonzero */
     FAQEM_ERROR_BYTE_LIMIT = 10, /**< no result has at most "max-bytes" */
     FAQEM_ERROR_NO_MEMORY = 11,
-    FAQEM_ERROR_TIME_LIMIT = 12 /**< "max-seconds" was over before there was a result that the options allow */
+    FAQEM_ERROR_TIME_LIMIT =
+        12 /**< "max-seconds" was over before there was a result that the options allow */
 } faqem_status;
 
 /** Status and message of a call. Belongs to the caller; need not be initialised. */
@@ -94,6 +95,8 @@ FAQEM_API faqem_status faqem_options_set(faqem_options* options, const char* nam
 FAQEM_API size_t faqem_option_count(void);
 /** Name of an option. \return null if `index` is not below faqem_option_count() */
 FAQEM_API const char* faqem_option_name(size_t index);
+/** A sentence about an option, with names as in the command. \return null if `index` is not below faqem_option_count() */
+FAQEM_API const char* faqem_option_help(size_t index);
 
 /*
  * Typed setters of frequent options. Each returns FAQEM_OK, or FAQEM_ERROR_OPTION if `options` is null or an

@@ -38,6 +38,12 @@ faqem_status change_options(faqem_options* options, Change&& change) {
     return change_options(options, 0, 0, change);
 }
 
+const detail::OptionRow* find_option(std::size_t index) {
+    for (const detail::OptionRow& row : detail::option_table())
+        if ((row.entry_points & detail::in_c_and_python) && index-- == 0) return &row;
+    return nullptr;
+}
+
 }  // namespace
 
 faqem_options* faqem_options_create(void) { return new (std::nothrow) faqem_options; }
@@ -62,12 +68,15 @@ size_t faqem_option_count(void) {
     return count;
 }
 
+// Names and help texts are string literals, so they end with a zero.
 const char* faqem_option_name(size_t index) {
-    for (const detail::OptionRow& row : detail::option_table()) {
-        // Names are string literals, so they end with a zero.
-        if ((row.entry_points & detail::in_c_and_python) && index-- == 0) return row.name.data();
-    }
-    return nullptr;
+    const detail::OptionRow* row = find_option(index);
+    return row ? row->name.data() : nullptr;
+}
+
+const char* faqem_option_help(size_t index) {
+    const detail::OptionRow* row = find_option(index);
+    return row ? row->help.data() : nullptr;
 }
 
 faqem_status faqem_options_set_ratio(faqem_options* options, double share) {

@@ -38,6 +38,16 @@ static void every_option_can_be_set(void) {
     faqem_options_destroy(options);
 }
 
+static void every_option_has_a_help_text(void) {
+    for (size_t i = 0; i < faqem_option_count(); ++i) CHECK(strlen(faqem_option_help(i)) > 10);
+    CHECK(faqem_option_help(faqem_option_count()) == NULL);
+    faqem_options* options = faqem_options_create();
+    faqem_error error;
+    CHECK(faqem_options_set(options, "keep-groups", "on", &error) == FAQEM_ERROR_OPTION);
+    CHECK(strstr(error.message, "use group-boundaries='preserved'") != NULL);
+    faqem_options_destroy(options);
+}
+
 static void values_out_of_range_are_rejected(void) {
     faqem_options* options = faqem_options_create();
     CHECK(faqem_options_set_preset(options, (faqem_preset)6) == FAQEM_ERROR_OPTION);
@@ -149,6 +159,7 @@ static void the_version_has_three_numbers(void) {
 void test_options(void) {
     the_last_target_is_used();
     every_option_can_be_set();
+    every_option_has_a_help_text();
     values_out_of_range_are_rejected();
     errors_name_the_option_and_suggest_one();
     the_names_of_all_options_can_be_listed();

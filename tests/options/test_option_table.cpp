@@ -180,6 +180,10 @@ TEST_CASE("an unknown option is an error with a suggestion") {
     Options o;
     CHECK(set_complaint(o, "texel-densty", "1") ==
           "unknown option 'texel-densty'; did you mean 'texel-density'?");
+    CHECK(set_complaint(o, "lock-boundary", "on") ==
+          "unknown option 'lock-boundary' (of the command); use boundary='locked'");
+    CHECK(set_complaint(o, "weld", "1") == "unknown option 'weld' (of the command); use weld-distance");
+    CHECK(set_complaint(o, "profile", "web") == "unknown option 'profile': only the command has it");
     CHECK(set_complaint(o, "frobnicate", "1") == "unknown option 'frobnicate'");
     CHECK(set_complaint(o, "", "1") == "unknown option ''");
 }

@@ -155,3 +155,19 @@ TEST_CASE("an option that is added to the table can be set by its name in C and 
     CHECK_THROWS_WITH(faqem::detail::named_option("w-novelti", extended.rows),
                       "unknown option 'w-novelti'; did you mean 'w-novelty'?");
 }
+
+TEST_CASE("C and Python know every option of faqem simplify, or say what stands for it") {
+    const auto tree = command_tree();
+    const auto& commands = tree.commands;
+    const auto simplify = std::find_if(commands.begin(), commands.end(),
+                                       [](const CommandInfo& command) { return command.name == "simplify"; });
+    for (const OptionInfo& option : simplify->options) {
+        const std::string name = option.names.back().substr(2);
+        CAPTURE(name);
+        try {
+            faqem::detail::named_option(name);
+        } catch (const faqem::OptionError& error) {
+            CHECK(contains_text(error.what(), "the command"));
+        }
+    }
+}

@@ -58,16 +58,26 @@ FAQEM_INLINE std::string command_spelling(const OptionRow& row) {
     return "--" + std::string(row.command_name.empty() ? row.name : row.command_name);
 }
 
+/// Options of the command that stand for no member of Options.
+inline constexpr std::string_view command_options[] = {
+    "config",  "correspondence", "force",  "max-memory",    "output",
+    "profile", "quiet",          "report", "strict-target", "strict"};
+
 FAQEM_INLINE const OptionRow& named_option(std::string_view name, OptionTable table) {
     std::vector<std::string> known;
+    const std::string problem = "unknown option '" + std::string(name) + "'";
     for (const OptionRow& row : table) {
+        if (!name.empty() && row.command_name == name)
+            throw OptionError(problem + " (of the command); use " + std::string(row.name) +
+                              (row.flag_value.empty() ? "" : "='" + std::string(row.flag_value) + "'"));
         if (!(row.entry_points & in_c_and_python)) continue;
         if (row.name == name) return row;
         known.emplace_back(row.name);
     }
+    if (std::find(std::begin(command_options), std::end(command_options), name) != std::end(command_options))
+        throw OptionError(problem + ": only the command has it");
     const std::string closest = closest_word(name, known);
-    throw OptionError("unknown option '" + std::string(name) + "'" +
-                      (closest.empty() ? "" : "; did you mean '" + closest + "'?"));
+    throw OptionError(problem + (closest.empty() ? "" : "; did you mean '" + closest + "'?"));
 }
 
 FAQEM_INLINE std::vector<std::string> split_choices(std::string_view choices) {
@@ -80,7 +90,7 @@ FAQEM_INLINE std::vector<std::string> split_choices(std::string_view choices) {
     return words;
 }
 
-inline std::string number_text(double number) {
+FAQEM_INLINE std::string number_text(double number) {
     std::array<char, 32> digits;
     return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
 }

@@ -26,11 +26,15 @@ FAQEM_EXPORT std::string name_spelling(const OptionRow& row);
 /// Name in the command, for example `--texel-density`.
 FAQEM_EXPORT std::string command_spelling(const OptionRow& row);
 
-/// Returns the option with a name of C. \throws OptionError  there is none; the message suggests one
+/// Returns the option with a name of C. \throws OptionError  there is none; the message suggests one, or says what stands for an option
+/// of the command
 FAQEM_EXPORT const OptionRow& named_option(std::string_view name, OptionTable table = option_table());
 
 /// The words of a choice.
 FAQEM_EXPORT std::vector<std::string> split_choices(std::string_view choices);
+
+/// A number with as few digits as identify it.
+FAQEM_EXPORT std::string number_text(double number);
 
 /// Describes a range, for example `in [0, 180] degrees` or `finite and > 0`; empty for kinds without one.
 FAQEM_EXPORT std::string range_text(OptionKind kind, const OptionRange& range, std::string_view unit = {});
