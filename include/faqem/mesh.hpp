@@ -2,14 +2,19 @@
 /// \file
 /// Triangle meshes as plain arrays: views of the caller's arrays for input, and meshes that own their arrays.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "faqem/error.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -28,32 +33,100 @@ using Vec3 = std::array<double, 3>;
 /// Three vertex indices, counter-clockwise as seen from outside.
 using Triangle = std::array<Index, 3>;
 
+namespace detail {
+
+/// Layout of an array of triples in bytes: number k of element i begins at i * stride + k * step.
+struct Layout {
+    std::size_t count, stride, step, number_size;
+};
+
+/// Checks that no two numbers share bytes. Such layouts are mistakes, such as a stride in floats instead of bytes, and
+/// would give other points. The distance of two numbers is d * stride - e * step, where d is the difference of their
+/// elements and e, 0 to 2, that of their numbers; for each e the multiples of the stride around e * step are the
+/// closest ones. O(1)
+/// \throws InputError  numbers overlap, or the array is larger than the address space
+inline void check_layout(const Layout& layout, const char* name) {
+    const auto [count, stride, step, size] = layout;
+    if (count == 0) return;
+    const auto fail = [&](const std::string& what) {
+        throw InputError("", name,
+                         "with a stride of " + std::to_string(layout.stride) + " and a step of " +
+                             std::to_string(layout.step) + " bytes " + what);
+    };
+    const std::size_t available = std::numeric_limits<std::size_t>::max() - size;
+    if (step > available / 2 || (count > 1 && stride > (available - 2 * step) / (count - 1)))
+        fail("the array is larger than the address space");
+    const auto overlap = [&](std::size_t number, std::size_t element) {
+        fail("number " + std::to_string(number) + " of element 0 overlaps number 0 of element " +
+             std::to_string(element));
+    };
+    if (count > 1 && stride < size) overlap(0, 1);
+    for (std::size_t e = 1; e <= 2; ++e) {
+        const std::size_t offset = e * step;
+        const std::size_t below = count > 1 ? std::min(offset / stride, count - 1) : 0;
+        if (offset - below * stride < size) overlap(e, below);
+        if (below + 1 < count && (below + 1) * stride - offset < size) overlap(e, below + 1);
+    }
+}
+
+template <class Array>
+using ElementOf = std::remove_cvref_t<decltype(*std::data(std::declval<const Array&>()))>;
+
+template <class Element, class... Numbers>
+inline constexpr bool is_any_of = (std::is_same_v<Element, Numbers> || ...);
+
+/// A contiguous array (vector, span ...) of numbers of these types, or of triples of them.
+template <class Array, class... Numbers>
+concept TripleArray = is_any_of<ElementOf<Array>, Numbers..., std::array<Numbers, 3>...>;
+
+template <class Array>
+auto first_number(const Array& array) {
+    if constexpr (std::is_arithmetic_v<ElementOf<Array>>) {
+        return std::data(array);
+    } else {
+        return std::size(array) == 0 ? nullptr : std::data(array)->data();
+    }
+}
+
+/// Number of triples in an array. \throws InputError  it is flat, and its length is no multiple of 3
+template <class Array>
+std::size_t triple_count(const Array& array, const char* name) {
+    const std::size_t length = std::size(array);
+    if constexpr (!std::is_arithmetic_v<ElementOf<Array>>) return length;
+    if (length % 3 != 0)
+        throw InputError("", name, "has " + std::to_string(length) + " numbers, which is no multiple of 3");
+    return length / 3;
+}
+
+}  // namespace detail
+
 /// View of the caller's vertex positions, float or double: packed, interleaved with other data, or
 /// column-major. Does not copy or own them; they must outlive the view.
 class PositionView {
 public:
     PositionView() = default;
-    PositionView(std::span<const Vec3> p) : PositionView(scalars(p), p.size(), sizeof(Vec3)) {}
-    PositionView(std::span<const Vec3f> p) : PositionView(scalars(p), p.size(), sizeof(Vec3f)) {}
-    PositionView(const std::vector<Vec3>& p) : PositionView(scalars(p), p.size(), sizeof(Vec3)) {}
-    PositionView(const std::vector<Vec3f>& p) : PositionView(scalars(p), p.size(), sizeof(Vec3f)) {}
-    /// Flat array x0 y0 z0 x1 ...; one or two excess numbers at the end are ignored.
-    PositionView(std::span<const double> xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3)) {}
-    PositionView(std::span<const float> xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3f)) {}
-    PositionView(const std::vector<double>& xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3)) {}
-    PositionView(const std::vector<float>& xyz) : PositionView(xyz.data(), xyz.size() / 3, sizeof(Vec3f)) {}
+    /// Triples, or a flat array x0 y0 z0 x1 ... \throws InputError  its length is no multiple of 3
+    template <detail::TripleArray<double, float> Array>
+    PositionView(const Array& p)
+        : PositionView(detail::first_number(p), detail::triple_count(p, "positions"),
+                       3 * sizeof *detail::first_number(p)) {}
 
-    /// Any layout. For an array of structs Vertex the stride is sizeof(Vertex). For a column-major matrix
+    /// Any layout in which no two numbers overlap. For an array of structs Vertex the stride is sizeof(Vertex). For a column-major matrix
     /// with one row per vertex the stride is sizeof(double), and the step sizeof(double) * rows.
     /// \param first   x of the first vertex; need not be aligned
     /// \param count   number of vertices
     /// \param stride  bytes from one vertex to the next
     /// \param step    bytes from x to y, and from y to z
+    /// \throws InputError  numbers overlap
     PositionView(const double* first, std::size_t count, std::size_t stride,
                  std::size_t step = sizeof(double))
-        : data_(first), size_(count), stride_(stride), step_(step), is_double_(true) {}
+        : data_(first), size_(count), stride_(stride), step_(step), is_double_(true) {
+        detail::check_layout({count, stride, step, sizeof(double)}, "positions");
+    }
     PositionView(const float* first, std::size_t count, std::size_t stride, std::size_t step = sizeof(float))
-        : data_(first), size_(count), stride_(stride), step_(step) {}
+        : data_(first), size_(count), stride_(stride), step_(step) {
+        detail::check_layout({count, stride, step, sizeof(float)}, "positions");
+    }
 
     /// Number of vertices.
     std::size_t size() const { return size_; }
@@ -66,11 +139,6 @@ public:
     }
 
 private:
-    template <class Vecs>
-    static const typename Vecs::value_type::value_type* scalars(const Vecs& p) {
-        return p.empty() ? nullptr : p.data()->data();
-    }
-
     template <class Scalar>
     static double read(const std::byte* at) {
         Scalar value;
@@ -89,33 +157,27 @@ private:
 class TriangleView {
 public:
     TriangleView() = default;
-    TriangleView(std::span<const Triangle> t)
-        : TriangleView(t.empty() ? nullptr : t.front().data(), t.size(), sizeof(Triangle)) {}
-    TriangleView(const std::vector<Triangle>& t)
-        : TriangleView(t.empty() ? nullptr : t.front().data(), t.size(), sizeof(Triangle)) {}
-    /// Flat array, three indices per triangle; one or two excess indices at the end are ignored.
-    TriangleView(std::span<const Index> flat)
-        : TriangleView(flat.data(), flat.size() / 3, sizeof(Triangle)) {}
-    TriangleView(std::span<const std::uint16_t> flat)
-        : TriangleView(flat.data(), flat.size() / 3, 3 * sizeof(std::uint16_t)) {}
-    TriangleView(const std::vector<Index>& flat)
-        : TriangleView(flat.data(), flat.size() / 3, sizeof(Triangle)) {}
-    TriangleView(const std::vector<std::uint16_t>& flat)
-        : TriangleView(flat.data(), flat.size() / 3, 3 * sizeof(std::uint16_t)) {}
+    /// Triples, or a flat array. Negative signed indices are out of range.
+    /// \throws InputError  its length is no multiple of 3
+    template <detail::TripleArray<Index, std::int32_t, std::uint16_t> Array>
+    TriangleView(const Array& t)
+        : TriangleView(detail::first_number(t), detail::triple_count(t, "triangles"),
+                       3 * sizeof *detail::first_number(t)) {}
 
-    /// Any layout, as for PositionView. Negative signed indices are out of range.
+    /// Any layout, as for PositionView.
     /// \param first   first corner of the first triangle; need not be aligned
     /// \param count   number of triangles
     /// \param stride  bytes from one triangle to the next
     /// \param step    bytes from one corner to the next
+    /// \throws InputError  indices overlap
     TriangleView(const Index* first, std::size_t count, std::size_t stride, std::size_t step = sizeof(Index))
-        : data_(first), size_(count), stride_(stride), step_(step) {}
+        : TriangleView(static_cast<const void*>(first), count, stride, step, sizeof(Index)) {}
     TriangleView(const std::int32_t* first, std::size_t count, std::size_t stride,
                  std::size_t step = sizeof(std::int32_t))
-        : data_(first), size_(count), stride_(stride), step_(step) {}
+        : TriangleView(static_cast<const void*>(first), count, stride, step, sizeof(std::int32_t)) {}
     TriangleView(const std::uint16_t* first, std::size_t count, std::size_t stride,
                  std::size_t step = sizeof(std::uint16_t))
-        : data_(first), size_(count), stride_(stride), step_(step), is_short_(true) {}
+        : TriangleView(static_cast<const void*>(first), count, stride, step, sizeof(std::uint16_t)) {}
 
     /// Number of triangles.
     std::size_t size() const { return size_; }
@@ -130,6 +192,11 @@ public:
     }
 
 private:
+    TriangleView(const void* first, std::size_t count, std::size_t stride, std::size_t step, std::size_t size)
+        : data_(first), size_(count), stride_(stride), step_(step), is_short_(size == 2) {
+        detail::check_layout({count, stride, step, size}, "triangles");
+    }
+
     template <class Number>
     static Index read(const std::byte* at) {
         Number value;

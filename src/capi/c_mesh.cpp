@@ -1,8 +1,6 @@
 #include "capi/c_mesh.hpp"
 
-#include <algorithm>
 #include <limits>
-#include <optional>
 #include <string>
 
 #include "faqem/error.hpp"
@@ -18,57 +16,10 @@ void require_array(const void* array, std::size_t count, const char* name) {
                          "the array is null, but " + std::to_string(count) + " elements are expected");
 }
 
-/// Layout of an array of triples in bytes: number k of element i begins at i * stride + k * step.
-struct Layout {
-    std::size_t count, stride, step, number_size;
-};
-
-/// An overlap of number 0 of one element with number `number` of element 0.
-struct Overlap {
-    std::size_t number, element;
-};
-
-/// Finds two numbers that share bytes. The distance of two numbers is d * stride - e * step, where d is the
-/// difference of their elements and e, 0 to 2, that of their numbers; for each e the multiples of the stride
-/// around e * step are the closest ones. O(1)
-/// \pre the sums do not overflow
-std::optional<Overlap> find_overlap(const Layout& layout) {
-    if (layout.count > 1 && layout.stride < layout.number_size) return Overlap{0, 1};
-    for (std::size_t e = 1; e <= 2; ++e) {
-        const std::size_t offset = e * layout.step;
-        const std::size_t below = layout.count > 1 ? std::min(offset / layout.stride, layout.count - 1) : 0;
-        if (offset - below * layout.stride < layout.number_size) return Overlap{e, below};
-        if (below + 1 < layout.count && (below + 1) * layout.stride - offset < layout.number_size)
-            return Overlap{e, below + 1};
-    }
-    return std::nullopt;
-}
-
-/// \throws InputError  numbers overlap, or the array is larger than the address space. Such layouts are
-///                     mistakes, such as a stride in floats instead of bytes, and would give other points.
-void check_layout(const Layout& layout, const char* name) {
-    if (layout.count == 0) return;
-    const std::string given = "with a stride of " + std::to_string(layout.stride) + " and a step of " +
-                              std::to_string(layout.step) + " bytes ";
-    const std::size_t available = std::numeric_limits<std::size_t>::max() - layout.number_size;
-    if (layout.step > available / 2 ||
-        (layout.count > 1 && layout.stride > (available - 2 * layout.step) / (layout.count - 1)))
-        throw InputError("", name, given + "the array is larger than the address space");
-    if (const std::optional<Overlap> overlap = find_overlap(layout)) {
-        throw InputError("", name,
-                         given + "number " + std::to_string(overlap->number) +
-                             " of element 0 overlaps number 0 of element " +
-                             std::to_string(overlap->element));
-    }
-}
-
 /// Creates a view of triples; a stride or step of 0 means contiguous elements.
 template <class View, class Number>
-View view_of(const Number* first, std::size_t count, std::size_t stride, std::size_t step, const char* name) {
-    const Layout layout = {count, stride > 0 ? stride : 3 * sizeof(Number), step > 0 ? step : sizeof(Number),
-                           sizeof(Number)};
-    check_layout(layout, name);
-    return View(first, count, layout.stride, layout.step);
+View view_of(const Number* first, std::size_t count, std::size_t stride, std::size_t step) {
+    return View(first, count, stride > 0 ? stride : 3 * sizeof(Number), step > 0 ? step : sizeof(Number));
 }
 
 PositionView positions_of(const faqem_mesh& mesh) {
@@ -77,8 +28,7 @@ PositionView positions_of(const faqem_mesh& mesh) {
     const void* given = mesh.positions ? static_cast<const void*>(mesh.positions) : mesh.double_positions;
     require_array(given, mesh.vertex_count, "positions");
     const auto view = [&](const auto* first) {
-        return view_of<PositionView>(first, mesh.vertex_count, mesh.position_stride, mesh.position_step,
-                                     "positions");
+        return view_of<PositionView>(first, mesh.vertex_count, mesh.position_stride, mesh.position_step);
     };
     return mesh.positions ? view(mesh.positions) : view(mesh.double_positions);
 }
@@ -89,8 +39,7 @@ TriangleView triangles_of(const faqem_mesh& mesh) {
     const void* given = mesh.triangles ? static_cast<const void*>(mesh.triangles) : mesh.short_triangles;
     require_array(given, mesh.face_count, "triangles");
     const auto view = [&](const auto* first) {
-        return view_of<TriangleView>(first, mesh.face_count, mesh.triangle_stride, mesh.triangle_step,
-                                     "triangles");
+        return view_of<TriangleView>(first, mesh.face_count, mesh.triangle_stride, mesh.triangle_step);
     };
     return mesh.triangles ? view(mesh.triangles) : view(mesh.short_triangles);
 }

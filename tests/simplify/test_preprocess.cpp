@@ -2,6 +2,7 @@
 
 #include "faqem/detail/geometry/triangle.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "faqem/error.hpp"
@@ -112,31 +113,38 @@ TEST_CASE("input errors name the element and the reason") {
     TriangleMesh mesh = test::quad();
     CHECK(mesh_complaint(mesh.view()) == "accepted");
     mesh.triangles[1][2] = 4;
-    CHECK(mesh_complaint(mesh.view()) == "face 1: vertex index out of range");
+    CHECK(mesh_complaint(mesh.view()) == "face 1: vertex index 4 is out of range: there are 4");
     mesh.triangles[1][2] = no_index;
-    CHECK(mesh_complaint(mesh.view()) == "face 1: vertex index out of range");
+    CHECK(mesh_complaint(mesh.view()) == "face 1: vertex index 4294967295 is out of range: there are 4");
     mesh = test::quad();
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         mesh.positions[2][1] = bad;
-        CHECK(mesh_complaint(mesh.view()) == "vertex 2: position is not finite");
+        CHECK(mesh_complaint(mesh.view()) ==
+              "vertex 2: position is not finite: " + std::string(std::isnan(bad) ? "nan" : "inf"));
     }
     mesh = test::quad();
     mesh.face_groups = {0};
-    CHECK(mesh_complaint(mesh.view()) == "face_groups: needs one entry per face or none");
+    CHECK(mesh_complaint(mesh.view()) == "face_groups: needs one entry per face or none, but has 1 for 2");
     mesh.face_groups.clear();
     MeshView view = mesh.view();
     const std::vector<std::uint8_t> locks(3, 0);
     view.vertex_locks = locks;
-    CHECK(mesh_complaint(view) == "vertex_locks: needs one entry per vertex or none");
+    CHECK(mesh_complaint(view) == "vertex_locks: needs one entry per vertex or none, but has 3 for 4");
     view.vertex_locks = {};
+    const std::vector<float> weights = {1, 1e7f, 1, 1};
+    view.vertex_weights = weights;
+    CHECK(mesh_complaint(view) == "vertex 1: weight 1e+07 is not in [1e-6, 1e6]");
+    view.vertex_weights = {};
     CornerAttributes uv;
     view.attributes = &uv;
-    CHECK(mesh_complaint(view) == "attributes: needs width >= 1 and 3 * faces * width values");
+    CHECK(mesh_complaint(view) ==
+          "attributes: needs width >= 1 and 3 * faces * width values, but has width 0 and 0 values");
     uv = {std::vector<float>(11), 2};
-    CHECK(mesh_complaint(view) == "attributes: needs width >= 1 and 3 * faces * width values");
+    CHECK(mesh_complaint(view) ==
+          "attributes: needs width >= 1 and 3 * faces * width values, but has width 2 and 11 values");
     uv.values.resize(12);
     CHECK(mesh_complaint(view) == "accepted");
     uv.values[5] = std::numeric_limits<float>::quiet_NaN();
-    CHECK(mesh_complaint(view) == "attributes, corner 2: value is not finite");
+    CHECK(mesh_complaint(view) == "attributes, corner 2: value is not finite: nan");
 }

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <string>
 
+#include "faqem/detail/options/option_table.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
 #include "faqem/options.hpp"
@@ -29,33 +30,38 @@ inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
 }
 
 inline void check_sizes(const MeshView& mesh) {
-    if (mesh.positions.size() >= no_index) fail("positions", "more than 2^32 - 2 vertices");
+    if (mesh.positions.size() >= no_index)
+        fail("positions", "has " + std::to_string(mesh.positions.size()) + " vertices, more than 2^32 - 2");
     if (mesh.triangles.size() > engine::max_faces) {
-        fail("triangles", "more than " + std::to_string(engine::max_faces) + " faces");
+        fail("triangles", "has " + std::to_string(mesh.triangles.size()) + " faces, more than " +
+                              std::to_string(engine::max_faces));
     }
-    if (!mesh.face_groups.empty() && mesh.face_groups.size() != mesh.triangles.size()) {
-        fail("face_groups", "needs one entry per face or none");
-    }
-    if (!mesh.vertex_locks.empty() && mesh.vertex_locks.size() != mesh.positions.size()) {
-        fail("vertex_locks", "needs one entry per vertex or none");
-    }
-    if (!mesh.vertex_weights.empty() && mesh.vertex_weights.size() != mesh.positions.size()) {
-        fail("vertex_weights", "needs one entry per vertex or none");
-    }
+    const auto check_count = [](std::size_t count, std::size_t needed, const char* name,
+                                const char* element) {
+        if (count == 0 || count == needed) return;
+        fail(name, "needs one entry per " + std::string(element) + " or none, but has " +
+                       std::to_string(count) + " for " + std::to_string(needed));
+    };
+    check_count(mesh.face_groups.size(), mesh.triangles.size(), "face_groups", "face");
+    check_count(mesh.vertex_locks.size(), mesh.positions.size(), "vertex_locks", "vertex");
+    check_count(mesh.vertex_weights.size(), mesh.positions.size(), "vertex_weights", "vertex");
     for (std::size_t v = 0; v < mesh.vertex_weights.size(); ++v) {
         const float weight = mesh.vertex_weights[v];
         if (!(weight >= 1e-6f && weight <= 1e6f)) {
-            fail("vertex " + std::to_string(v), "weight is not in [1e-6, 1e6]");
+            fail("vertex " + std::to_string(v), "weight " + number_text(weight) + " is not in [1e-6, 1e6]");
         }
     }
     if (mesh.attributes) {
         const CornerAttributes& a = *mesh.attributes;
         if (a.width == 0 || a.values.size() != std::uint64_t{3} * mesh.triangles.size() * a.width) {
-            fail("attributes", "needs width >= 1 and 3 * faces * width values");
+            fail("attributes", "needs width >= 1 and 3 * faces * width values, but has width " +
+                                   std::to_string(a.width) + " and " + std::to_string(a.values.size()) +
+                                   " values");
         }
         for (std::size_t i = 0; i < a.values.size(); ++i) {
             if (!std::isfinite(a.values[i]))
-                fail("attributes, corner " + std::to_string(i / a.width), "value is not finite");
+                fail("attributes, corner " + std::to_string(i / a.width),
+                     "value is not finite: " + number_text(a.values[i]));
         }
     }
 }
@@ -65,7 +71,8 @@ inline std::vector<Vec3> checked_positions(const PositionView& view) {
     for (std::size_t v = 0; v < positions.size(); ++v) {
         positions[v] = view[v];
         for (const double x : positions[v]) {
-            if (!std::isfinite(x)) fail("vertex " + std::to_string(v), "position is not finite");
+            if (!std::isfinite(x))
+                fail("vertex " + std::to_string(v), "position is not finite: " + number_text(x));
         }
     }
     return positions;
@@ -104,7 +111,9 @@ inline void check_triangles(const MeshView& mesh) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         for (const Index v : mesh.triangles[f]) {
             if (!(v < mesh.positions.size())) {
-                fail("face " + std::to_string(f), "vertex index out of range");
+                fail("face " + std::to_string(f), "vertex index " + std::to_string(v) +
+                                                      " is out of range: there are " +
+                                                      std::to_string(mesh.positions.size()));
             }
         }
     }
