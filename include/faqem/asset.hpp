@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -111,11 +112,12 @@ enum class FileOrder {
 /// welds them by position.
 struct Part {
     std::string name;
-    std::vector<Vec3> positions;       ///< V
-    std::vector<Triangle> triangles;   ///< F, indices < V
-    std::vector<Index> face_material;  ///< F, indices into Asset::materials; no_index: the default one, in glTF metal
-    std::vector<Vec3f> normals;        ///< empty or V; a zero vector if the file has no normal for a vertex
-    std::vector<Vec4f> tangents;       ///< empty or V
+    std::vector<Vec3> positions;      ///< V
+    std::vector<Triangle> triangles;  ///< F, indices < V
+    std::vector<Index>
+        face_material;  ///< F, indices into Asset::materials; no_index: the default one, in glTF metal
+    std::vector<Vec3f> normals;   ///< empty or V; a zero vector if the file has no normal for a vertex
+    std::vector<Vec4f> tangents;  ///< empty or V
     std::vector<std::vector<Vec2f>> uvs;  ///< UV sets of V entries each, v pointing down as in glTF
     std::vector<Vec4f> colors;            ///< empty or V, linear RGBA
     std::vector<std::array<std::uint16_t, 4>> joints;  ///< empty or V
@@ -216,6 +218,18 @@ enum class Overwrite { no, yes };
 /// Complexity: O(size of the asset).
 FAQEM_EXPORT std::vector<std::string> save(const Asset& asset, const std::filesystem::path& file,
                                            Overwrite overwrite = Overwrite::no);
+
+/// Returns the bytes of the .glb file that save() writes.
+/// \param losses  null, or receives what the format cannot store
+/// \throws WriteError  the file would be larger than 4 GiB, or a position is beyond the range of float
+/// Complexity: O(size of the asset).
+FAQEM_EXPORT std::vector<std::uint8_t> to_glb(const Asset& asset, std::vector<std::string>* losses = nullptr);
+
+/// Reads the bytes of a .glb file, or of a .gltf file that refers to no others, as load().
+/// \param bytes  read only during the call. A buffer in another file is an error; an image in one is left out
+/// \throws InputError, UnsupportedError  as load()
+/// Complexity: O(bytes).
+FAQEM_EXPORT Asset from_glb(std::span<const std::uint8_t> bytes);
 
 /// Decodes a PNG, JPEG or WebP image or, by OpenImageIO in a plugin, a BMP, TIFF or GIF, or a TGA whose media type is
 /// image/x-tga or image/tga. Of several pictures the first is decoded. The size is limited to 16384 x 16384 pixels and

@@ -2,6 +2,8 @@
 /// \file
 /// Levels of detail of a textured asset. Needs only the standard library.
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "faqem/bake.hpp"
@@ -62,5 +64,19 @@ FAQEM_EXPORT std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& sour
                                                                const std::vector<Level>& levels,
                                                                const Options& options = {},
                                                                LevelTextures textures = LevelTextures::each);
+
+/// Saves levels as one .glb or .gltf file with the extension MSFT_lod, as save_levels(std::vector<SavedLevel>, ...),
+/// with the coverages at which their errors have a size on screen.
+/// \param levels        from fine to coarse, at least one. For the original as the first one, its error is 0
+/// \param file          name ending in .glb or .gltf
+/// \param overwrite     whether existing files may be replaced
+/// \param screen_error  largest size of an error, as a share of the screen height, finite and > 0
+/// \return what the format cannot store
+/// \throws OptionError  `screen_error` is out of range
+/// \throws InputError, UnsupportedError, WriteError  as the other overload
+FAQEM_EXPORT std::vector<std::string> save_levels(std::vector<SimplifiedAssetLevel> levels,
+                                                  const std::filesystem::path& file,
+                                                  Overwrite overwrite = Overwrite::no,
+                                                  double screen_error = 1.0 / 1080);
 
 }  // namespace faqem

@@ -29,6 +29,29 @@ typedef enum faqem_overwrite FAQEM_ENUM { FAQEM_OVERWRITE_NO = 0, FAQEM_OVERWRIT
  */
 FAQEM_API faqem_status faqem_asset_load(const char* path, faqem_asset** asset, faqem_error* error);
 
+/** The bytes of a .glb file. */
+typedef struct faqem_glb faqem_glb;
+
+/**
+ * Encodes a model as faqem_asset_save() writes it to a .glb file.
+ * \param asset  the model; what the format cannot store is added to its warnings
+ * \param glb    receives a new object
+ * \param error  may be null
+ */
+FAQEM_API faqem_status faqem_asset_to_glb(faqem_asset* asset, faqem_glb** glb, faqem_error* error);
+/** Returns the bytes, which belong to `glb`, and their number in `size`; null and 0 if `glb` is null. */
+FAQEM_API const uint8_t* faqem_glb_bytes(const faqem_glb* glb, size_t* size);
+FAQEM_API void faqem_glb_destroy(faqem_glb* glb);
+
+/**
+ * Reads the bytes of a .glb file, see faqem::from_glb().
+ * \param bytes  `size` bytes, read only during the call
+ * \param asset  receives a new object; repairs and omissions are in its warnings
+ * \param error  may be null
+ */
+FAQEM_API faqem_status faqem_asset_from_glb(const void* bytes, size_t size, faqem_asset** asset,
+                                            faqem_error* error);
+
 /**
  * Creates a model of one part without materials.
  * \param mesh   positions and triangles are copied; locks, weights, groups and corner values are ignored

@@ -61,6 +61,21 @@ std::vector<std::string> save(const Asset& asset, const fs::path& file, Overwrit
     return std::move(model.losses);
 }
 
+std::vector<std::uint8_t> to_glb(const Asset& asset, std::vector<std::string>* losses) {
+    detail::EncodedModel model = detail::encode_gltf(asset, "model.glb");
+    add_format_warning(asset, "model.glb", model.losses);
+    if (losses) *losses = std::move(model.losses);
+    const std::span<const std::uint8_t> bytes = model.files.back().bytes;
+    return {bytes.begin(), bytes.end()};
+}
+
+Asset from_glb(std::span<const std::uint8_t> bytes) {
+    Asset asset = detail::read_gltf(bytes, {});
+    asset.format = ModelFormat::glb;
+    asset.file_bytes = bytes.size();
+    return asset;
+}
+
 std::vector<Instance> instances(const Asset& asset) {
     if (asset.source) return detail::gltf_instances(asset);
     std::vector<Instance> all;

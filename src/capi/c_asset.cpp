@@ -27,14 +27,16 @@ void check(const Part& part) {
     for (std::size_t v = 0; v < part.positions.size(); ++v) {
         for (const double x : part.positions[v]) {
             if (!std::isfinite(x))
-                throw InputError("", "vertex " + std::to_string(v), "position is not finite");
+                throw InputError("", "vertex " + std::to_string(v),
+                                 "position is not finite: " + std::to_string(x));
         }
     }
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         for (const Index v : part.triangles[f]) {
             if (v >= part.positions.size())
                 throw InputError("", "face " + std::to_string(f),
-                                 "vertex index is out of range: " + std::to_string(v));
+                                 "vertex index " + std::to_string(v) + " is out of range: there are " +
+                                     std::to_string(part.positions.size()));
         }
     }
 }
@@ -53,6 +55,35 @@ faqem_status faqem_asset_load(const char* path, faqem_asset** asset, faqem_error
         capi::require_argument(path, "path");
         capi::require_argument(asset, "asset");
         *asset = new faqem_asset(load(path));
+    });
+}
+
+struct faqem_glb {
+    std::vector<std::uint8_t> bytes;
+};
+
+faqem_status faqem_asset_to_glb(faqem_asset* asset, faqem_glb** glb, faqem_error* error) {
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(asset, "asset");
+        capi::require_argument(glb, "glb");
+        std::vector<std::string> losses;
+        *glb = new faqem_glb{to_glb(asset->asset, &losses)};
+        asset->save_warnings.add(losses);
+    });
+}
+
+const uint8_t* faqem_glb_bytes(const faqem_glb* glb, size_t* size) {
+    if (size) *size = glb ? glb->bytes.size() : 0;
+    return glb ? glb->bytes.data() : nullptr;
+}
+
+void faqem_glb_destroy(faqem_glb* glb) { delete glb; }
+
+faqem_status faqem_asset_from_glb(const void* bytes, size_t size, faqem_asset** asset, faqem_error* error) {
+    return capi::catch_exceptions(error, [&] {
+        capi::require_argument(bytes, "bytes");
+        capi::require_argument(asset, "asset");
+        *asset = new faqem_asset(from_glb({static_cast<const std::uint8_t*>(bytes), size}));
     });
 }
 

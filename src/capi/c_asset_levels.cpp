@@ -1,4 +1,3 @@
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -58,17 +57,13 @@ faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_co
     return capi::catch_exceptions(error, [&] {
         check_levels(levels, level_count);
         capi::require_argument(path, "path");
-        if (!(screen_error > 0 && std::isfinite(screen_error)))
-            throw OptionError("screen_error must be finite and > 0");
-        const Asset& first = levels[0]->asset;
-        const detail::SceneSize size = detail::scene_size(first);
         std::vector<SavedLevel> saved;
+        std::vector<double> errors;
         for (std::size_t i = 0; i < level_count; ++i) {
-            const double found = levels[i]->level_error;
-            saved.push_back(
-                {levels[i]->asset,
-                 detail::level_coverage(first, size, std::isnan(found) ? 0 : found, screen_error)});
+            saved.push_back({levels[i]->asset, {}});
+            errors.push_back(levels[i]->level_error);
         }
+        detail::set_coverage(saved, errors, screen_error);
         levels[0]->save_warnings.add(save_levels(std::move(saved), path, capi::to_overwrite(overwrite)));
     });
 }

@@ -6,6 +6,7 @@
 #include "result/simplify.hpp"
 #include "result/simplify_levels.hpp"
 #include "scene/check_asset.hpp"
+#include "scene/level_coverage.hpp"
 #include "scene/parts_error_bound_search.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/simplify_parts.hpp"
@@ -88,6 +89,19 @@ std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& source, const std
         return out.back().result.report.stop == StopReason::cancelled ? Continue::cancel : Continue::yes;
     });
     return out;
+}
+
+std::vector<std::string> save_levels(std::vector<SimplifiedAssetLevel> levels,
+                                     const std::filesystem::path& file, Overwrite overwrite,
+                                     double screen_error) {
+    std::vector<SavedLevel> saved;
+    std::vector<double> errors;
+    for (SimplifiedAssetLevel& level : levels) {
+        saved.push_back({std::move(level.result.asset), {}});
+        errors.push_back(level.error);
+    }
+    detail::set_coverage(saved, errors, screen_error);
+    return save_levels(std::move(saved), file, overwrite);
 }
 
 }  // namespace faqem

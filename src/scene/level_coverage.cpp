@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "faqem/error.hpp"
+
 namespace faqem::detail {
 
 namespace {
@@ -29,6 +31,16 @@ std::vector<double> level_coverage(const Asset& source, const SceneSize& size, d
                                    : std::numeric_limits<double>::infinity());
     }
     return result;
+}
+
+void set_coverage(std::vector<SavedLevel>& levels, const std::vector<double>& errors, double screen_error) {
+    if (!(screen_error > 0 && std::isfinite(screen_error)))
+        throw OptionError("screen_error must be finite and > 0");
+    if (levels.empty()) return;
+    const Asset& first = levels[0].asset;
+    const SceneSize size = scene_size(first);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        levels[i].coverage = level_coverage(first, size, std::isnan(errors[i]) ? 0 : errors[i], screen_error);
 }
 
 }  // namespace faqem::detail

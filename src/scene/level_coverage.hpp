@@ -6,6 +6,7 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
+#include "faqem/save_levels.hpp"
 #include "scene/scene_size.hpp"
 
 namespace faqem::detail {
@@ -19,5 +20,12 @@ namespace faqem::detail {
 /// Complexity: O(vertices).
 FAQEM_EXPORT std::vector<double> level_coverage(const Asset& source, const SceneSize& size, double error,
                                                 double error_share);
+
+/// Computes SavedLevel::coverage of all levels, with the bounding boxes of the first one.
+/// \param errors        of the levels; 0 or NaN for the original
+/// \param screen_error  as `error_share`
+/// \throws OptionError  `screen_error` is not finite or not above 0
+FAQEM_EXPORT void set_coverage(std::vector<SavedLevel>& levels, const std::vector<double>& errors,
+                               double screen_error);
 
 }  // namespace faqem::detail

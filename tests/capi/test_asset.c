@@ -54,6 +54,27 @@ static void a_model_is_saved_loaded_and_simplified(void) {
     CHECK(remove(file) == 0);
 }
 
+static void a_model_is_passed_as_bytes(void) {
+    const faqem_mesh mesh = flat_grid(4);
+    faqem_asset *created = NULL, *read = NULL;
+    faqem_glb* glb = NULL;
+    faqem_error error;
+    size_t size = 1;
+    CHECK(faqem_asset_create(&mesh, &created, &error) == FAQEM_OK);
+    CHECK(faqem_asset_to_glb(created, &glb, &error) == FAQEM_OK);
+    CHECK(memcmp(faqem_glb_bytes(glb, &size), "glTF", 4) == 0 && size > 25 * 12);
+    CHECK(faqem_asset_from_glb(faqem_glb_bytes(glb, NULL), size, &read, &error) == FAQEM_OK);
+    CHECK(faqem_asset_vertex_count(read, 0) == 25 && faqem_asset_face_count(read, 0) == 32);
+    faqem_asset_destroy(read);
+    read = NULL;
+    CHECK(faqem_asset_from_glb(faqem_glb_bytes(glb, NULL), size / 2, &read, &error) == FAQEM_ERROR_INPUT);
+    CHECK(faqem_asset_from_glb(NULL, 0, &read, &error) == FAQEM_ERROR_OPTION && read == NULL);
+    CHECK(faqem_glb_bytes(NULL, &size) == NULL && size == 0);
+    faqem_glb_destroy(glb);
+    faqem_glb_destroy(NULL);
+    faqem_asset_destroy(created);
+}
+
 static void errors_have_file_name_and_status(void) {
     faqem_asset* asset = NULL;
     faqem_error error;
@@ -122,6 +143,7 @@ static void null_arguments_are_accepted(void) {
 
 void test_asset(void) {
     a_model_is_saved_loaded_and_simplified();
+    a_model_is_passed_as_bytes();
     errors_have_file_name_and_status();
     data_that_the_format_cannot_store_is_a_warning();
     null_arguments_are_accepted();

@@ -24,7 +24,7 @@ Asset read_gltf(const std::filesystem::path& file);
 
 /// Same as above, for the bytes of a file in memory.
 /// \param bytes  borrowed
-/// \param file   path for messages; buffers and images are searched in its folder
+/// \param file   path for messages; buffers and images are searched in its folder. Empty: there are no files
 Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
 /// Adds every `uri` of the document, also of extensions and extras. Those of buffers and images may be read.

@@ -8,6 +8,7 @@
 #include "faqem/save_levels.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
+#include "support/gltf_builder.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;
@@ -283,4 +284,22 @@ TEST_CASE("a scene with coarser levels gives what its finest level alone gives, 
         REQUIRE(levels.size() == 3);
         for (std::size_t i = 0; i < 3; ++i) check_equal(levels[i].result, expected[i].result);
     }
+}
+
+TEST_CASE("save_levels computes the coverages at which the errors of levels have a size on screen") {
+    std::vector<SimplifiedAssetLevel> levels(3);
+    for (int i = 0; i < 3; ++i) {
+        levels[i].result.asset = testing::load_glb(testing::square_gltf());
+        levels[i].error = 0.5 * i;  // the first one is the original
+    }
+    const testing::TemporaryFolder folder;
+    save_levels(levels, folder / "levels.glb", Overwrite::no, 0.1);
+    const auto json = testing::json_of(testing::get(folder / "levels.glb"));
+    const auto coverage = json["nodes"][0]["extras"]["MSFT_screencoverage"].get<std::vector<double>>();
+    REQUIRE(coverage.size() == 3);  // a tenth of the height for 0.5 and for 1, of a diagonal of sqrt(2)
+    CHECK_THAT(coverage[0], Catch::Matchers::WithinRel(0.2 * std::sqrt(2.0), 1e-6));
+    CHECK_THAT(coverage[1], Catch::Matchers::WithinRel(0.1 * std::sqrt(2.0), 1e-6));
+    CHECK(coverage[2] == 0);
+    CHECK_THROWS_AS(save_levels(levels, folder / "other.glb", Overwrite::no, 0), OptionError);
+    CHECK_THROWS_AS(save_levels(std::vector<SimplifiedAssetLevel>(), folder / "other.glb"), InputError);
 }

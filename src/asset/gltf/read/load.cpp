@@ -54,6 +54,7 @@ std::vector<std::uint8_t> read_uri(FileContext& context, const std::string& uri,
                                    std::uint64_t max_bytes) {
     const std::string file = context.file.string();
     if (is_data_uri(uri)) return decode_data_uri(uri, file, where);
+    if (file.empty()) throw InputError("", where, "a model in memory cannot refer to files");
     try {
         const FoundFile found = context.finder.find(uri, {}, ReferenceSyntax::uri);
         if (!found.is_as_named)

@@ -119,7 +119,8 @@ void warn_of_inverse_binds(const SourceDocument& source, const std::string& file
     const Json& skins = member(source.document, "skins");
     for (std::size_t i = 0; i < skins.size(); ++i)
         if (const std::uint64_t repaired = inverse_binds(source, skins[i]).repaired)
-            warnings.push_back(file + ": " + child_path("/skins", i) + ": " + std::to_string(repaired) +
+            warnings.push_back((file.empty() ? "" : file + ": ") + child_path("/skins", i) + ": " +
+                               std::to_string(repaired) +
                                " inverse bind matrices that are not finite are taken as the identity");
 }
 
