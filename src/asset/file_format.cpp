@@ -136,13 +136,6 @@ bool has_use(const FileFormat& format, FormatUse use) {
 
 std::span<const FileFormat> file_formats() { return formats; }
 
-const FileFormat* format_by_name(const fs::path& file) {
-    const std::string extension = lower_case_extension(file);
-    for (const FileFormat& format : formats)
-        if (format.extension == extension) return &format;
-    return nullptr;
-}
-
 void check_beginning(const fs::path& file) {
     const Beginning beginning(file);
     std::error_code error;
@@ -185,10 +178,6 @@ const FileFormat& result_format(ModelFormat wanted, ModelFormat loaded) {
     const auto found = std::find_if(formats.begin(), formats.end(),
                                     [&](const FileFormat& format) { return format.format == known; });
     return known == ModelFormat::automatic || found == formats.end() ? formats.front() : *found;
-}
-
-EncodedModel encode_model(const Asset& asset, const fs::path& file) {
-    return written_format(file).encode(asset, file);
 }
 
 std::vector<std::string_view> format_extensions(FormatUse use) {

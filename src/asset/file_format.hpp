@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "asset/io/encoded_model.hpp"
+#include "asset/io/file_names.hpp"
 #include "asset/io/reference_list.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
@@ -71,14 +72,21 @@ FAQEM_EXPORT const FileFormat& written_format(const std::filesystem::path& file)
 /// \throws UnsupportedError  the format cannot be written
 /// \throws WriteError        the format cannot hold the asset
 /// Complexity: O(size of the asset).
-FAQEM_EXPORT EncodedModel encode_model(const Asset& asset, const std::filesystem::path& file);
+inline EncodedModel encode_model(const Asset& asset, const std::filesystem::path& file) {
+    return written_format(file).encode(asset, file);
+}
 
 /// All formats. The first one is the default of the command.
 FAQEM_EXPORT std::span<const FileFormat> file_formats();
 
 /// Returns the format by the extension of the name in any case, which determines the format of an output file; null if
 /// it is unknown. Lives as long as the program.
-FAQEM_EXPORT const FileFormat* format_by_name(const std::filesystem::path& file);
+inline const FileFormat* format_by_name(const std::filesystem::path& file) {
+    const std::string extension = lower_case_extension(file);
+    for (const FileFormat& format : file_formats())
+        if (format.extension == extension) return &format;
+    return nullptr;
+}
 
 /// Checks that a file does not begin like one of another kind: HTML, XML, a Git LFS pointer, an archive, an image or a PDF;
 /// and, with a name of glTF, like neither a GLB nor JSON.
