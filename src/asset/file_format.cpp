@@ -108,6 +108,15 @@ constexpr std::array<std::pair<std::string_view, const char*>, 11> foreign_kinds
     {"%PDF-", "a PDF document"},
 }};
 
+/// How to get a file that is read of one that is not, by its extension.
+constexpr std::array<std::pair<std::string_view, const char*>, 5> convertible_formats = {{
+    {".blend", "open it in Blender and export glTF 2.0 (.glb)"},
+    {".dae", "import it into Blender and export glTF 2.0 (.glb)"},
+    {".fbx", "import it into Blender and export glTF 2.0 (.glb)"},
+    {".usdz", "import it into Blender and export glTF 2.0 (.glb)"},
+    {".3mf", "export it as .stl or .obj from a CAD program or slicer"},
+}};
+
 /// The first bytes of a file and the same without leading blanks; none if it cannot be read.
 struct Beginning {
     explicit Beginning(const fs::path& file) {
@@ -145,6 +154,10 @@ void check_beginning(const fs::path& file) {
     const auto kind = std::find_if(foreign_kinds.begin(), foreign_kinds.end(),
                                    [&](const auto& k) { return text.starts_with(k.first); });
     const FileFormat* format = format_of_file(file);
+    for (const auto& [extension, how] : convertible_formats)
+        if (!format && lower_case_extension(file) == extension &&
+            !text.starts_with("version https://git-lfs"))
+            throw UnsupportedError(file.string(), "", "is not read: " + std::string(how));
     std::string begins;
     if (kind != foreign_kinds.end())
         begins = std::string("like ") + kind->second;

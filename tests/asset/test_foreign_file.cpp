@@ -67,3 +67,18 @@ TEST_CASE("URLs and standard input are not taken for missing files") {
         CHECK(message_of<ReadError>([&] { load(name); }) ==
               std::string(name) + ": only files are read, no URLs and no standard input");
 }
+
+TEST_CASE("the message about a format that is not read says how to get one that is") {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.fbx", "a.usdz", "a.3MF", "a.dae", "a.blend"}) {
+        std::ofstream(folder / name) << (std::string(name) == "a.dae" ? "<?xml" : "PK\3\4 and more");
+        const std::string message = message_of<UnsupportedError>([&] { load(folder / name); });
+        CAPTURE(message);
+        CHECK(contains(message, std::string(name) + ": is not read: "));
+        CHECK((contains(message, ".glb") || contains(message, ".stl")));
+    }
+    std::ofstream(folder / "b.fbx") << "version https://git-lfs.github.com/spec/v1\n";
+    CHECK(contains(message_of<UnsupportedError>([&] { load(folder / "b.fbx"); }), "git lfs pull"));
+    std::ofstream(folder / "c.fbx") << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    CHECK(load(folder / "c.fbx").parts[0].triangles.size() == 1);
+}
