@@ -105,14 +105,14 @@ FAQEM_INLINE void warn_of_removed_components(Report& report) {
     const RemovedComponent& largest = report.removed_components.front();
     const std::size_t count = report.removed_components.size();
     const long tenths = std::lround(1000 * largest.area_share);  // of a percent
-    const std::string percent =
-        std::to_string(tenths / 10) + (tenths < 100 ? "." + std::to_string(tenths % 10) : "") + "%";
+    std::string percent = std::to_string(tenths / 10);
+    if (tenths < 100) percent.append(".").append(std::to_string(tenths % 10));
     report.warnings.push_back(
         (count == 1 ? std::string("a visible component was removed: ")
                     : std::to_string(count) + " visible components were removed, the largest with ") +
         std::to_string(largest.faces) + (largest.faces == 1 ? " face" : " faces") +
         (largest.part.empty() ? "" : " in " + largest.part) + ", " + percent +
-        " of the area; a higher target keeps more");
+        "% of the area; a higher target keeps more");
 }
 
 }  // namespace detail
