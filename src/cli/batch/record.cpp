@@ -15,7 +15,7 @@ namespace faqem::cli {
 
 namespace {
 
-std::string json_line(const std::string& out_name, const BatchEntry& entry) {
+std::string line_of_record(const std::string& out_name, const BatchEntry& entry) {
     // Names need not be UTF-8. Invalid bytes are replaced, so that such a name is not found on reading and
     // the model is processed again.
     return Json{{"result", out_name},      {"inputs", entry.inputs},     {"options", entry.options},
@@ -68,7 +68,7 @@ std::optional<BatchEntry> BatchRecord::find(const std::string& out_name) const {
 
 void BatchRecord::add(const std::string& out_name, const BatchEntry& entry) {
     const std::lock_guard guard(mutex_);
-    const std::string line = json_line(out_name, entry);
+    const std::string line = line_of_record(out_name, entry);
     if (::write(descriptor_, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
         throw WriteError(file_.string() + ": cannot write: " + std::generic_category().message(errno));
     entries_[out_name] = entry;
