@@ -5,12 +5,15 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "asset/scene/affine.hpp"
 #include "asset/scene/coordinate_precision.hpp"
 #include "asset/scene/flatten.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -44,37 +47,87 @@ double to_decimal(double x, std::uint32_t digits, std::uint32_t decimals) {
     return result + 0.0;  // no -0
 }
 
-// Whether a triangle has no area, as far as doubles tell.
-bool is_flat(const std::vector<Vec3>& positions, const Triangle& t) {
-    constexpr double least = 1e-10;  // of the area of the square over the longest edge
-    std::array<Vec3, 2> edges;
-    double longest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        double squares = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double along = positions[t[(i + 1) % 3]][k] - positions[t[i]][k];
-            if (i < 2) edges[i][k] = along;
-            squares += along * along;
-        }
-        longest = std::max(longest, squares);
-    }
-    const auto& [a, b] = edges;
-    const double area =
-        std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
-    return !(area > least * longest);
+// Rounds a number, and moves it by so many steps of the rounding.
+using Rounding = std::function<double(double x, int steps)>;
+
+double float_rounding(double x, int steps) {
+    const double rounded = to_float(x);
+    if (steps == 0) return rounded;
+    const double infinity = std::numeric_limits<double>::infinity();
+    return std::nextafter(static_cast<float>(rounded), static_cast<float>(steps * infinity));
 }
 
-// \return false, without changing anything, if a face would lose its area
-template <class Round>
-bool round_all(const std::vector<Triangle>& triangles, const Round& round, std::vector<Vec3>& positions) {
-    std::vector<Vec3> rounded = positions;
-    for (Vec3& p : rounded)
-        for (double& x : p) x = round(x);
-    for (const Triangle& t : triangles)
-        if (is_flat(rounded, t) && !is_flat(positions, t)) return false;
-    positions = std::move(rounded);
-    return true;
+Rounding decimal_rounding(std::uint32_t digits, std::uint32_t decimals) {
+    return [=](double x, int steps) {
+        const double rounded = to_decimal(x, digits, decimals);
+        if (steps == 0) return rounded;
+        const double first_place = rounded == 0 ? -400 : std::floor(std::log10(std::abs(rounded)));
+        const double last_place =
+            std::max(-static_cast<double>(decimals), first_place + 1 - static_cast<double>(digits));
+        return to_decimal(rounded + steps * std::pow(10, last_place), digits, decimals);
+    };
 }
+
+// Rounds positions so that no face loses its area: where it would, a corner moves by a step.
+class AreaKeeper {
+public:
+    AreaKeeper(const std::vector<Triangle>& triangles, const std::vector<Vec3>& positions, Rounding rounding)
+        : triangles_(triangles), before_(positions), rounded_(positions), rounding_(std::move(rounding)) {}
+
+    // Returns the rounded positions, or those before if there is no way to keep all areas.
+    std::vector<Vec3> operator()() {
+        for (Vec3& p : rounded_)
+            for (double& x : p) x = rounding_(x, 0);
+        int repairs = 0;
+        for (const Triangle& t : triangles_)
+            if (!keeps_area(t) && (++repairs > most_repairs || !repair(t))) return before_;
+        return std::move(rounded_);
+    }
+
+private:
+    // Each takes a pass over all faces. If there are more, the steps are too coarse for the mesh.
+    static constexpr int most_repairs = 100;
+    static constexpr double least_area = 1e-10;  // twice that of a face, per square of its longest edge
+
+    // Twice the area, as a vector; 0 if doubles do not tell it from 0.
+    static engine::Vector3 area(const std::vector<Vec3>& positions, const Triangle& t) {
+        const engine::Vector3 a = engine::to_eigen(positions[t[0]]), b = engine::to_eigen(positions[t[1]]),
+                              c = engine::to_eigen(positions[t[2]]);
+        const engine::Vector3 result = engine::area_vector(a, b, c);
+        const double longest =
+            std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+        return result.norm() > least_area * longest ? result : engine::Vector3::Zero();
+    }
+
+    bool keeps_area(const Triangle& t) const {
+        return !area(rounded_, t).isZero(0) || area(before_, t).isZero(0);
+    }
+
+    bool repair(const Triangle& t) {
+        for (const Index v : t) {
+            for (double& x : rounded_[v]) {
+                const double own = x;
+                for (const int steps : {1, -1}) {
+                    x = rounding_(own, steps);
+                    if (area(rounded_, t).dot(area(before_, t)) > 0 && keeps_areas_at(v)) return true;
+                }
+                x = own;
+            }
+        }
+        return false;
+    }
+
+    bool keeps_areas_at(Index v) const {
+        return std::all_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
+            return std::find(t.begin(), t.end(), v) == t.end() || keeps_area(t);
+        });
+    }
+
+    const std::vector<Triangle>& triangles_;
+    const std::vector<Vec3>& before_;
+    std::vector<Vec3> rounded_;
+    const Rounding rounding_;
+};
 
 // Whether files without a scene have the positions of the parts.
 bool is_in_place(const Asset& asset) {
@@ -117,15 +170,12 @@ StoredPrecision result_precision(const Asset& source, ModelFormat format) {
 
 void round_positions(const StoredPrecision& precision, const std::vector<Triangle>& triangles,
                      std::vector<Vec3>& positions) {
-    if (precision.type == Type::float32) round_all(triangles, to_float, positions);
+    if (precision.type == Type::float32) positions = AreaKeeper(triangles, positions, float_rounding)();
     if (precision.type != Type::decimal) return;
-    for (std::uint32_t more = precision.digits < enough_digits ? 1 : 0; more <= 1; ++more) {
-        const std::uint32_t digits = precision.digits + more, decimals = precision.decimals + more;
-        if (digits > exact_digits) return;
-        if (round_all(
-                triangles, [&](double x) { return to_decimal(x, digits, decimals); }, positions))
-            return;
-    }
+    const std::uint32_t more = precision.digits < enough_digits ? 1 : 0;
+    const std::uint32_t digits = precision.digits + more, decimals = precision.decimals + more;
+    if (digits <= exact_digits)
+        positions = AreaKeeper(triangles, positions, decimal_rounding(digits, decimals))();
 }
 
 bool loses_digits_as_floats(const StoredPrecision& stored, const std::vector<Vec3>& positions) {

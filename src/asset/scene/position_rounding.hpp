@@ -27,7 +27,8 @@ bool loses_digits_as_floats(const StoredPrecision& stored, const std::vector<Vec
 Part flatten_for_file(const Asset& asset);
 
 /// Rounds positions to floats or to decimals: those of `precision`, or one more digit and decimal if it has fewer than six
-/// digits. If this would leave a face without area, one more is tried, and else nothing is rounded.
+/// digits. A corner of a face that this would leave without area moves by one step; if that does not help, or there are
+/// more than a hundred such faces, nothing is rounded.
 /// \param precision  as result_precision()
 /// Complexity: O(n)
 FAQEM_EXPORT void round_positions(const StoredPrecision& precision, const std::vector<Triangle>& triangles,

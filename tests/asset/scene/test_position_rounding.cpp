@@ -74,16 +74,33 @@ TEST_CASE("decimals have the digits of the source, and one more where it has few
     CHECK(rounded({}, 0.1) == 0.1);
 }
 
-TEST_CASE("a face that rounding would leave without area keeps its exact corners, or gets one more digit") {
+TEST_CASE("a face that rounding would leave without area gets a corner moved by a step") {
     const std::vector<Triangle> faces = {{0, 1, 2}};
-    std::vector<Vec3> sliver = {{0, 0, 0}, {1, 0, 0}, {0.5, 3e-7, 0}};
-    detail::round_positions({Type::decimal, 7, 6}, faces, sliver);
-    CHECK(sliver[2][1] == 3e-7);
+    for (const double height : {3e-7, -3e-7}) {
+        std::vector<Vec3> sliver = {{0, 0, 0}, {1, 0, 0}, {0.5, height, 0}};
+        detail::round_positions({Type::decimal, 7, 6}, faces, sliver);
+        const double area = (sliver[1][0] - sliver[0][0]) * (sliver[2][1] - sliver[0][1]) -
+                            (sliver[2][0] - sliver[0][0]) * (sliver[1][1] - sliver[0][1]);
+        CHECK(area * height > 0);
+        for (const Vec3& p : sliver) CHECK(std::abs(p[1]) == Approx(p[1] == 0 ? 0 : 1e-6));
+    }
     // Floats near 1e6 have steps of 1/16.
     std::vector<Vec3> far = {{1e6, 0, 0}, {1e6 + 0.01, 0, 0}, {1e6, 1, 0}};
-    const std::vector<Vec3> before = far;
     detail::round_positions({Type::float32}, faces, far);
-    CHECK(far == before);
+    CHECK(far[1][0] - far[0][0] == 0.0625);
+    CHECK(far[2][1] == 1);
+}
+
+TEST_CASE("positions stay exact where rounding would leave many faces without area") {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> faces;
+    for (Index i = 0; i < 600; i += 3) {
+        faces.push_back({i, i + 1, i + 2});
+        positions.insert(positions.end(), {{1e6, 0, 0}, {1e6 + 0.01, 0, 0}, {1e6, 1, 0}});
+    }
+    const std::vector<Vec3> before = positions;
+    detail::round_positions({Type::float32}, faces, positions);
+    CHECK(positions == before);
 }
 
 TEST_CASE("results have the precision of the source as far as the format has it") {
