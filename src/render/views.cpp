@@ -16,12 +16,12 @@ constexpr std::array<double, 2> elevations = {0.16, 0.42};  // radians: alternat
 }  // namespace
 
 std::vector<Camera> cameras_around(const Scene& scene, const std::string& file, std::uint32_t views,
-                                   UpAxis up) {
+                                   bool z_up) {
     std::vector<Camera> result;
     for (std::uint32_t i = 0; i < views; ++i)
         result.push_back(orbit_camera(first_azimuth + 2 * std::numbers::pi * i / views,
                                       elevations[i % elevations.size()]));
-    if (up == UpAxis::z)
+    if (z_up)
         for (Camera& camera : result)
             for (Vector3* vector : {&camera.right, &camera.up, &camera.back})
                 *vector = {vector->x(), -vector->z(), vector->y()};

@@ -11,17 +11,15 @@
 
 namespace faqem::render {
 
-enum class UpAxis { y, z };
-
 /// Creates cameras around a scene. All cameras have the same distance, at which each of them sees the whole
 /// scene.
 /// \param scene  the scene
 /// \param file   path of the scene, for error messages
 /// \param views  number of cameras
-/// \param up     axis that points up
+/// \param z_up   the z axis points up, and not y
 /// \throws InputError  if the scene has no triangles
 FAQEM_EXPORT std::vector<Camera> cameras_around(const Scene& scene, const std::string& file,
-                                                std::uint32_t views, UpAxis up = UpAxis::y);
+                                                std::uint32_t views, bool z_up = false);
 
 /// Renders each scene as a row of a contact sheet, with one view per camera and the number of faces as label.
 /// The views are rendered in parallel.

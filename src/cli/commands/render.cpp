@@ -51,12 +51,10 @@ int run(const RenderArguments& arguments) {
         }
     }
     bar.show("draw");
-    const std::vector<render::ContactSheetRow> rows =
-        render::draw_rows(scenes,
-                          render::cameras_around(scenes[0], models[0], arguments.views,
-                                                 arguments.up == "z" ? render::UpAxis::z : render::UpAxis::y),
-                          arguments.size, arguments.unlit ? render::Shading::unlit : render::Shading::lit,
-                          arguments.wireframe ? render::Edges::drawn : render::Edges::hidden);
+    const std::vector<render::ContactSheetRow> rows = render::draw_rows(
+        scenes, render::cameras_around(scenes[0], models[0], arguments.views, arguments.up == "z"),
+        arguments.size, arguments.unlit ? render::Shading::unlit : render::Shading::lit,
+        arguments.wireframe ? render::Edges::drawn : render::Edges::hidden);
     const Image sheet = encode_png(render::compose_contact_sheet(rows), "sheet");
     write_only_output(out, {reinterpret_cast<const char*>(sheet.encoded.data()), sheet.encoded.size()},
                       overwrite);

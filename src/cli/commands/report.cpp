@@ -41,10 +41,10 @@ ReportedModel describe_model(const FlattenedModel& model, const MeshInfo& info) 
             model.asset.images.size()};
 }
 
-Image contact_sheet_png(std::vector<render::ContactSheetRow> rows,
-                        const std::vector<render::ContactSheetRow>* labelled = nullptr) {
+Image contact_sheet(std::vector<render::ContactSheetRow> rows,
+                    const std::vector<render::ContactSheetRow>* labelled = nullptr) {
     for (std::size_t r = 0; labelled && r < rows.size(); ++r) rows[r].label = (*labelled)[r].label;
-    return encode_png(render::compose_contact_sheet(rows), "sheet");
+    return encode_webp(render::compose_contact_sheet(rows), "sheet", {});
 }
 
 /// Renders three images as `faqem render` does: the models, the models with edges, and the heat maps.
@@ -55,8 +55,8 @@ std::vector<Picture> draw_pictures(const ReportArguments& arguments, const Flatt
     for (const FlattenedModel* model : {&a, &b}) scenes.push_back(render::make_scene(model->asset));
     for (const ErrorSurface* error : {&error_a, &error_b})
         errors.push_back(render::make_scene(color_by_distance(*error, limit)));
-    const std::vector<render::Camera> cameras = render::cameras_around(
-        scenes[0], a.file, arguments.views, arguments.up == "z" ? render::UpAxis::z : render::UpAxis::y);
+    const std::vector<render::Camera> cameras =
+        render::cameras_around(scenes[0], a.file, arguments.views, arguments.up == "z");
     const auto draw = [&](const std::vector<render::Scene>& drawn, render::Edges edges) {
         return render::draw_rows(drawn, cameras, arguments.size, render::Shading::lit, edges);
     };
@@ -64,10 +64,9 @@ std::vector<Picture> draw_pictures(const ReportArguments& arguments, const Flatt
     const std::string both =
         "The first model in the upper row, the second below it, rendered with the same cameras";
     return {
-        {contact_sheet_png(shaded), "Shaded. " + both + ".", both + "."},
-        {contact_sheet_png(draw(scenes, render::Edges::drawn)), "With mesh edges.",
-         both + ", with mesh edges."},
-        {contact_sheet_png(draw(errors, render::Edges::hidden), &shaded),
+        {contact_sheet(shaded), "Shaded. " + both + ".", both + "."},
+        {contact_sheet(draw(scenes, render::Edges::drawn)), "With mesh edges.", both + ", with mesh edges."},
+        {contact_sheet(draw(errors, render::Edges::hidden), &shaded),
          "Distance to the other model: from dark (zero) to yellow (the 99.5th percentile of the vertices' "
          "distances, and above).",
          both + ", coloured by the distance to the other model."}};
@@ -85,14 +84,11 @@ std::optional<ViewerData> make_viewer_data(const ReportArguments& arguments, con
     }
     const MeshInfo& info = page.comparison.a;
     const double unit = page.comparison.distances.diagonal;
-    ViewerFrame frame{{}, unit};
+    ViewerFrame frame{{}, unit, max_distance > 0 ? max_distance : 1};
     for (std::size_t k = 0; k < 3; ++k) frame.centre[k] = 0.5 * info.box_min[k] + 0.5 * info.box_max[k];
-    ViewerData view{viewer_glb(a, error_a, frame),
-                    viewer_glb(b, error_b, frame),
-                    limit / unit,
-                    max_distance / unit,
-                    unit,
-                    arguments.up};
+    ViewerData view{viewer_glb(a, error_a, frame), viewer_glb(b, error_b, frame), limit / unit,
+                    max_distance / unit, unit};
+    view.up = arguments.up;
     if (view.a.size() + view.b.size() > max_viewer_bytes) {
         page.notes.push_back("No 3D view: the models exceed the limit of " +
                              std::to_string(max_viewer_bytes / 1'000'000) + " MB.");

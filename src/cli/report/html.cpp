@@ -31,6 +31,13 @@ std::string escape_html(std::string_view text) {
     return result;
 }
 
+std::string breakable_html(std::string_view text) {
+    std::string result = escape_html(text);
+    for (std::size_t at = 0; (at = result.find('/', at)) != std::string::npos; at += 6)
+        result.insert(at + 1, "<wbr>");
+    return result;
+}
+
 std::string fill_template(std::string_view text,
                           const std::vector<std::pair<std::string_view, std::string>>& values) {
     constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
@@ -63,12 +70,12 @@ std::string html_table(const std::string& caption, const std::vector<std::string
         html.append("<")
             .append(tag)
             .append(title.empty() ? ">" : " scope=\"col\">")
-            .append(escape_html(title));
+            .append(breakable_html(title));
         html.append("</").append(tag).append(">");
     }
     html += "</tr></thead>\n<tbody>\n";
     for (const std::vector<std::string>& row : rows) {
-        html += "<tr><th scope=\"row\">" + escape_html(row.at(0)) + "</th>";
+        html += "<tr><th scope=\"row\">" + breakable_html(row.at(0)) + "</th>";
         for (std::size_t i = 1; i < row.size(); ++i) html += "<td>" + escape_html(row[i]) + "</td>";
         html += "</tr>\n";
     }

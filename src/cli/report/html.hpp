@@ -14,6 +14,9 @@ namespace faqem::cli {
 /// Escapes text for HTML, also inside quoted attributes.
 std::string escape_html(std::string_view text);
 
+/// The same, with places after slashes where long names may be broken; not for attributes.
+std::string breakable_html(std::string_view text);
+
 /// Replaces each `@NAME@` in a text by its value. Names inside values are not replaced.
 /// \param values  pairs of name and value; names consist of capital letters, digits and underscores
 /// \pre every name in the text has a value

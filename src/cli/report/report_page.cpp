@@ -29,9 +29,10 @@ std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
     std::vector<std::vector<std::string>> rows = {
         row("Faces", a.mesh.faces, b.mesh.faces),
         row("Vertices", a.mesh.vertices, b.mesh.vertices),
-        row("Components", a.mesh.components, b.mesh.components),
-        row("Boundary edges", a.mesh.boundary_edges, b.mesh.boundary_edges),
-        row("Non-manifold edges", a.mesh.nonmanifold_edges, b.mesh.nonmanifold_edges),
+        row("Components (connected pieces)", a.mesh.components, b.mesh.components),
+        row("Boundary edges (of one face)", a.mesh.boundary_edges, b.mesh.boundary_edges),
+        row("Non-manifold edges (of three or more faces)", a.mesh.nonmanifold_edges,
+            b.mesh.nonmanifold_edges),
         row("Materials", a.materials, b.materials),
         row("Images", a.images, b.images),
         row("Bytes", a.bytes, b.bytes)};
@@ -49,15 +50,15 @@ std::string distances_table(const ReportPage& page) {
     const auto row = [&](const char* what, auto&& value) {
         return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
     };
-    return html_table(
-        "Distances, in model units and relative to the diagonal of " + name_of(page.a),
-        {"", "to " + name_of(page.b), "to " + name_of(page.a)},
-        {row("Maximum, lower bound", [&](const OneSided& s) { return cell(s.max); }),
-         row("Maximum, upper bound", [&](const OneSided& s) { return cell(s.max_bound); }),
-         row("Mean", [&](const OneSided& s) { return cell(s.mean); }),
-         row("Root mean square", [&](const OneSided& s) { return cell(std::sqrt(s.mean_squared)); }),
-         row("Mean normal deviation",
-             [](const OneSided& s) { return shown_number(s.mean_normal_degrees, 3) + "°"; })});
+    return html_table("Distances, in model units and relative to the diagonal of " + name_of(page.a),
+                      {"", "to " + name_of(page.b), "to " + name_of(page.a)},
+                      {row("Maximum, at least", [&](const OneSided& s) { return cell(s.max); }),
+                       row("Maximum, at most", [&](const OneSided& s) { return cell(s.max_bound); }),
+                       row("Mean", [&](const OneSided& s) { return cell(s.mean); }),
+                       row("Root mean square (large distances count more)",
+                           [&](const OneSided& s) { return cell(std::sqrt(s.mean_squared)); }),
+                       row("Mean angle between the normals",
+                           [](const OneSided& s) { return shown_number(s.mean_normal_degrees, 3) + "°"; })});
 }
 
 std::string colors_table(const ReportPage& page) {
@@ -68,28 +69,30 @@ std::string colors_table(const ReportPage& page) {
         return std::vector<std::string>{what, value(c.a_to_b), value(c.b_to_a)};
     };
     return html_table(
-        "Colour differences, unlit sRGB from 0 to 1; PSNR of both directions: " + decibels,
+        "Colour differences without light, from 0 to 1; PSNR, which is higher for smaller ones: " + decibels,
         {"", "to " + name_of(page.b), "to " + name_of(page.a)},
         {row("Root mean square", [](const OneSidedColors& s) { return shown_number(s.rmse, 3); }),
-         row("Difference above 0.25", [](const OneSidedColors& s) { return shown_percent(s.outliers); }),
-         row("No face of similar orientation",
+         row("Share of the surface with more than 0.25",
+             [](const OneSidedColors& s) { return shown_percent(s.outliers); }),
+         row("Share without a face of similar orientation",
              [](const OneSidedColors& s) { return shown_percent(s.unmatched); }),
-         row("Cut away by an alpha mask", [](const OneSidedColors& s) { return shown_percent(s.hidden); })});
+         row("Share cut away by transparency",
+             [](const OneSidedColors& s) { return shown_percent(s.hidden); })});
 }
 
 std::string pictures(const ReportPage& page) {
     std::string html;
     for (const Picture& picture : page.pictures) {
-        html += "<figure><img alt=\"" + escape_html(picture.description) + "\" src=\"data:image/png;base64," +
-                base64(picture.png.encoded) + "\"><figcaption>" + escape_html(picture.caption) +
-                "</figcaption></figure>\n";
+        html += "<figure><img alt=\"" + escape_html(picture.description) +
+                "\" src=\"data:image/webp;base64," + base64(picture.webp.encoded) + "\"><figcaption>" +
+                escape_html(picture.caption) + "</figcaption></figure>\n";
     }
     return html;
 }
 
 std::string notes(const ReportPage& page) {
     std::string html;
-    for (const std::string& note : page.notes) html += "<p class=\"note\">" + escape_html(note) + "</p>\n";
+    for (const std::string& note : page.notes) html += "<p class=\"note\">" + breakable_html(note) + "</p>\n";
     return html;
 }
 

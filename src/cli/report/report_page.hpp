@@ -20,7 +20,7 @@ struct ReportedModel {
 };
 
 struct Picture {
-    Image png;
+    Image webp;
     std::string caption;      ///< text below the picture
     std::string description;  ///< alternative text
 };

@@ -1,5 +1,7 @@
 #include "cli/report/viewer_model.hpp"
 
+#include <cmath>
+
 #include "asset/file_format.hpp"
 #include "cli/report/heat_ramp.hpp"
 
@@ -34,11 +36,13 @@ std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSur
     asset.parts[0].name = "look";
     asset.parts[1].uvs.resize(1);
     for (const double distance : error.distances)
-        asset.parts[1].uvs[0].push_back({static_cast<float>(distance / frame.unit), 0});
+        asset.parts[1].uvs[0].push_back({static_cast<float>(std::sqrt(distance / frame.max_distance)), 0});
     for (Part& part : asset.parts) {
         normalize_positions(part.positions, frame);
-        part.position_spacing = 0;
+        part.position_spacing = 0x1p-15;
+        part.file_order = FileOrder::for_gpu;  // which takes few bytes
     }
+    asset.compression = Compression::meshopt;
     const detail::EncodedModel encoded = detail::encode_model(asset, "viewer.glb");
     const std::span<const std::uint8_t> bytes = encoded.files.back().bytes;
     return {bytes.begin(), bytes.end()};

@@ -13,12 +13,14 @@ namespace faqem::cli {
 /// Coordinate frame of the 3D view. It normalizes positions to magnitudes near 1, because graphics hardware
 /// computes in single precision.
 struct ViewerFrame {
-    Vec3 centre = {};  ///< origin of the frame, world space
-    double unit = 1;   ///< length of its unit, model units, > 0
+    Vec3 centre = {};         ///< origin of the frame, world space
+    double unit = 1;          ///< length of its unit, model units, > 0
+    double max_distance = 1;  ///< of both error surfaces, model units, > 0
 };
 
 /// Returns a GLB file with two meshes in the frame: `look` contains all instances of the model with its
-/// materials, `error` the error surface with the distance, in units of the frame, as texture coordinate u.
+/// materials, `error` the error surface with the root of the distance as a share of ViewerFrame::max_distance as
+/// texture coordinate u. Positions are rounded to multiples of 2^-15, and geometry is compressed with meshoptimizer.
 /// Skins and morph targets are in their pose at rest.
 std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSurface& error,
                                      const ViewerFrame& frame);

@@ -17,7 +17,7 @@ const fragmentShader = `
   varying float error;
   varying vec3 viewPosition;
   void main() {
-    float share = limit > 0.0 ? clamp(error / limit, 0.0, 1.0) : 0.0;
+    float share = limit > 0.0 ? clamp(error * error / limit, 0.0, 1.0) : 0.0;
     vec3 colour = texture2D(ramp, vec2((share * (stops - 1.0) + 0.5) / stops, 0.5)).rgb;
     vec3 normal = normalize(cross(dFdx(viewPosition), dFdy(viewPosition)));
     gl_FragColor = vec4(colour * (0.65 + 0.35 * abs(normal.z)), 1.0);

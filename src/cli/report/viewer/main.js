@@ -12,7 +12,7 @@ function connectControls(stage, errorMaterial, view) {
   const colour = () => {
     // The slider is quadratic, because most distances are much smaller than the maximum.
     const value = view.max_distance * limit.value ** 2;
-    errorMaterial.uniforms.limit.value = value;
+    errorMaterial.uniforms.limit.value = limit.value ** 2;
     byId('limit-value').textContent = `${(value * view.unit).toPrecision(3)} (${(100 * value).toPrecision(2)}%)`;
     stage.draw();
   };
