@@ -13,6 +13,7 @@ import sys
 import tempfile
 
 import faqem
+import faqem.fast_simplification
 import numpy
 
 
@@ -124,7 +125,7 @@ def call_objects(random_number, points, triangles):
             lambda: faqem.bake_truncated(a, b, 5, bake="none"), lambda: faqem.History.of(a), lambda: faqem.load(a),
             lambda: faqem.History.load(a), lambda: faqem.save(b, file, overwrite=c), lambda: faqem.save(b, file),
             lambda: faqem.save_levels(b, file), lambda: faqem.simplify(a, b), lambda: faqem.simplify_levels(a, b, c),
-            lambda: faqem.Model.from_arrays(a, b), lambda: faqem.replay_simplification(a, b, c), lambda: out.map(a, b, c),
+            lambda: faqem.Model.from_arrays(a, b), lambda: faqem.fast_simplification.replay_simplification(a, b, c), lambda: out.map(a, b, c),
             lambda: faqem.simplify(points, triangles, progress=a, history=b), lambda: faqem.simplify_levels(points, triangles, a),
         ])()
 
@@ -150,13 +151,14 @@ def call(random_number):
         faqem.simplify_levels(points, triangles, random_number.choice([[0.5, 0.1], [5], ["error:1%"], [], [-1], "0.5"]), **given)
     elif kind == 1:
         pairs = numpy.random.default_rng(random_number.getrandbits(32)).integers(0, max(count, 1), size=(count // 4, 2))
-        faqem.replay_simplification(points, triangles, pairs)
+        faqem.fast_simplification.replay_simplification(points, triangles, pairs)
     elif kind == 2:
         out = faqem.simplify(points, triangles, ratio=0.5, history=True)
         out.map([0, random_number.randrange(-1, 9)], [[1, 0, 0], [random_number.uniform(-1, 2), 0, 1]])
         faqem.History.of([out]).truncate(random_number.randrange(-1, 20))
     else:
-        faqem.simplify(points, triangles, **given)
+        compatible = {"target_reduction", "target_count", "return_collapses", "lossless", "preserve_border"} & given.keys()
+        (faqem.fast_simplification.simplify if compatible else faqem.simplify)(points, triangles, **given)
 
 
 def outcome(seed, number):

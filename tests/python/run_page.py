@@ -1,6 +1,6 @@
 """Runs the Python blocks of a page one after the other, as a reader would who has the models that it names.
 
-Usage: run_page.py PAGE
+Usage: run_page.py PAGE [--print]     with --print, prints the blocks as one program, for type checkers
 
 The blocks share their variables. Those that import a package which is not installed are left out, with a message; tests of
 results are in CHECKS. Works in a new folder.
@@ -25,7 +25,7 @@ CHECKS = {
     "web.glb": 'pathlib.Path("web.glb").stat().st_size <= 100_000',
     "asset.glb": 'asset.report["faces_out"] <= 20_000 and found["colors"]["psnr"] > 30',
     "light": 'sorted(file.name for file in results.iterdir()) == ["a.glb", "b.glb"] and light.report["faces_out"] <= 4_800',
-    "between": 'len(between.triangles) <= 1500 and len(values) == len(between.triangles)',
+    "waves.history": "len(cut.triangles) <= 1500 and len(values) == len(cut.triangles)",
     "UVs": "colors.shape == (len(part.vertices), 3) and numpy.ptp(colors, axis=0).min() > 50",
     "before-after.png": 'pathlib.Path("before-after.png").exists() and pathlib.Path("page.html").exists()',
 }
@@ -61,6 +61,8 @@ def missing_package(code):
 
 def main():
     page = pathlib.Path(sys.argv[1]).resolve()
+    if sys.argv[2:] == ["--print"]:
+        return print("\n".join(code for _, code in blocks(page)))
     names, count = {}, 0
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)

@@ -184,7 +184,7 @@ class Models(unittest.TestCase):
         file = self.folder / "a.glb"
         for wrong, right, call in (
             ("lock", "locks", lambda **keyword: faqem.simplify(*flat_grid(2), **keyword)),
-            ("target_reducton", "target_reduction", lambda **keyword: faqem.simplify(*flat_grid(2), **keyword)),
+            ("text_size", "texture_size", lambda **keyword: faqem.simplify(*flat_grid(2), **keyword)),
             ("weight", "weights", lambda **keyword: faqem.simplify_levels(*flat_grid(2), [0.5], **keyword)),
             ("progres", "progress", lambda **keyword: faqem.simplify(model, **keyword)),
             ("texturesize", "texture_size", lambda **keyword: faqem.simplify(model, **keyword)),

@@ -53,6 +53,8 @@ random_calls() {
 types() {
     in_root "$work/build" "env/bin/pip install -q mypy"
     in_root "$work/build" "mkdir typed; cp faqem/tests/wheel/typed.py typed; cd typed; ../env/bin/mypy --strict typed.py"
+    in_root "$work/build" "env/bin/python faqem/tests/python/run_page.py faqem/docs/python.md --print > typed/page.py"
+    in_root "$work/build" "cd typed; ../env/bin/mypy --strict page.py"
 }
 
 # In a folder with the installed wheel, README.md, tests and try.py.

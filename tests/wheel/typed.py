@@ -1,6 +1,7 @@
 """A program for mypy --strict. Wrong calls are marked, so that it is an error if they are not found."""
 
 import faqem
+import faqem.fast_simplification as drop_in
 import numpy
 import trimesh
 
@@ -14,19 +15,22 @@ def show(phase: str, fraction: float) -> None:
 
 out = faqem.simplify(vertices, triangles, ratio=0.5, preset="best", max_error="0.1%", progress=show)
 kept: "numpy.ndarray[tuple[int, ...], numpy.dtype[numpy.uint32]]" = out.triangles
-level: faqem.Simplified
+level: faqem.SimplifiedLevel
 for level in faqem.simplify_levels(vertices, triangles, [0.5, 1000, "error:1%"], history=True):
-    print(level.error, level.report["faces_out"], level.map([0], [[1, 0, 0]])[1].dtype)
+    error: float = level.error
+    print(error, level.report["faces_out"], level.map([0], [[1, 0, 0]])[1].dtype)
 
-points, faces = faqem.simplify(vertices, triangles, 0.5, agg=3, verbose=True)
-points, faces, collapses = faqem.simplify(vertices, triangles, target_count=1, return_collapses=True)
-points, faces, mapping = faqem.replay_simplification(points=vertices, triangles=triangles, collapses=collapses)
+points, faces = drop_in.simplify(vertices, triangles, 0.5, agg=3, verbose=True)
+points, faces, collapses = drop_in.simplify(vertices, triangles, target_count=1, return_collapses=True)
+points, faces, mapping = drop_in.replay_simplification(points=vertices, triangles=triangles, collapses=collapses)
 print(points.dtype, faces.dtype, collapses.remaining, mapping.dtype)
 
 small = faqem.simplify(trimesh.load_mesh("statue.glb"), faces=100, texture_size=512)
 print(small.metadata["faqem"], len(small.faces))
 
 model = faqem.load("statue.glb")
+faqem.simplify("statue.glb", faces=1e5).to_glb()
+faqem.simplify(vertices, triangles, ratio="10%")
 result = faqem.simplify(model, faces=20_000, texture_size=2048, image_format="webp")
 faqem.save(result, "simplified.glb", overwrite=True)
 faqem.save((out.vertices, out.triangles), "simplified.ply")

@@ -1,7 +1,7 @@
 """Mesh simplification with texture baking, for numpy arrays and textured models.
 
     out = faqem.simplify(vertices, triangles, ratio=0.1)
-    simplified = faqem.simplify(faqem.load("statue.glb"), faces=20_000)
+    simplified = faqem.simplify("statue.glb", faces=20_000)
     faqem.save(simplified, "simplified.glb")
 
 docs/python.md describes all options.
@@ -27,18 +27,16 @@ from .errors import (
 TYPE_CHECKING = False  # type checkers take it for true; the module typing would take a third of the import's time
 if TYPE_CHECKING:
     from ._levels import History, simplify_levels
-    from ._model import Model, Part, bake_truncated, load, save, save_levels
+    from ._model import Model, ModelLevel, Part, SimplifiedModel, bake_truncated, load, save, save_levels
     from ._call import simplify
     from ._command import command, compare
-    from ._compatible import Collapses, replay_simplification
-    from ._simplify import Simplified
+    from ._simplify import Simplified, SimplifiedLevel
     from ._textures import Image, Material, Texture
 
     __version__: str
 
 __all__ = [
     "ByteLimitError",
-    "Collapses",
     "Error",
     "History",
     "Image",
@@ -46,10 +44,13 @@ __all__ = [
     "InternalError",
     "Material",
     "Model",
+    "ModelLevel",
     "OptionError",
     "Part",
     "ReadError",
     "Simplified",
+    "SimplifiedLevel",
+    "SimplifiedModel",
     "Texture",
     "TimeLimitError",
     "TryAgainError",
@@ -59,7 +60,6 @@ __all__ = [
     "command",
     "compare",
     "load",
-    "replay_simplification",
     "save",
     "save_levels",
     "simplify",
@@ -70,11 +70,10 @@ __all__ = [
 # numpy and the library.
 _modules = {
     **dict.fromkeys(["History", "simplify_levels"], "_levels"),
-    **dict.fromkeys(["Model", "Part", "bake_truncated", "load", "save", "save_levels"], "_model"),
+    **dict.fromkeys(["Model", "ModelLevel", "Part", "SimplifiedModel", "bake_truncated", "load", "save", "save_levels"], "_model"),
     **dict.fromkeys(["command", "compare"], "_command"),
-    **dict.fromkeys(["Collapses", "replay_simplification"], "_compatible"),
     **dict.fromkeys(["Image", "Material", "Texture"], "_textures"),
-    "Simplified": "_simplify",
+    **dict.fromkeys(["Simplified", "SimplifiedLevel"], "_simplify"),
     "simplify": "_call",
 }
 

@@ -27,6 +27,16 @@ def check_rows(array: Array, width: int, name: str) -> Array:
     return check_shape(array.reshape(0, width) if array.size == 0 else array, width, name)
 
 
+def triangle_rows(triangles: ArrayLike) -> Array:
+    """Returns triangles as rows. pyvista's `faces`, a flat array with a 3 before each triangle, are accepted, too."""
+    array = checked_array(triangles, "triangles")
+    if array.ndim != 1 or array.size == 0:
+        return check_rows(array, 3, "triangles")
+    if array.size % 4 != 0 or (array[::4] != 3).any():
+        raise InputError("triangles: a flat array must have a 3 before the three indices of each triangle")
+    return array.reshape(-1, 4)[:, 1:]
+
+
 def _is_readable_in_place(array: Array) -> bool:
     """Whether the C API reads the array (n, 3) in place: rows or columns follow each other without overlap."""
     stride, step = array.strides

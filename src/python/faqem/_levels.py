@@ -11,15 +11,15 @@ import numpy
 from numpy.typing import ArrayLike, DTypeLike
 
 from ._arrays import MeshArrays, mesh_pointer
-from ._library import Level, call, create, destroy_with, library
+from ._library import Level, Unchanging, call, create, destroy_with, library
 from ._options import Options, checked_integer, checked_switch, names_keywords, parse_length
-from ._simplify import Simplified, array_keywords
+from ._simplify import Simplified, SimplifiedLevel, array_keywords
 from .errors import InputError, OptionError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._model import Model
+    from ._model import Model, ModelLevel
     from ._types import CommonModelOptions, CommonOptions
 
 Target = Union[float, str]  # of a level
@@ -50,7 +50,7 @@ def _level(level: Target) -> Level:
         raise OptionError(f"levels: {level!r} is not a level {_expected}") from None
     if 0 < ratio <= 1:
         return Level(_ratio, ratio)
-    return Level(_faces, checked_integer(level, "levels", 53))
+    return Level(_faces, checked_integer(int(ratio) if ratio.is_integer() else level, "levels", 53))
 
 
 def level_array(levels: Sequence[Target]) -> Any:
@@ -68,8 +68,8 @@ def as_list(levels: Any) -> list[Any]:
 
 @overload
 def simplify_levels(
-    points: Model, levels: Sequence[Target], /, *, textures: str = ..., **options: Unpack[CommonModelOptions]
-) -> list[Model]: ...
+    points: Model | Path, levels: Sequence[Target], /, *, textures: str = ..., **options: Unpack[CommonModelOptions]
+) -> list[ModelLevel]: ...
 
 
 @overload
@@ -84,23 +84,25 @@ def simplify_levels(
     weights: ArrayLike | None = ...,
     uvs: ArrayLike | None = ...,
     **options: Unpack[CommonOptions],
-) -> list[Simplified]: ...
+) -> list[SimplifiedLevel]: ...
 
 
 def simplify_levels(points: Any, triangles: Any, levels: Any = None, /, **options: Any) -> Any:
     """Simplifies a triangle soup or a model to several levels of detail, and measures each against the original.
 
     points, triangles, groups, locks, weights, uvs
-              as for simplify(); or a Model instead of the first two
+              as for simplify(); or a Model or a file name instead of the first two
     levels    from fine to coarse: 0.5 (share of the triangles), 5000 (number of triangles), "error:0.01" (distance in
               model units, for a Model in scene units) or "error:0.1%" (distance as a share of the diagonal)
     textures  of a Model: "each": every level has its own textures; "shared": all levels have those of the finest one
     options   those of simplify(), except ratio, faces and max_error
 
-    Returns a list of Simplified or Model, whose `error` never decreases. Raises the exceptions of simplify().
+    Returns a list of SimplifiedLevel or ModelLevel, whose `error` never decreases. Raises the exceptions of simplify().
     """
-    from ._model import Model, simplify_model_levels
+    from ._model import Model, load, simplify_model_levels
 
+    if isinstance(points, (str, os.PathLike)):
+        points = load(points)
     if isinstance(points, Model):
         if levels is not None:
             raise TypeError("levels: come directly after a model")
@@ -119,16 +121,16 @@ def _simplify_array_levels(
     weights: ArrayLike | None = None,
     uvs: ArrayLike | None = None,
     **options: Any,
-) -> list[Simplified]:
+) -> list[SimplifiedLevel]:
     arrays = MeshArrays(points, triangles, groups, locks, weights, uvs)
     chosen = Options(array_keywords, **options)
     wanted = level_array(levels)
     made = (ctypes.c_void_p * len(wanted))()
 
-    def run() -> list[Simplified]:
+    def run() -> list[SimplifiedLevel]:
         call(library.faqem_simplify_levels, mesh_pointer(arrays), chosen.object, wanted, len(wanted), made)
         has_history = bool(options.get("history"))
-        return [Simplified(ctypes.c_void_p(one), arrays.kind, has_history=has_history) for one in made]
+        return [SimplifiedLevel(ctypes.c_void_p(one), arrays.kind, has_history=has_history) for one in made]
 
     return chosen.run(run)
 
@@ -141,15 +143,22 @@ def handle_array(levels: list[Any], kind: type) -> Any:
     for level in levels:
         if not isinstance(level, kind):
             raise TypeError(f"levels: a list of {kind.__name__} is expected, but one is {type(level).__name__}")
-    return (ctypes.c_void_p * len(levels))(*(level._handle.value for level in levels))
+    handles = (level.history_handle() if isinstance(level, Simplified) else level._handle for level in levels)
+    return (ctypes.c_void_p * len(levels))(*(handle.value for handle in handles))
 
 
-class History:
+class History(Unchanging):
     """Collapse history of a chain of levels. Created by History.of() or History.load()."""
 
     def __init__(self, handle: ctypes.c_void_p, kind: DTypeLike = numpy.float64) -> None:
         self._handle, self._kind = handle, kind  # the type of positions
         destroy_with(self, library.faqem_history_destroy, handle)
+
+    def __repr__(self) -> str:
+        return f"<faqem.History: levels: {len(self)}, meshes: {self.part_count}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored_history, (self.to_bytes(), numpy.dtype(self._kind).str)
 
     @classmethod
     def of(cls, levels: Sequence[Simplified] | Sequence[Model]) -> History:
@@ -182,7 +191,10 @@ class History:
     @names_keywords
     def save(self, path: Path, *, overwrite: bool = False) -> None:
         """Writes the history in the format of docs/history-format.md. Raises OSError."""
-        with open(file_name(path), "wb" if checked_switch(overwrite, "overwrite") else "xb") as file:
+        name, replace = file_name(path), checked_switch(overwrite, "overwrite")
+        if not replace and os.path.exists(name):
+            raise FileExistsError(f"{name}: file exists; overwrite=True replaces it")
+        with open(name, "wb" if replace else "xb") as file:
             file.write(self.to_bytes())
 
     def to_bytes(self) -> bytes:
@@ -216,3 +228,8 @@ class History:
         made = (ctypes.c_void_p * self.part_count)()
         call(library.faqem_history_truncate_parts, self._handle, checked_integer(faces, "faces", 53), made)
         return [Simplified(ctypes.c_void_p(one), self._kind) for one in made]
+
+
+def _restored_history(content: bytes, kind: str) -> History:
+    """A history from its bytes, for pickle."""
+    return History(create(library.faqem_history_read, content, len(content)), kind)

@@ -13,6 +13,8 @@ TYPE_CHECKING = False  # as in __init__.py
 if TYPE_CHECKING:
     from typing import Any
 
+    from typing_extensions import Self
+
 Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_int, c_double)
 
 
@@ -56,6 +58,7 @@ _signatures: dict[str, tuple[Any, list[Any]]] = {
     "faqem_options_set": (_status, [_handle, c_char_p, c_char_p, POINTER(_Error)]),
     "faqem_option_count": (c_size_t, []),
     "faqem_option_name": (c_char_p, [c_size_t]),
+    "faqem_option_help": (c_char_p, [c_size_t]),
     "faqem_options_set_progress": (_status, [_handle, Progress, c_void_p]),
     "faqem_simplify": (c_int, [POINTER(Mesh), _handle, POINTER(_handle), POINTER(_Error)]),
     "faqem_result_destroy": (None, [_handle]),
@@ -88,6 +91,10 @@ _signatures: dict[str, tuple[Any, list[Any]]] = {
     "faqem_history_truncate": (c_int, [_handle, c_uint64, POINTER(_handle), POINTER(_Error)]),
     "faqem_history_truncate_parts": (c_int, [_handle, c_uint64, POINTER(_handle), POINTER(_Error)]),
     "faqem_asset_load": (c_int, [c_char_p, POINTER(_handle), POINTER(_Error)]),
+    "faqem_asset_from_glb": (c_int, [c_char_p, c_size_t, POINTER(_handle), POINTER(_Error)]),
+    "faqem_asset_to_glb": (c_int, [_handle, POINTER(_handle), POINTER(_Error)]),
+    "faqem_glb_bytes": (c_void_p, [_handle, POINTER(c_size_t)]),
+    "faqem_glb_destroy": (None, [_handle]),
     "faqem_asset_create": (c_int, [POINTER(Mesh), POINTER(_handle), POINTER(_Error)]),
     "faqem_asset_simplify": (c_int, [_handle, _handle, POINTER(_handle), POINTER(_Error)]),
     "faqem_asset_simplify_levels": (
@@ -178,6 +185,16 @@ def destroy_with(owner: object, function: Any, handle: c_void_p) -> None:
     Not at the end of the program, because functions that run then may still have arrays that are its memory.
     """
     weakref.finalize(owner, function, handle).atexit = False
+
+
+class Unchanging:
+    """An object that cannot change: its copy is itself."""
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, _memo: object) -> Self:
+        return self
 
 
 def create(function: Any, *arguments: Any) -> c_void_p:

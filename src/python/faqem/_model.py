@@ -15,10 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import MeshArrays, mesh_pointer, view_array
 from ._levels import History, Path, Target, as_list, file_name, handle_array, level_array
-from ._library import call, create, destroy_with, library
+from ._library import Unchanging, call, create, destroy_with, library
 from ._options import Options, checked_integer, checked_switch, enum_value, names_keywords, parse_length
+from ._simplify import counts_text
 from ._textures import Image, Material, images, materials
-from .errors import InputError, OptionError, ReadError, UnsupportedError
+from .errors import InputError, OptionError, ReadError, UnsupportedError, WriteError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -40,12 +41,21 @@ class Part:
     materials: NDArray[numpy.uint32]  #: (f,) uint32: index into Model.materials, 2^32 - 1 for the default material
 
 
-class Model:
+class Model(Unchanging):
     """A scene of parts, materials and images. Created by load(), simplify() or Model.from_arrays()."""
 
     def __init__(self, handle: ctypes.c_void_p) -> None:
         self._handle = handle
         destroy_with(self, library.faqem_asset_destroy, handle)
+
+    def __repr__(self) -> str:
+        parts = range(library.faqem_asset_part_count(self._handle))
+        faces = sum(library.faqem_asset_face_count(self._handle, part) for part in parts)
+        vertices = sum(library.faqem_asset_vertex_count(self._handle, part) for part in parts)
+        return f"<faqem.{type(self).__name__}: {counts_text(faces, vertices, self.error)}, parts: {len(parts)}>"
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a Model cannot be pickled: GLB rounds its doubles. Pass a file name, or to_glb() and from_glb()")
 
     @classmethod
     @names_keywords
@@ -53,6 +63,23 @@ class Model:
         """Creates a model of one part without materials; the arrays are copied. Raises InputError."""
         arrays = MeshArrays(vertices, triangles)
         return cls(create(library.faqem_asset_create, mesh_pointer(arrays)))
+
+    @classmethod
+    @names_keywords
+    def from_glb(cls, content: bytes) -> Model:
+        """Reads the bytes of a .glb file without other files. Raises InputError, UnsupportedError, MemoryError."""
+        if not isinstance(content, (bytes, bytearray, memoryview)):
+            raise TypeError(f"content: bytes are expected, not {type(content).__name__}")
+        content = bytes(content)
+        return cls(create(library.faqem_asset_from_glb, content, len(content)))
+
+    def to_glb(self) -> bytes:
+        """Returns the bytes of the .glb file that save() writes. Raises WriteError, MemoryError."""
+        glb, size = create(library.faqem_asset_to_glb, self._handle), ctypes.c_size_t()
+        try:
+            return ctypes.string_at(library.faqem_glb_bytes(glb, ctypes.byref(size)), size.value)
+        finally:
+            library.faqem_glb_destroy(glb)
 
     @property
     def parts(self) -> list[Part]:
@@ -108,6 +135,24 @@ class Model:
         )
 
 
+class SimplifiedModel(Model):
+    """A result of simplify()."""
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """Report of simplify(), with the keys documented in docs/reference.md."""
+        return dict(super().report or {})
+
+
+class ModelLevel(SimplifiedModel):
+    """A level of simplify_levels()."""
+
+    @property
+    def error(self) -> float:
+        """Upper bound of the distance from the original, in scene units."""
+        return float(library.faqem_asset_level_error(self._handle))
+
+
 def as_model(model: Model | tuple[ArrayLike, ArrayLike], name: str) -> Model:
     """Returns a model, made of a pair of arrays if it is one. Raises TypeError with the name of the argument."""
     if isinstance(model, Model):
@@ -134,6 +179,17 @@ def _path(path: Path) -> bytes:
     return encoded
 
 
+def _write(path: Path, replace: bool, function: Any, *arguments: Any) -> None:
+    """Calls a function that writes a file. The error of an existing one names the argument that replaces it."""
+    encoded = _path(path)
+    try:
+        call(function, *arguments, encoded, int(replace))
+    except WriteError as error:
+        if replace or "File exists" not in str(error):
+            raise
+        raise WriteError(f"{error}; overwrite=True replaces it") from None
+
+
 @names_keywords
 def load(path: Path) -> Model:
     """Loads a .glb, .gltf, .vrm, .obj, .ply, .stl or .off file.
@@ -152,29 +208,31 @@ def load(path: Path) -> Model:
         raise ReadError(str(error)) from None
 
 
-def simplify_model(model: Model, **options: Unpack[ModelOptions]) -> Model:
+def simplify_model(model: Model, **options: Unpack[ModelOptions]) -> SimplifiedModel:
     """simplify() of a model."""
     source, chosen = _source(model), Options(**options)
-    return chosen.run(lambda: Model(create(library.faqem_asset_simplify, source, chosen.object)))
+    return chosen.run(lambda: SimplifiedModel(create(library.faqem_asset_simplify, source, chosen.object)))
 
 
 def simplify_model_levels(
     model: Model, levels: Sequence[Target], textures: str = "each", **options: Unpack[CommonModelOptions]
-) -> list[Model]:
+) -> list[ModelLevel]:
     """simplify_levels() of a model."""
     source, chosen = _source(model), Options(["textures"], **options)
     shared = enum_value(_level_textures, textures, "textures")
     wanted = level_array(levels)
     made = (ctypes.c_void_p * len(wanted))()
 
-    def run() -> list[Model]:
+    def run() -> list[ModelLevel]:
         call(library.faqem_asset_simplify_levels, source, chosen.object, wanted, len(wanted), shared, made)
-        return [Model(ctypes.c_void_p(one)) for one in made]
+        return [ModelLevel(ctypes.c_void_p(one)) for one in made]
 
     return chosen.run(run)
 
 
-def bake_truncated(model: Model, history: History, faces: int, /, **options: Unpack[CommonModelOptions]) -> Model:
+def bake_truncated(
+    model: Model, history: History, faces: int, /, **options: Unpack[CommonModelOptions]
+) -> SimplifiedModel:
     """Restores a model from a history at a number of triangles and bakes its appearance, without another run.
 
     model    the model that was simplified
@@ -189,8 +247,8 @@ def bake_truncated(model: Model, history: History, faces: int, /, **options: Unp
     if not isinstance(history, History):
         raise TypeError(f"history: a History is expected, not {type(history).__name__}")
 
-    def run() -> Model:
-        return Model(create(library.faqem_asset_bake_truncated, source, history._handle, count, chosen.object))
+    def run() -> SimplifiedModel:
+        return SimplifiedModel(create(library.faqem_asset_bake_truncated, source, history._handle, count, chosen.object))
 
     return chosen.run(run)
 
@@ -222,7 +280,7 @@ def save_levels(
         raise OptionError("pixel_error and screen_height must be > 0")
     share = lengths[0][0] / lengths[1][0]
     handles = handle_array(listed, Model)
-    call(library.faqem_asset_save_levels, handles, len(handles), share, _path(path), int(replace))
+    _write(path, replace, library.faqem_asset_save_levels, handles, len(handles), share)
 
 
 @names_keywords
@@ -236,4 +294,4 @@ def save(model: Model | tuple[ArrayLike, ArrayLike], path: Path, *, overwrite: b
     What the format cannot store is added to model.warnings. Raises WriteError, UnsupportedError, InputError.
     """
     source, replace = as_model(model, "model"), checked_switch(overwrite, "overwrite")
-    call(library.faqem_asset_save, source._handle, _path(path), int(replace))
+    _write(path, replace, library.faqem_asset_save, source._handle)

@@ -65,6 +65,11 @@ def option_names() -> list[str]:
     return [library.faqem_option_name(i).decode().replace("-", "_") for i in range(library.faqem_option_count())]
 
 
+def option_helps() -> dict[str, str]:
+    """Returns option_names() with a sentence about each."""
+    return {name: library.faqem_option_help(i).decode() for i, name in enumerate(option_names())}
+
+
 def _text(value: Any) -> str | None:
     """Converts the value of an option to text. None if it is neither a number nor a text."""
     if isinstance(value, str):
@@ -118,12 +123,25 @@ class Options:
         self._interrupt = HeldInterrupt()
         self._callback_exception: BaseException | None = None
         for keyword in options.keys() - set(option_names()):
-            raise unknown_keyword(keyword, [*option_names(), "progress", *also])
+            raise self._unknown(keyword, [*option_names(), "progress", *also])
         for keyword, value in given.items():
             self._set(keyword, checked_switch(value, keyword) if keyword == "history" else value)
         self._set_progress(progress)
 
+    def _unknown(self, keyword: str, known: Iterable[str]) -> TypeError:
+        """As unknown_keyword(); of an option of the command or of fast_simplification it says what stands for it."""
+        if keyword in ("target_reduction", "target_count", "lossless", "return_collapses", "agg", "preserve_border"):
+            return TypeError(f"unknown option {keyword!r}; faqem.fast_simplification.simplify() has it")
+        try:
+            self._set(keyword, "")
+        except OptionError as error:
+            if "the command" in str(error):
+                return TypeError(str(error).replace("-", "_"))
+        return unknown_keyword(keyword, known)
+
     def _set(self, keyword: str, value: Any) -> None:
+        if keyword == "faces" and isinstance(value, float) and value.is_integer():
+            value = int(value)  # 1e5
         name, text = keyword.replace("_", "-"), _text(value)
         if text is None:
             raise OptionError(f"{keyword}: {value!r} is neither a number nor a text")

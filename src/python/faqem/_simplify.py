@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import ctypes
 import json
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -12,15 +13,18 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from ._arrays import MeshArrays, checked_array, checked_indices, mesh_pointer, view_array
 from ._library import call, create, destroy_with, library
 from ._options import Options, names_keywords
-from .errors import InputError
+from .errors import InputError, OptionError
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 #: Keywords of simplify() and simplify_levels() that are arrays.
 array_keywords = ("groups", "locks", "weights", "uvs")
-#: Keywords of simplify() besides the options: its arrays, and the arguments of fast_simplification.
-simplify_keywords = (
-    "points", "triangles", *array_keywords,
-    "target_reduction", "target_count", "agg", "verbose", "return_collapses", "lossless", "preserve_border",
-)
+
+
+def counts_text(faces: int, vertices: int, error: float | None) -> str:
+    """Counts of a mesh, for repr()."""
+    return f"{faces} faces, {vertices} vertices" + ("" if error is None else f", error {error:.4g}")
 
 
 class _Result:
@@ -42,6 +46,8 @@ class Simplified:
     face_origin: NDArray[numpy.uint32]  #: (f,) uint32: input triangle of each triangle
     report: dict[str, Any]  #: with the keys documented in docs/reference.md
     error: float | None  #: upper bound of the distance of a level from the original; None for other results
+    _handle: ctypes.c_void_p | None  # None for a copy from another process, which has no history
+    _result: _Result | None
 
     def __init__(
         self, handle: ctypes.c_void_p, kind: DTypeLike = numpy.float64, *, has_history: bool = False
@@ -69,6 +75,30 @@ class Simplified:
         error = library.faqem_result_level_error(handle)
         self.error = None if numpy.isnan(error) else error
 
+    def __repr__(self) -> str:
+        return f"<faqem.{type(self).__name__}: {counts_text(len(self.triangles), len(self.vertices), self.error)}>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Pickles the arrays and the report, without the history."""
+        return {**self.__dict__, "_handle": None, "_result": None}
+
+    def __copy__(self) -> Self:
+        other = type(self).__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        return other
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        other = self.__copy__()  # the history cannot change
+        for name in self.__dict__.keys() - {"_handle", "_result"}:
+            other.__dict__[name] = copy.deepcopy(self.__dict__[name], memo)
+        return other
+
+    def history_handle(self) -> ctypes.c_void_p:
+        """Returns the result in the library. Raises OptionError for one that was pickled."""
+        if self._handle is None:
+            raise OptionError("history: was not pickled with the result; pickle History.of() instead")
+        return self._handle
+
     @names_keywords
     def map(self, faces: ArrayLike, barycentric: ArrayLike) -> tuple[NDArray[numpy.uint32], NDArray[numpy.float64]]:
         """Maps points of the simplified mesh to the original. Needs history=True.
@@ -90,10 +120,16 @@ class Simplified:
         def pointer(array: NDArray[Any], kind: Any) -> Any:
             return array.ctypes.data_as(ctypes.POINTER(kind))
 
-        call(library.faqem_result_map, self._handle, pointer(indices, ctypes.c_uint32),
+        call(library.faqem_result_map, self.history_handle(), pointer(indices, ctypes.c_uint32),
              pointer(weights, ctypes.c_double), len(indices), pointer(source_faces, ctypes.c_uint32),
              pointer(source_weights, ctypes.c_double))
         return source_faces, source_weights
+
+
+class SimplifiedLevel(Simplified):
+    """A level of simplify_levels()."""
+
+    error: float  #: upper bound of the distance from the original, model units
 
 
 def simplify_arrays(
@@ -107,7 +143,7 @@ def simplify_arrays(
 ) -> Simplified:
     """See simplify()."""
     arrays = MeshArrays(points, triangles, groups, locks, weights, uvs, "points")
-    chosen = Options(simplify_keywords, **options)
+    chosen = Options(["triangles", *array_keywords], **options)
 
     def run() -> Simplified:
         made = create(library.faqem_simplify, mesh_pointer(arrays), chosen.object)

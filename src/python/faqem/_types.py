@@ -32,8 +32,8 @@ class CommonOptions(TypedDict, total=False):
 
 
 class _Target(TypedDict, total=False):
-    ratio: float | None
-    faces: int | None
+    ratio: float | str | None  # 0.1 or "10%"
+    faces: float | None  # a whole number, as 5000 or 1e5
     max_error: Length | None
     max_seconds: float | None
 
@@ -65,11 +65,8 @@ class CommonModelOptions(CommonOptions, total=False):
 
 
 class CompatibleOptions(CommonOptions, total=False):
-    """Options of simplify() when it is called like fast_simplification.simplify()."""
+    """Options of simplify() of faqem.fast_simplification."""
 
-    agg: float
-    verbose: bool
-    preserve_border: bool
     max_seconds: float | None
     groups: ArrayLike | None
     locks: ArrayLike | None

@@ -1,14 +1,17 @@
-"""What fast_simplification.simplify() and replay_simplification() do, with their arguments and results."""
+"""The functions of the package fast_simplification, with its arguments and results: change one import.
+
+    from faqem.fast_simplification import simplify, replay_simplification
+"""
 
 from __future__ import annotations
 
 import hashlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import check_rows, checked_array, checked_indices, checked_positions
+from ._arrays import check_rows, checked_indices, checked_positions, triangle_rows
 from ._levels import History
 from ._options import checked_integer, names_keywords
 from ._simplify import Simplified, simplify_arrays
@@ -20,8 +23,13 @@ Faces = NDArray[numpy.int32]
 # "Lossless": the rounding of positions, as a share of the diagonal. Nothing that is not flat is removed.
 _lossless_error = "1e-7%"
 
+__all__ = ["Collapses", "replay_simplification", "simplify"]
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._types import CompatibleOptions
+
     _IntArray = NDArray[numpy.int32]
 else:
     _IntArray = numpy.ndarray
@@ -41,16 +49,6 @@ class Collapses(_IntArray):
         self.points, self.remaining, self.source = None, None, b""
 
 
-def triangle_rows(triangles: ArrayLike) -> NDArray[Any]:
-    """Returns triangles as rows. pyvista's `faces`, a flat array with a 3 before each triangle, are accepted, too."""
-    array = checked_array(triangles, "triangles")
-    if array.ndim != 1 or array.size == 0:
-        return check_rows(array, 3, "triangles")
-    if array.size % 4 != 0 or (array[::4] != 3).any():
-        raise InputError("triangles: a flat array must have a 3 before the three indices of each triangle")
-    return array.reshape(-1, 4)[:, 1:]
-
-
 def _target(target_reduction: float | None, target_count: int | None, faces: int) -> int:
     if target_reduction is not None and target_count is not None:
         raise OptionError("target_reduction and target_count: only one of them can be set")
@@ -68,16 +66,51 @@ def _target(target_reduction: float | None, target_count: int | None, faces: int
     return max(int((1 - removed) * faces), 1)
 
 
-def simplify_compatibly(
-    points: ArrayLike,
-    triangles: ArrayLike,
-    target_reduction: float | None,
-    target_count: int | None,
-    return_collapses: bool,
-    lossless: bool,
-    **options: Any,
-) -> tuple[Points, Faces] | tuple[Points, Faces, Collapses]:
-    """See simplify(); the options are those of the C API."""
+@overload
+def simplify(
+    points: ArrayLike, triangles: ArrayLike, target_reduction: float | None = ..., target_count: int | None = ...,
+    agg: float | None = ..., verbose: bool = ..., return_collapses: Literal[False] = ..., lossless: bool = ...,
+    preserve_border: bool = ..., **options: Unpack[CompatibleOptions],
+) -> tuple[Points, Faces]: ...
+
+
+@overload
+def simplify(
+    points: ArrayLike, triangles: ArrayLike, target_reduction: float | None = ..., target_count: int | None = ...,
+    agg: float | None = ..., verbose: bool = ..., *, return_collapses: Literal[True], lossless: bool = ...,
+    preserve_border: bool = ..., **options: Unpack[CompatibleOptions],
+) -> tuple[Points, Faces, Collapses]: ...
+
+
+def simplify(
+    points: ArrayLike, triangles: ArrayLike, target_reduction: float | None = None, target_count: int | None = None,
+    agg: float | None = None, verbose: bool = False, return_collapses: bool = False, lossless: bool = False,
+    preserve_border: bool = False, **options: Any,
+) -> Any:
+    """As simplify() of fast_simplification: one of `target_reduction`, `target_count` and `lossless` must be given.
+
+    points            (v, 3) positions
+    triangles         (f, 3) vertex indices, or the array `faces` of pyvista
+    target_reduction  share of the triangles to remove, in [0, 1]
+    target_count      number of triangles to keep
+    lossless          True: only what is flat is removed
+    agg               accepted, without effect: collapses are always in the order of their costs
+    verbose           True: shows the progress on standard error
+    return_collapses  True: the collapses (n, 2) int32 are the third result, for replay_simplification() of either module
+    preserve_border   True: boundary="locked"
+    options           those of faqem.simplify() but `ratio`, `faces`, `max_error` and `uvs`
+
+    Returns the points (v, 3) float64 and the triangles (f, 3) int32. Raises the exceptions of faqem.simplify().
+    """
+    if target_reduction is None and target_count is None and not lossless:
+        raise OptionError("target_reduction, target_count or lossless must be given")
+    for name in ("ratio", "faces", "max_error", "uvs"):
+        if options.get(name) is not None:
+            raise OptionError(f"{name}: cannot be combined with target_reduction, target_count or lossless")
+    if verbose:
+        options.setdefault("progress", True)
+    if preserve_border:
+        options.setdefault("boundary", "locked")
     positions = checked_positions(points, "points", numpy.float64)
     rows = triangle_rows(triangles)
     if lossless:
