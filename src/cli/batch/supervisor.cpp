@@ -4,13 +4,10 @@
 #include <string.h>
 #include <sys/wait.h>
 
-#include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "asset/io/temporary_file.hpp"
 #include "cli/batch/memory_queue.hpp"
@@ -58,52 +55,36 @@ struct Slot {
 class Supervisor {
 public:
     Supervisor(const std::vector<BatchFile>& files, const BatchContext& work, const WorkerOptions& workers,
-               const BatchEvents& events)
+               const std::function<void(const std::string&)>& print)
         : files_(files),
           work_(work),
           workers_(workers),
-          events_(events),
+          print_(print),
           memory_(work.max_memory),
           slots_(workers.jobs) {}
 
-    void run() {
-        do {
+    ExitCode run() {
+        for (;;) {
             for (std::size_t i = 0; i < slots_.size(); ++i)
                 if (!slots_[i].has_model && next_ < files_.size()) begin(i);
             grant_memory();
-        } while (wait_for_messages());
+            if (!wait_for_messages()) return code_;
+        }
     }
 
 private:
     /// Gives the next model to a process without one.
     void begin(std::size_t i) {
         if (is_interrupted()) {
-            const std::size_t model = next_++;
-            events_.ended(model, line_without_result(exit_cancelled, "cancelled", "cancelled"));
+            finish(files_[next_++], line_without_result(exit_cancelled, "cancelled", "cancelled"));
             return;
         }
         Slot& slot = slots_[i];
         slot.model = next_++;
         slot.has_model = true;
-        slot.is_cancelled = false;
+        slot.alone = slot.is_cancelled = false;
         slot.overwrite = workers_.overwrite == Overwrite::yes;
-        begin_attempt(i, files_[slot.model].alone);
-    }
-
-    void begin_attempt(std::size_t i, bool alone) {
-        Slot& slot = slots_[i];
-        slot.alone = alone;
-        if (events_.begun) events_.begun(slot.model);
-        if (alone)
-            wait_for_all_memory(i);
-        else
-            tell_model(slot);
-    }
-
-    void wait_for_all_memory(std::size_t i) {
-        memory_.release(i);
-        memory_.request(i, all_memory);
-        slots_[i].is_waiting = true;
+        tell_model(slot);
     }
 
     void tell_model(Slot& slot) {
@@ -172,80 +153,81 @@ private:
         } else if (message->contains("retry")) {
             retry_alone(i, message->at("overwrite"));
         } else {
-            end_model(i, *message);
+            end_model(i, std::move(*message));
         }
     }
 
-    /// Continues with a model in a new process, as soon as it can have all memory.
+    /// Begins the model of a process once more, in a new process, as soon as it can have all memory.
     void retry_alone(std::size_t i, bool overwrite) {
         Slot& slot = slots_[i];
         slot.worker.reset();
-        slot.alone = true;
+        slot.alone = slot.is_waiting = true;
         slot.overwrite = overwrite;
-        wait_for_all_memory(i);
+        memory_.release(i);
+        memory_.request(i, all_memory);
     }
 
     void on_death(std::size_t i) {
         Slot& slot = slots_[i];
         const int status = slot.worker->wait();
-        if (WIFSIGNALED(status)) {
-            const int number = WTERMSIG(status);
-            on_end(
-                i,
-                "the process ended with signal " + std::to_string(number) + " (" + ::strsignal(number) + ")",
-                number == SIGKILL);
-        } else if (WEXITSTATUS(status) != exit_no_memory) {
-            on_end(i, "the process ended with code " + std::to_string(WEXITSTATUS(status)));
-        } else if (slot.alone) {
+        const bool is_short_of_memory =
+            WIFSIGNALED(status) ? WTERMSIG(status) == SIGKILL : WEXITSTATUS(status) == exit_no_memory;
+        remove_leftovers_of(slot);
+        if (is_short_of_memory && !slot.alone && !is_interrupted()) return retry_alone(i, slot.overwrite);
+        if (WIFSIGNALED(status))
+            on_end(i, "the process ended with signal " + std::to_string(WTERMSIG(status)) + " (" +
+                          ::strsignal(WTERMSIG(status)) + ")");
+        else if (is_short_of_memory)
             end_model(i, line_without_result(exit_no_memory, "failed", "not enough memory"));
-        } else {
-            remove_leftovers_of(slot);
-            retry_alone(i, slot.overwrite);
-        }
+        else
+            on_end(i, "the process ended with code " + std::to_string(WEXITSTATUS(status)));
     }
 
     /// The process of a model has ended, or is to be killed, without a result.
-    /// \param is_killed  by another process, as the kernel does when the memory of the machine is exhausted
-    void on_end(std::size_t i, const std::string& how, bool is_killed = false) {
+    void on_end(std::size_t i, const std::string& how) {
         Slot& slot = slots_[i];
         slot.worker.reset();
         remove_leftovers_of(slot);
-        Json line = line_without_result(exit_internal, "failed", files_[slot.model].in.string() + ": " + how);
-        line["alone"] = slot.alone;
-        line["killed"] = is_killed;
-        end_model(i, line);
+        end_model(i,
+                  line_without_result(exit_internal, "failed", files_[slot.model].in.string() + ": " + how));
     }
 
     void remove_leftovers_of(const Slot& slot) const {
         detail::remove_leftovers(files_[slot.model].out.parent_path());
     }
 
-    void end_model(std::size_t i, const Json& members) {
+    void end_model(std::size_t i, Json line) {
         memory_.release(i);
-        Slot& slot = slots_[i];
-        const NextStep next = events_.ended(slot.model, members);
-        if (next == NextStep::again_alone) {
-            slot.worker.reset();
-            return begin_attempt(i, true);
-        }
-        slot.has_model = false;
-        if (next == NextStep::stop) next_ = files_.size();
+        slots_[i].has_model = false;
+        finish(files_[slots_[i].model], line);
+    }
+
+    void finish(const BatchFile& file, const Json& members) {
+        Json line = {{"path", file.name}, {"result", file.out_name}};
+        line.update(members);
+        const ExitCode one = members.at("code").get<ExitCode>();
+        if (one == exit_cancelled)
+            code_ = exit_cancelled;
+        else if (one != exit_ok && code_ == exit_ok)
+            code_ = exit_batch_incomplete;
+        print_(json_line(line));
     }
 
     const std::vector<BatchFile>& files_;
     const BatchContext& work_;
     const WorkerOptions& workers_;
-    const BatchEvents& events_;
+    const std::function<void(const std::string&)>& print_;
     MemoryQueue memory_;
     std::vector<Slot> slots_;
     std::size_t next_ = 0;  // the first model that was not begun
+    ExitCode code_ = exit_ok;
 };
 
 }  // namespace
 
-void process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
-                   const WorkerOptions& workers, const BatchEvents& events) {
-    Supervisor(files, work, workers, events).run();
+ExitCode process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
+                       const WorkerOptions& workers, const std::function<void(const std::string&)>& print) {
+    return Supervisor(files, work, workers, print).run();
 }
 
 }  // namespace faqem::cli

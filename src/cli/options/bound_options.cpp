@@ -93,7 +93,7 @@ void add_output(CommandInfo& command, const std::string& name, std::string& valu
     command.positionals.push_back({{name}, "", description});
     OptionInfo& output = command.options.emplace_back(
         rare(text_option("-o,--output", name, value, "The same as " + name + " as the last word")));
-    output.is_positional = output.is_required = true;
+    output.is_positional = true;
 }
 
 OptionInfo force_option(bool& force) { return flag_option("-f,--force", force, "Overwrite existing files"); }

@@ -19,7 +19,6 @@ from .errors import (
     OptionError,
     ReadError,
     TimeLimitError,
-    TryAgainError,
     UnsupportedError,
     WriteError,
 )
@@ -53,7 +52,6 @@ __all__ = [
     "SimplifiedModel",
     "Texture",
     "TimeLimitError",
-    "TryAgainError",
     "UnsupportedError",
     "WriteError",
     "bake_truncated",
