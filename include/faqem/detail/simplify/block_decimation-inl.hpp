@@ -13,6 +13,7 @@
 #include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/engine/engine.hpp"
+#include "faqem/engine/metric/bordered.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
 #include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
@@ -79,6 +80,7 @@ public:
             positions.push_back(input.positions[slot(v)]);
             locked.push_back(v >= own_ || input.locked[slot(v)]);
             if (!input.closed.empty()) closed.push_back(input.closed[slot(v)]);
+            if (input.borders && !input.borders->at.empty()) borders.push_back(input.borders->at[slot(v)]);
         }
         for (const Index f : faces) {
             const Triangle& t = input.triangles[f];
@@ -103,7 +105,8 @@ public:
     std::vector<Vector3> positions;
     std::vector<Triangle> triangles;
     std::vector<std::uint8_t> locked, closed;
-    std::size_t between = 0;  ///< number of faces with a corner in another block
+    std::vector<Index> borders;  ///< as PlanarBorders::at
+    std::size_t between = 0;     ///< number of faces with a corner in another block
 
     /// The vertex of the block for a vertex slot of the whole surface.
     /// \param v  must belong to the block
@@ -345,8 +348,12 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
                 if (context.is_late()) return;
                 Block block(input, b, block_faces[b]);
                 const auto simplify = [&](auto metric) {
-                    return simplify_block(block, std::move(metric), loop, share, patches, removed, removable,
-                                          block_context);
+                    std::span<const engine::Flat> flats;
+                    if (input.borders) flats = input.borders->flats;
+                    return simplify_block(
+                        block,
+                        engine::BorderedMetric(std::move(metric), flats, block.borders, loop.distance_weight),
+                        loop, share, patches, removed, removable, block_context);
                 };
                 if (!tracking) {
                     results[b] = simplify(engine::MemorylessMetric());

@@ -9,6 +9,7 @@
 
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
+#include "faqem/engine/constraints/planar_borders.hpp"
 #include "faqem/engine/loop_options.hpp"
 #include "faqem/engine/tracking/original_surface.hpp"
 #include "faqem/export.hpp"
@@ -75,11 +76,12 @@ struct BlockTracking {
 /// A surface without attributes, groups or virtual edges. References its arguments. Vertices that are close
 /// in space should have close indices, because blocks are ranges of indices.
 struct BlockInput {
-    std::span<const engine::Vector3> positions;  ///< one per vertex slot, engine units
-    std::span<const Triangle> triangles;         ///< each with three different corners
-    std::span<const std::uint8_t> locked;        ///< one per vertex; nonzero: must not move
-    std::size_t per_block;                       ///< vertices per block
-    std::span<const std::uint8_t> closed = {};   ///< empty, or one per vertex: see LoopOptions::closed
+    std::span<const engine::Vector3> positions;      ///< one per vertex slot, engine units
+    std::span<const Triangle> triangles;             ///< each with three different corners
+    std::span<const std::uint8_t> locked;            ///< one per vertex; nonzero: must not move
+    std::size_t per_block;                           ///< vertices per block
+    std::span<const std::uint8_t> closed = {};       ///< empty, or one per vertex: see LoopOptions::closed
+    const engine::PlanarBorders* borders = nullptr;  ///< of this surface; null: none
 
     std::size_t block_count() const { return (positions.size() + per_block - 1) / per_block; }
     std::size_t block_of(Index v) const { return v / per_block; }

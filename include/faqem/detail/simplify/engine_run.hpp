@@ -16,6 +16,7 @@
 #include "faqem/engine/constraints/feature_curves.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/metric/accumulated.hpp"
+#include "faqem/engine/metric/bordered.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
 #include "faqem/engine/metric/weighted.hpp"
 #include "faqem/engine/queue/heap_queue.hpp"
@@ -44,6 +45,7 @@ struct EngineInput {
     std::vector<std::uint8_t> locked;
     std::vector<Index> groups;  // referenced by `curves`
     engine::FeatureCurves curves;
+    std::vector<Index> borders;      // see PlanarBorders::at; empty: none
     std::vector<double> importance;  // one per vertex slot; empty: uniform
 };
 
@@ -78,6 +80,11 @@ inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs
         if (work.importance.empty()) return collapse(std::move(metric), std::move(queue));
         return collapse(engine::WeightedMetric(std::move(metric), work.importance), std::move(queue));
     };
+    const auto bordered = [&](auto metric) {
+        return weighted(engine::BorderedMetric(std::move(metric), state.borders().flats, work.borders,
+                                               loop.distance_weight),
+                        engine::SweepQueue(max_exact_pairs));
+    };
     switch (settings.quadric_policy) {
         case Settings::QuadricPolicy::memory: {
             std::vector<std::uint8_t> seam(work.wedges.empty() ? 0 : work.collapse_mesh.vertex_slots());
@@ -85,13 +92,12 @@ inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs
             return weighted(engine::AccumulatedMetric(settings.weights, seam, curves), engine::HeapQueue());
         }
         case Settings::QuadricPolicy::memoryless:
-            return weighted(engine::MemorylessMetric({}, curves), engine::SweepQueue(max_exact_pairs));
+            return bordered(engine::MemorylessMetric({}, curves));
         case Settings::QuadricPolicy::tracked:
             break;
     }
-    return weighted(engine::TrackedMetric({}, *state.original(), engine::TrackedVertices(state.vertex_map()),
-                                          loop.target_faces, loop.distance_weight, curves, context),
-                    engine::SweepQueue(max_exact_pairs));
+    return bordered(engine::TrackedMetric({}, *state.original(), engine::TrackedVertices(state.vertex_map()),
+                                          loop.target_faces, loop.distance_weight, curves, context));
 }
 
 }  // namespace detail

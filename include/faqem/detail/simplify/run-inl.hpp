@@ -84,6 +84,7 @@ private:
         if (mesh_.vertex_weights.empty()) prepared_.release_welded();
         if (settings_.fit_vertices) state_.keep_initial_surface();
         if (settings_.quadric_policy == Settings::QuadricPolicy::tracked) state_.track_original();
+        if (settings_.quadric_policy != Settings::QuadricPolicy::memory) state_.find_planar_borders();
         untimed_.check_now();
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length(),
@@ -157,8 +158,9 @@ private:
         // time than the faces between blocks cost.
         const std::size_t few = has_used_blocks_ ? max_vertices_per_block / 4 : max_vertices_per_block;
         const ReorderedMesh& now = state_.mesh();
-        const BlockInput input{now.positions, now.triangles, state_.locked(),
-                               vertices_per_block(now.positions.size(), few), closed()};
+        const BlockInput input{now.positions,   now.triangles,
+                               state_.locked(), vertices_per_block(now.positions.size(), few),
+                               closed(),        &state_.borders()};
         const BlockSteps blocks =
             simplify_in_blocks(input, loop_, least, tracking, options_.history,
                                context_.step(Phase::simplify, progress_at(done_in_blocks_),
@@ -213,6 +215,7 @@ private:
                 collapse_mesh, {state_.mesh().per_face<float>(values, std::size_t{3} * width), width});
         }
         work.locked = state_.locked();
+        work.borders = state_.borders().at;
         loop_.closed = closed();
         if (has_curves()) {
             work.groups = state_.mesh().per_face(mesh_.face_groups);

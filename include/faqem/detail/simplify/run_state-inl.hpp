@@ -28,7 +28,21 @@ FAQEM_INLINE RunState::RunState(const PreprocessedMesh& prepared, const std::vec
         locked_[a] = locked_[b] = 1;
 }
 
+FAQEM_INLINE void RunState::find_planar_borders() {
+    engine::PlanarBorderSearch search(mesh_.positions, mesh_.triangles);
+    borders_ = original_ ? search.find(original_->boundary_edges())
+                         : search.find(engine::find_boundary_edges(mesh_.triangles, mesh_.positions.size()));
+}
+
 FAQEM_INLINE void RunState::advance_to(CompactedMesh&& compacted) {
+    if (!borders_.at.empty()) {
+        std::vector<Index> at(compacted.vertices.size(), no_index);
+        for (Index v = 0; v < borders_.at.size(); ++v) {
+            const Index to = compacted.vertex_map[v];
+            if (to != no_index) at[to] = engine::PlanarBorders::merged(at[to], borders_.at[v]);
+        }
+        borders_.at = std::move(at);
+    }
     source_vertices_ = gather(source_vertices_, compacted.source_slots);
     vertex_map_ = gather(compacted.vertex_map, vertex_map_);
     locked_ = gather(locked_, compacted.vertices);

@@ -10,6 +10,7 @@
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
+#include "faqem/engine/constraints/planar_borders.hpp"
 #include "faqem/engine/tracking/original_surface.hpp"
 #include "faqem/export.hpp"
 
@@ -41,6 +42,9 @@ public:
         std::iota(vertex_map_.begin(), vertex_map_.end(), Index{0});
     }
 
+    /// Sets borders(). \pre advance_to() has not been called. O(faces)
+    void find_planar_borders();
+
     /// Replaces the current surface by a simplified one.
     /// \param compacted  made from mesh(); moved from
     /// Complexity: O(n)
@@ -51,6 +55,8 @@ public:
     const std::vector<std::uint8_t>& locked() const { return locked_; }
     /// One per vertex slot; nonzero: in a closed component of the preprocessed mesh.
     const std::vector<std::uint8_t>& closed() const { return closed_; }
+    /// The planar parts of the border, by vertex slot; empty unless find_planar_borders() was called.
+    const engine::PlanarBorders& borders() const { return borders_; }
     /// One per vertex slot: the vertex of the preprocessed mesh that has exactly the same position, or
     /// no_index.
     const std::vector<Index>& source_vertices() const { return source_vertices_; }
@@ -76,6 +82,7 @@ private:
     std::optional<engine::OriginalSurface> original_;
     std::vector<Index> vertex_map_, source_vertices_;
     std::vector<std::uint8_t> locked_, closed_;
+    engine::PlanarBorders borders_;
 };
 
 }  // namespace detail

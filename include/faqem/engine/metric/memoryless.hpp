@@ -62,8 +62,9 @@ public:
 
     /// The quadric of the pair is the sum of those of both vertices minus half of that of the shared faces,
     /// so that a shared face counts one and a half times. O(1) for manifold pairs, else O(smaller valence)
+    /// \param flat  if not null, the new vertex is in it, unless it is at one of the pair's vertices
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
-                                      AllowedPosition allowed_position) const {
+                                      AllowedPosition allowed_position, const Flat* flat = nullptr) const {
         if (allowed_position == AllowedPosition::nowhere) return std::nullopt;
         const Index u = pairs.first(pair), v = pairs.second(pair);
         const std::uint32_t faces = pairs.face_count(pair);
@@ -79,7 +80,9 @@ public:
         const Vector3 moment = at_v.apply(d);
         const Quadric q = {sum.xx, sum.xy, sum.xz, sum.yy, sum.yz, sum.zz, -moment, d.dot(moment)};
         const Eigen::AlignedBox3d bounds(placement_bounds_.min() - origin, placement_bounds_.max() - origin);
-        const Vector3 p = optimal_position(q, Vector3::Zero(), d, allowed_position, &bounds);
+        const Vector3 p = flat && allowed_position == AllowedPosition::anywhere
+                              ? optimal_position_in(*flat, origin, q, Vector3::Zero(), d, bounds)
+                              : optimal_position(q, Vector3::Zero(), d, allowed_position, &bounds);
         double cost = std::max(q(p), 0.0);
         if (faces > 0 && mesh.degree(u) == faces && mesh.degree(v) == faces) {
             cost += last_faces_price(

@@ -25,6 +25,12 @@ inline AllowedPosition intersection(AllowedPosition a, AllowedPosition b) {
     return b == AllowedPosition::anywhere ? a : AllowedPosition::nowhere;
 }
 
+/// A plane or a line.
+struct Flat {
+    Vector3 point;          ///< a point in it, engine units
+    Eigen::Matrix3d along;  ///< projects a vector onto its directions
+};
+
 /// A possible collapse of a pair.
 struct Candidate {
     Vector3 point;                                           ///< position of the new vertex, engine units
@@ -60,6 +66,24 @@ inline Vector3 optimal_position(const Quadric& q, const Vector3& a, const Vector
         if (error < lowest) lowest = error, best = p;
     }
     return best;
+}
+
+/// As optimal_position() with AllowedPosition::anywhere, for positions in a plane or on a line. O(1)
+/// \param a, b    positions of the pair's vertices; one that is not in the flat stands for the nearest point in it
+/// \param flat    contains the result up to rounding
+/// \param origin  origin of the coordinates of `q`, `a`, `b` and `bounds`
+inline Vector3 optimal_position_in(const Flat& flat, const Vector3& origin, const Quadric& q,
+                                   const Vector3& a, const Vector3& b, const Eigen::AlignedBox3d& bounds) {
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - flat.along;
+    const Vector3 foot = across * (flat.point - origin);  // the point in the flat nearest to the origin
+    Eigen::Matrix3d all;
+    all << q.xx, q.xy, q.xz, q.xy, q.yy, q.yz, q.xz, q.yz, q.zz;
+    const Vector3 slope = flat.along * (q.apply(foot) + q.b);
+    // The second term makes the quadric regular; its minimum is in the flat.
+    const Eigen::Matrix3d m = flat.along * all * flat.along + all.trace() * across;
+    const Quadric inside = {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2), slope, 0};
+    return foot + flat.along * optimal_position(inside, flat.along * a, flat.along * b,
+                                                AllowedPosition::anywhere, &bounds);
 }
 
 }  // namespace engine

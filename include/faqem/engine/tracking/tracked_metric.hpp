@@ -70,8 +70,8 @@ public:
 
     /// Position and cost of the memoryless metric; the cost is a lower bound of exact_cost().
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
-                                      AllowedPosition allowed_position) const {
-        return memoryless_.evaluate(mesh, pairs, pair, allowed_position);
+                                      AllowedPosition allowed_position, const Flat* flat = nullptr) const {
+        return memoryless_.evaluate(mesh, pairs, pair, allowed_position, flat);
     }
 
     /// Cost including the distances. O(bound vertices times valence) at worst, typically one distance per
