@@ -155,6 +155,9 @@ struct StoredPrecision {
     std::uint32_t digits = 0, decimals = 0;
 };
 
+/// What an OBJ file without normals says about them by one smoothing group for all faces.
+enum class Smoothing { unknown, off, on };
+
 /// Data that a format's reader preserves for its writer (for glTF: scene graph, cameras, animations, extras).
 struct SourceDocument;
 
@@ -172,6 +175,8 @@ struct Asset {
     /// How the file that load() has read stores positions. Results for other formats than glTF are rounded to it, and save()
     /// stores doubles in PLY files if it is `float64`.
     StoredPrecision precision = {};
+    /// Unless `unknown`, Part::normals of a loaded file follow from it. Results that need no normals have it instead.
+    Smoothing smoothing = Smoothing::unknown;
     /// Geometry compression of a glTF file: of the file that was read, and of the one that save() writes.
     Compression compression = Compression::none;
     /// 0, or in [8, 16]: glTF files have integers instead of floats for normals and tangents of all parts, but with

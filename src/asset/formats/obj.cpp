@@ -294,6 +294,17 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::map<std::st
     }
 }
 
+/// The smoothing that all faces have if no corner has a normal.
+Smoothing common_smoothing(const ObjStatements& in) {
+    const std::vector<std::int64_t>& groups = in.face_smoothing;
+    const bool has_normals = std::any_of(in.corners.begin(), in.corners.end(),
+                                         [](const ObjCorner& c) { return c[2] != no_index; });
+    if (has_normals || groups.empty() || groups[0] == unknown_smoothing ||
+        std::any_of(groups.begin(), groups.end(), [&](std::int64_t group) { return group != groups[0]; }))
+        return Smoothing::unknown;
+    return groups[0] == 0 ? Smoothing::off : Smoothing::on;
+}
+
 }  // namespace
 
 Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
@@ -303,6 +314,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     asset.precision = in.precision;
     check_index_count(in.positions.size(), file.string(), "v");
     check_index_count(in.sizes.size(), file.string(), "f");
+    asset.smoothing = common_smoothing(in);
     add_smoothed_normals(in.positions, in.sizes, in.face_smoothing, in.corners, in.normals);
     check_index_count(in.normals.size(), file.string(), "normal");
     FileFinder finder(file.parent_path());

@@ -241,6 +241,8 @@ EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
     if (!used.materials.empty()) text.put("mtllib " + library_file_name(stem) + "\n");
     if (objects.size() < 2) text.put("o " + (objects.empty() ? stem : objects[0].name) + "\n");
     lines.write(text);
+    if (asset.smoothing != Smoothing::unknown && flat.normals.empty())
+        text.put(asset.smoothing == Smoothing::on ? "s 1\n" : "s off\n");
     text.put(faces.view());
 
     for (const MtlImage& image : library.images)

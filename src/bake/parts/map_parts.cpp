@@ -33,10 +33,11 @@ std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyRes
                                 std::span<const std::uint8_t> kept, const BakeOptions& bake,
                                 const RunContext& context) {
     std::vector<BakePart> parts(source.parts.size());
-    const bool writes_normals = bake.normals == Normals::automatic
-                                    ? std::any_of(source.parts.begin(), source.parts.end(),
-                                                  [](const Part& part) { return !part.normals.empty(); })
-                                    : bake.normals != Normals::none;
+    const bool has_normals = source.smoothing == Smoothing::unknown &&
+                             std::any_of(source.parts.begin(), source.parts.end(),
+                                         [](const Part& part) { return !part.normals.empty(); });
+    const bool writes_normals =
+        bake.normals == Normals::automatic ? has_normals : bake.normals != Normals::none;
     for (std::size_t p = 0; p < parts.size(); ++p) {
         parts[p].index = static_cast<Index>(p);
         parts[p].source = &source.parts[p];

@@ -199,6 +199,18 @@ void keep_all_parts(const Asset& source, const SimplifiedParts& simplified, cons
     context.report(Phase::bake, 1);
 }
 
+// Replaces normals that follow from a smoothing group by this group, unless a new normal map needs them.
+void restore_smoothing(const Asset& source, const BakeOptions& bake, Asset& result) {
+    if (bake.normals != Normals::automatic || source.smoothing == Smoothing::unknown) return;
+    const bool has_normal_map = std::any_of(result.materials.begin(), result.materials.end(),
+                                            [](const Material& m) { return bool(m.normal_texture); });
+    const bool has_normals = std::any_of(result.parts.begin(), result.parts.end(),
+                                         [](const Part& part) { return !part.normals.empty(); });
+    if (has_normal_map && has_normals) return;
+    result.smoothing = source.smoothing;
+    for (Part& part : result.parts) part.normals.clear();
+}
+
 // Calls work(source, resolved options, result) for a result that has the report of the geometry stage and the data of the
 // file.
 template <class Work>
@@ -221,6 +233,7 @@ UnencodedResult run_bake(const Asset& given, const SimplifiedParts& simplified, 
     const Stopwatch watch;
     try {
         work(source, options, out);
+        restore_smoothing(source, options.bake, out.asset.asset);
         // Those of simplify_parts() are rounded already, those of histories are not.
         const StoredPrecision precision = result_precision(source, options.format);
         for (std::size_t p = 0; p < source.parts.size(); ++p) {

@@ -75,3 +75,21 @@ TEST_CASE("faces without an area, and faces that cancel each other, give no norm
     CHECK(normal_at(part, 1, 0) == Vec3f{0, 0, 0});
     check_near(normal_at(part, 3, 0), up);
 }
+
+TEST_CASE("one smoothing group for all faces of a file without normals is recorded and written again",
+          "[obj]") {
+    const auto smoothing = [](const std::string& faces) {
+        return read_obj(bytes_of(corner_of_room + "vn 0 0 1\n" + faces), "a.obj").smoothing;
+    };
+    CHECK(smoothing("s off\n" + floor_face + wall_faces) == Smoothing::off);
+    CHECK(smoothing("s 3\n" + floor_face + wall_faces) == Smoothing::on);
+    CHECK(smoothing(floor_face + wall_faces) == Smoothing::unknown);
+    CHECK(smoothing(floor_face + "s 1\n" + wall_faces) == Smoothing::unknown);
+    CHECK(smoothing("s 1\nf 1//1 4//1 3//1\n") == Smoothing::unknown);
+
+    Asset asset = read_obj(bytes_of(corner_of_room + "s off\n" + floor_face), "a.obj");
+    asset.parts[0].normals.clear();
+    const TemporaryFolder folder;
+    save(asset, folder / "b.obj");
+    CHECK(load(folder / "b.obj").smoothing == Smoothing::off);
+}

@@ -124,6 +124,21 @@ TEST_CASE("automatic normals are in PLY and OBJ only if the source has some or t
     CHECK(!bake(textured, unchanged(textured), options).asset.parts[0].normals.empty());
 }
 
+TEST_CASE("normals that follow from one smoothing group are no normals of the source in OBJ and PLY") {
+    Asset asset = roof();
+    asset.smoothing = Smoothing::on;
+    for (const ModelFormat format : {ModelFormat::ply, ModelFormat::obj, ModelFormat::glb}) {
+        for (const UntouchedParts untouched : {UntouchedParts::automatic, UntouchedParts::baked}) {
+            Options options = lossless();
+            options.format = format;
+            options.bake.untouched = untouched;
+            const Asset result = bake(asset, unchanged(asset), options).asset;
+            CHECK(result.parts[0].normals.empty() == (format != ModelFormat::glb));
+            CHECK((result.smoothing == Smoothing::on) == (format != ModelFormat::glb));
+        }
+    }
+}
+
 TEST_CASE("automatic normals split a vertex in PLY where the source has two normals and only there") {
     // The ridge is sharp, but both sides share its normals; then they have normals of their own.
     const auto vertices = [](const Asset& asset, std::uint64_t& split) {
