@@ -20,6 +20,10 @@ using engine::Vector3;
 // Pages with fewer texels get up to twice as many.
 constexpr double small_page_texels = 1 << 18;
 
+// By how much small pages show small regions more sharply: the mixture of two of them is a colour that the source does not
+// have, and texels of plain regions need few bytes.
+constexpr double small_page_sharpness = 4;
+
 // A half-edge of a face.
 struct FaceEdge {
     Index part, low, high;  // vertices
@@ -104,10 +108,15 @@ double median_density(std::vector<FaceDensity> faces) {
     return faces.empty() ? 0 : faces.back().mean;
 }
 
+// With these a face would show everything.
+struct WantedDensities {
+    double usual;  // those of the source, within a factor of 4 of the median of the material, and of regions
+    double small;  // on a small page
+};
+
 // Sets the densities of the triangles of one part: those of the source, within a factor of 4 of the median of the part.
-// \return by triangle: the density with which it would show everything, those of the source within a factor of 4 of
-//         the median of their material
-std::vector<double> set_densities(std::span<const FaceDensity> faces, std::span<PageTriangle> triangles) {
+std::vector<WantedDensities> set_densities(std::span<const FaceDensity> faces,
+                                           std::span<PageTriangle> triangles) {
     std::map<Index, std::vector<FaceDensity>> by_material;
     for (const FaceDensity& face : faces) by_material[face.material].push_back(face);
     std::map<Index, double> medians;
@@ -122,30 +131,36 @@ std::vector<double> set_densities(std::span<const FaceDensity> faces, std::span<
         area += face.area;
     }
     regions = std::isfinite(regions) && area > 0 ? regions / area : 0;
-    std::vector<double> wanted;
+    std::vector<WantedDensities> wanted;
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const FaceDensity& face = faces[i];
         triangles[i].density = std::clamp(face.mean, median / 4, median * 4);
         const double of_material = std::min(face.mean, medians[face.material] * 4);
-        wanted.push_back(std::max({triangles[i].density, of_material, regions}));
+        const double usual = std::max({triangles[i].density, of_material, regions});
+        wanted.push_back({usual, std::max(usual, small_page_sharpness * regions)});
     }
     return wanted;
 }
 
 // Raises the densities of triangles to the wanted ones, as far as the page has room.
-void use_room(std::span<const double> wanted, double page_texels, std::span<PageTriangle> triangles) {
+void use_room(std::span<const WantedDensities> wanted, double WantedDensities::*which, double page_texels,
+              std::span<PageTriangle> triangles) {
+    const auto gain = [&](std::size_t i) {
+        const double own = triangles[i].density, density = wanted[i].*which;
+        return std::max(0.0, density * density - own * own);
+    };
     double used = 0, more = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const double area = area_vector(triangles[i]).norm() / 2, own = triangles[i].density;
         if (!std::isfinite(area)) continue;
         used += area * own * own;
-        more += area * (wanted[i] * wanted[i] - own * own);
+        more += area * gain(i);
     }
     const double share = std::min(1.0, (page_texels - used) / more);
     if (!(share > 0)) return;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         double& density = triangles[i].density;
-        density = std::sqrt(density * density + share * (wanted[i] * wanted[i] - density * density));
+        density = std::sqrt(density * density + share * gain(i));
     }
 }
 
@@ -194,18 +209,20 @@ PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> f
         }
     });
     connect_triangles(parts, page);
-    std::vector<double> wanted;
+    std::vector<WantedDensities> wanted;
     for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
         const Index part = page.faces[begin].part;
         while (end < count && page.faces[end].part == part) ++end;
         const auto of_part = std::span(page.triangles).subspan(begin, end - begin);
-        const std::vector<double> of_faces =
+        const std::vector<WantedDensities> of_faces =
             set_densities(std::span(densities).subspan(begin, end - begin), of_part);
         wanted.insert(wanted.end(), of_faces.begin(), of_faces.end());
         set_order(parts[part], of_part, std::span(page.order).subspan(begin, end - begin));
     }
-    const double side = bake.texture_size;
-    use_room(wanted, usual_page_fill * side * side, page.triangles);
+    const double side = bake.texture_size, room = usual_page_fill * side * side;
+    use_room(wanted, &WantedDensities::usual, room, page.triangles);
+    if (!bake.texel_density)
+        use_room(wanted, &WantedDensities::small, std::min(room, small_page_texels), page.triangles);
     const double factor = bake.texel_density ? *bake.texel_density : small_page_factor(page.triangles);
     for (PageTriangle& t : page.triangles) t.density *= factor;
     return page;

@@ -37,10 +37,11 @@ struct PageMesh {
 
 /// Makes the mesh of a page. Texel densities are those of the source, between a quarter and four times the median of
 /// the part. As far as the page has room, they are up to four times the median of the material, and those that
-/// SourceSampler::region_density() says. Small pages have up to twice as many texels.
+/// SourceSampler::region_density() says. Small pages have up to twice as many texels, and show such regions with up to four
+/// times their densities.
 /// \param parts    the parts, with maps and normals
 /// \param faces    the faces of the page; those of one part must be consecutive
-/// \param bake     its texel_density is a factor of the texel densities, instead of that for small pages
+/// \param bake     its texel_density is a factor of the texel densities, instead of those for small pages
 /// Complexity: O(n log n).
 PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> faces,
                         const SourceSampler& sampler, const BakeOptions& bake, const RunContext& context);
