@@ -6,6 +6,7 @@
 #include "bake/source/facets.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/engine/mesh/vector.hpp"
+#include "scene/material_groups.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
@@ -104,6 +105,11 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
     const Facets facets = part.normals.clusters.empty() ? color_facets(*part.source) : Facets{};
     std::vector<Index> sets = part.normals.clusters;
     sets.resize(raw.size(), no_index);
+    // The alpha of vertex colours where no material says what it means, as in PLY files; it does not weight colours.
+    std::vector<float> plain_alpha(raw.size(), 1);
+    const std::vector<Vec4f>& colors = part.source->colors;
+    const bool has_alpha =
+        std::any_of(colors.begin(), colors.end(), [](const Vec4f& c) { return c[3] != 1; });
     parallel_blocks(mesh.triangles.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
             const Index face = static_cast<Index>(c / 3);
@@ -114,6 +120,12 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
             if (!facets.of_face.empty()) {
                 const Index facet = facets.of_face[point.face];
                 if (2 * facets.areas[facet] >= face_area(mesh, face)) sets[c] = facet;
+            }
+            if (has_alpha && face_material(*part.source, point.face) == no_index) {
+                const Triangle& t = part.source->triangles[point.face];
+                plain_alpha[c] = 0;
+                for (std::size_t i = 0; i < 3; ++i)
+                    plain_alpha[c] += static_cast<float>(point.barycentric[i]) * colors[t[i]][3];
             }
             if (raw[c][3] > 0) continue;
             const Vec3f stored = sampler.stored_base_color(part.index, point);
@@ -133,10 +145,14 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
         });
         for (std::size_t i = 0, end; i < corners.size(); i = end) {
             ColorSum sum;
+            float alpha = 0;
             for (end = i; end < corners.size() && key(corners[end]) == key(corners[i]); ++end) {
                 sum.add(raw[corners[end]]);
+                alpha += plain_alpha[corners[end]];
             }
-            for (std::size_t j = i; j < end; ++j) result[corners[j]] = sum.straight();
+            Vec4f color = sum.straight();
+            color[3] *= std::clamp(alpha / sum.count, 0.0f, 1.0f);
+            for (std::size_t j = i; j < end; ++j) result[corners[j]] = color;
         }
     }
     return result;

@@ -169,6 +169,22 @@ TEST_CASE("vertex colours of the source are preserved") {
     CHECK(simplified.asset.images.empty());
 }
 
+TEST_CASE("the alpha of vertex colours without a material is kept and does not weight colours") {
+    Asset asset = pipe(10);
+    Part& part = asset.parts[0];
+    part.face_material.clear();
+    for (std::size_t v = 0; v < part.positions.size(); ++v)
+        part.colors.push_back({v / 22.0f, 0.5f, 0, v < 2 ? 0 : v / 22.0f});
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), of_kind(Bake::vertex));
+    const Part& out = simplified.asset.parts[0];
+    REQUIRE(out.colors.size() == out.positions.size());
+    for (std::size_t f = 0; f < part.triangles.size(); ++f)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Vec4f &got = out.colors[out.triangles[f][c]], &expected = part.colors[part.triangles[f][c]];
+            for (std::size_t k = 0; k < 4; ++k) CHECK(got[k] == Approx(expected[k]).margin(2e-3));
+        }
+}
+
 TEST_CASE("vertex colours include texture, factor and alpha and are split between materials") {
     Asset asset = textured_square(paint(8, 8, [](std::uint32_t, std::uint32_t) {
         return Rgba{255, 188, 0, 255};
