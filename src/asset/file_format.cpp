@@ -11,6 +11,7 @@
 #include "asset/formats/stl.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/write/levels.hpp"
+#include "asset/image/image.hpp"
 #include "asset/io/file_names.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
@@ -93,21 +94,6 @@ const std::array<FileFormat, 7> formats = {{
     {.extension = ".off", .has_signature = is_off, .read = read_off, .min_bytes_per_face = 28},
 }};
 
-/// Beginnings of files that are no models, but are found under the names of models.
-constexpr std::array<std::pair<std::string_view, const char*>, 11> foreign_kinds = {{
-    {"<!DOCTYPE", "an HTML page"},
-    {"<!doctype", "an HTML page"},
-    {"<html", "an HTML page"},
-    {"<HTML", "an HTML page"},
-    {"<?xml", "an XML file"},
-    {"version https://git-lfs.github.com", "a Git LFS pointer; 'git lfs pull' fetches the file itself"},
-    {"PK\3\4", "a ZIP archive; unpack it first"},
-    {"\x1f\x8b", "a gzip archive; unpack it first"},
-    {"\x89PNG\r\n", "a PNG image"},
-    {"\xff\xd8\xff", "a JPEG image"},
-    {"%PDF-", "a PDF document"},
-}};
-
 /// How to get a file that is read of one that is not, by its extension.
 constexpr std::array<std::pair<std::string_view, const char*>, 5> convertible_formats = {{
     {".blend", "open it in Blender and export glTF 2.0 (.glb)"},
@@ -151,16 +137,15 @@ void check_beginning(const fs::path& file) {
     if (fs::file_size(file, error) == 0 && !error) throw InputError(file.string(), "", "is empty");
     const bool has_mark = beginning.head.starts_with("\xef\xbb\xbf");
     const std::string_view text = has_mark ? beginning.head.substr(3) : beginning.text;
-    const auto kind = std::find_if(foreign_kinds.begin(), foreign_kinds.end(),
-                                   [&](const auto& k) { return text.starts_with(k.first); });
+    const char* const kind = foreign_kind(text);
     const FileFormat* format = format_of_file(file);
     for (const auto& [extension, how] : convertible_formats)
         if (!format && lower_case_extension(file) == extension &&
             !text.starts_with("version https://git-lfs"))
             throw UnsupportedError(file.string(), "", "is not read: " + std::string(how));
     std::string begins;
-    if (kind != foreign_kinds.end())
-        begins = std::string("like ") + kind->second;
+    if (kind)
+        begins = std::string("like ") + kind;
     else if (format && format->is_gltf && !text.starts_with('{') && !text.starts_with("glTF"))
         begins = "with " + TextScanner::quoted(text.substr(0, text.find_first_of("\r\n")));
     if (begins.empty()) return;

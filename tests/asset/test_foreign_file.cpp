@@ -23,6 +23,7 @@ TEST_CASE("files of another kind are named under any name") {
     for (const auto& [content, kind] : {
              std::pair(std::string("\r\n <!doctype HTML><title>404</title>"), std::string("an HTML page")),
              {"\xef\xbb\xbf<html lang=en>", "an HTML page"},
+             {"<!Doctype Html><TITLE>404</TITLE>", "an HTML page"},
              {"<?xml version='1.0'?><Error/>", "an XML file"},
              {"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n", "a Git LFS pointer"},
              {"PK\3\4 and more", "a ZIP archive"},

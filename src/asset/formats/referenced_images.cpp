@@ -26,6 +26,8 @@ ReferencedImage* ReferencedImages::read(const std::string& owner, const std::str
         image.uri = found.name;
         image.name = found.file.stem().string();
         image.encoded = read_file(found.file);
+        const std::string reason = no_image_reason(image.encoded);
+        if (!reason.empty()) throw InputError(found.name, "", reason);
         image.mime_type = sniff_mime_type(image.encoded);
         if (image.mime_type.empty() && lower_case_extension(found.file) == ".tga")
             image.mime_type = tga_media_type;

@@ -1,8 +1,10 @@
 #include "asset/image/image.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "asset/image/image_checks.hpp"
 #include "asset/image/image_plugin.hpp"
@@ -36,6 +38,19 @@ constexpr std::array<FileSignature, 10> file_signatures = {
      {{"MM\0*", 4}, 0, "image/tiff", ".tif"},
      {{"BM", 2}, 0, "image/bmp", ".bmp"}}};
 
+/// Beginnings of files that are found under the names of models and images, in lower case, and what they are.
+constexpr std::array<std::pair<std::string_view, const char*>, 9> foreign_kinds = {{
+    {"<!doctype", "an HTML page"},
+    {"<html", "an HTML page"},
+    {"<?xml", "an XML file"},
+    {"version https://git-lfs.github.com", "a Git LFS pointer; 'git lfs pull' fetches the file itself"},
+    {"pk\3\4", "a ZIP archive; unpack it first"},
+    {"\x1f\x8b", "a gzip archive; unpack it first"},
+    {"\x89png\r\n", "a PNG image"},
+    {"\xff\xd8\xff", "a JPEG image"},
+    {"%pdf-", "a PDF document"},
+}};
+
 /// OpenImageIO's name of the format of an image that the plugin decodes; empty for others.
 std::string plugin_format(const Image& image) {
     const std::string type = media_type(image);
@@ -62,6 +77,23 @@ std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
             text.substr(kind.magic_offset, kind.magic.size()) == kind.magic)
             return kind.mime_type;
     return "";
+}
+
+const char* foreign_kind(std::string_view text) {
+    std::string begin(text.substr(0, 64));
+    for (char& c : begin)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const auto kind = std::find_if(foreign_kinds.begin(), foreign_kinds.end(),
+                                   [&](const auto& k) { return begin.starts_with(k.first); });
+    return kind == foreign_kinds.end() ? nullptr : kind->second;
+}
+
+std::string no_image_reason(std::span<const std::uint8_t> bytes) {
+    if (bytes.empty()) return "is empty";
+    if (!sniff_mime_type(bytes).empty()) return "";
+    if (bytes.size() < 16) return "is no image: it has fewer than 16 bytes";
+    const char* const kind = foreign_kind({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return kind ? std::string("is no image: it begins like ") + kind : "";
 }
 
 std::string media_type(const Image& image) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "faqem/asset.hpp"
 
@@ -13,6 +14,13 @@ namespace faqem::detail {
 /// Detects the media type from the magic bytes: image/png, image/jpeg, image/webp, image/ktx2, image/avif,
 /// image/vnd-ms.dds, image/gif, image/bmp or image/tiff; empty if the format is unknown.
 std::string sniff_mime_type(std::span<const std::uint8_t> bytes);
+
+/// What a file is that begins with the text, for example "an HTML page"; null if it may be a model or another image.
+const char* foreign_kind(std::string_view text);
+
+/// Why the bytes are no image of any kind, for example "is no image: it begins like an HTML page"; empty if they may
+/// be one, perhaps damaged.
+std::string no_image_reason(std::span<const std::uint8_t> bytes);
 
 /// Media type of TGA, which has no magic bytes: Image::mime_type says what it is.
 inline constexpr const char* tga_media_type = "image/x-tga";

@@ -107,6 +107,19 @@ TEST_CASE("a mask that cannot be used is left out with a warning", "[mtl]") {
     }
 }
 
+TEST_CASE("a texture that is no image is left out with a warning", "[mtl]") {
+    const Model model;
+    put(model.folder / "page.png", "<html><body>Not found</body></html>");
+    put(model.folder / "empty.png", "");
+    put(model.folder / "one.png", "x");
+    for (const std::string name : {"page.png", "empty.png", "one.png"}) {
+        const Asset asset = model.read("map_Kd " + name + "\n");
+        REQUIRE(asset.warnings.size() == 1);
+        CHECK(contains(asset.warnings[0], "texture left out: " + name + ": is "));
+        CHECK(!asset.materials.at(0).base_color_texture);
+    }
+}
+
 TEST_CASE("bump is a normal map if its pixels are directions", "[mtl]") {
     const Model model;
     const std::string key = GENERATE("map_Bump", "map_bump", "bump", "norm");

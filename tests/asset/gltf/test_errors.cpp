@@ -350,6 +350,26 @@ TEST_CASE("an image in a data URI that cannot be read is left out with a warning
     }
 }
 
+TEST_CASE("an embedded image that is none is left out with a warning that names it") {
+    const std::pair<std::string, const char*> contents[] = {
+        {"x", "/images/0 ('sky'): is no image: it has fewer than 16 bytes"},
+        {"<!DOCTYPE html><p>404</p>", "/images/0 ('sky'): is no image: it begins like an HTML page"},
+        {"version https://git-lfs.github.com/spec/v1", "it begins like a Git LFS pointer"}};
+    for (const auto& [bytes, message] : contents) {
+        GltfBuilder builder = square_gltf();
+        const auto view = builder.view(std::vector<char>(bytes.begin(), bytes.end()));
+        builder.add("images", {{"bufferView", view}, {"mimeType", "image/png"}, {"name", "sky"}});
+        builder.json["textures"] = Json::parse(R"([{"source":0}])");
+        builder.json["materials"] = Json::parse(R"([{"emissiveTexture":{"index":0}}])");
+        const Asset asset = load_glb(builder);
+        REQUIRE(asset.warnings.size() == 1);
+        CHECK(contains(asset.warnings[0], message));
+        CHECK(contains(asset.warnings[0], "; the textures that use it were left out"));
+        CHECK(!asset.materials.at(0).emissive_texture);
+        CHECK(asset.images.empty());
+    }
+}
+
 TEST_CASE("files in the current directory are not used for missing files of the asset") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "inside");

@@ -95,14 +95,25 @@ std::vector<std::uint8_t> load_buffer(FileContext& context, std::uint64_t index)
     return bytes;
 }
 
-/// Reads an image file or data URI; empty if it cannot be read.
-std::vector<std::uint8_t> load_image(FileContext& context, std::uint64_t index) {
-    const std::string where = child_path("/images", index);
+/// Reads an image from a file, a data URI or a buffer view; empty, with a warning, if there is none.
+std::vector<std::uint8_t> load_image(FileContext& context, const SourceDocument& source,
+                                     std::uint64_t index) {
+    const Json& from = context.document["images"][index];
+    const std::string where = child_path("/images", index), name = string_member(from, "name");
     try {
-        std::vector<std::uint8_t> bytes =
-            read_uri(context, string_member(context.document["images"][index], "uri"),
-                     child_path(where, "uri"), max_image_bytes);
-        if (bytes.empty()) throw ReadError("", where, "is empty");
+        std::vector<std::uint8_t> bytes;
+        if (const Index view = index_member(from, "bufferView"); view == no_index) {
+            bytes = read_uri(context, string_member(from, "uri"), child_path(where, "uri"), max_image_bytes);
+        } else {
+            const Json& range = context.document["bufferViews"][view];
+            const std::uint8_t* const first = source.buffers[index_member(range, "buffer")].data() +
+                                              unsigned_member(range, "byteOffset", 0);
+            bytes.assign(first, first + unsigned_member(range, "byteLength", 0));
+        }
+        const std::string reason = no_image_reason(bytes);
+        if (!reason.empty())
+            throw ReadError("", name.empty() ? where : where + " (" + TextScanner::quoted(name) + ")",
+                            reason);
         return bytes;
     } catch (const InputError& error) {
         context.warnings.push_back(std::string(error.what()) + "; the textures that use it were left out");
@@ -121,14 +132,7 @@ void load_resources(FileContext context, SourceDocument& source) {
         Image& image = source.images.emplace_back();
         image.name = string_member(from, "name");
         image.uri = string_member(from, "uri");
-        if (view == no_index) {
-            image.encoded = load_image(context, i);
-        } else {
-            const Json& range = document["bufferViews"][view];
-            const std::uint8_t* const first = source.buffers[index_member(range, "buffer")].data() +
-                                              unsigned_member(range, "byteOffset", 0);
-            image.encoded.assign(first, first + unsigned_member(range, "byteLength", 0));
-        }
+        image.encoded = load_image(context, source, i);
         if (is_data_uri(image.uri)) image.uri.clear();
         image.mime_type = sniff_mime_type(image.encoded);
         if (image.mime_type.empty() && view != no_index) image.mime_type = string_member(from, "mimeType");
