@@ -6,17 +6,10 @@
 #include <cstddef>
 
 #include "asset/scene/value_numbers.hpp"
+#include "asset/scene/vectors.hpp"
 
 namespace faqem::detail {
 namespace {
-
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 void add_scaled(Vec3& to, double factor, const Vec3& v) {
     for (std::size_t k = 0; k < 3; ++k) to[k] += factor * v[k];

@@ -13,7 +13,7 @@
 #include "asset/scene/affine.hpp"
 #include "asset/scene/coordinate_precision.hpp"
 #include "asset/scene/flatten.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "asset/scene/vectors.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -90,17 +90,15 @@ private:
     static constexpr double least_area = 1e-10;  // twice that of a face, per square of its longest edge
 
     // Twice the area, as a vector; 0 if doubles do not tell it from 0.
-    static engine::Vector3 area(const std::vector<Vec3>& positions, const Triangle& t) {
-        const engine::Vector3 a = engine::to_eigen(positions[t[0]]), b = engine::to_eigen(positions[t[1]]),
-                              c = engine::to_eigen(positions[t[2]]);
-        const engine::Vector3 result = engine::area_vector(a, b, c);
-        const double longest =
-            std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-        return result.norm() > least_area * longest ? result : engine::Vector3::Zero();
+    static Vec3 area(const std::vector<Vec3>& positions, const Triangle& t) {
+        const Vec3 &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
+        const Vec3 ab = minus(b, a), bc = minus(c, b), ca = minus(a, c), result = cross(ab, minus(c, a));
+        const double longest = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
+        return std::sqrt(dot(result, result)) > least_area * longest ? result : Vec3{0, 0, 0};
     }
 
     bool keeps_area(const Triangle& t) const {
-        return !area(rounded_, t).isZero(0) || area(before_, t).isZero(0);
+        return area(rounded_, t) != Vec3{0, 0, 0} || area(before_, t) == Vec3{0, 0, 0};
     }
 
     bool repair(const Triangle& t) {
@@ -109,7 +107,7 @@ private:
                 const double own = x;
                 for (const int steps : {1, -1}) {
                     x = rounding_(own, steps);
-                    if (area(rounded_, t).dot(area(before_, t)) > 0 && keeps_areas_at(v)) return true;
+                    if (dot(area(rounded_, t), area(before_, t)) > 0 && keeps_areas_at(v)) return true;
                 }
                 x = own;
             }
