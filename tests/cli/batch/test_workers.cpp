@@ -28,14 +28,14 @@ public:
 };
 
 /// Writes a.ply to e.ply and bad.ply in the folder `in`; bad.ply is the largest, so that it is begun first.
-void make_models(const Folder& folder) {
+void make_models_with_bad(const Folder& folder) {
     fs::create_directory(folder / "in");
     for (const char* name : {"a", "b", "c", "d", "e"})
         faqem::save(sheet(6), folder / "in" / (std::string(name) + ".ply"));
     faqem::save(sheet(8), folder / "in/bad.ply");
 }
 
-std::map<std::string, Json> lines_of(const Outcome& outcome) {
+std::map<std::string, Json> lines_by_path(const Outcome& outcome) {
     std::map<std::string, Json> lines;
     std::istringstream in(outcome.out);
     for (std::string line; std::getline(in, line);) {
@@ -60,7 +60,7 @@ bool is_running(pid_t process) {
     return (status >> id >> name >> state) && state != "Z";
 }
 
-const std::string batch = "batch in out --bake none --threads 1 ";
+const std::string batch_words = "batch in out --bake none --threads 1 ";
 
 }  // namespace
 
@@ -69,7 +69,7 @@ const std::string batch = "batch in out --bake none --threads 1 ";
 
 TEST_CASE("a model whose process crashes, is killed or hangs costs only itself") {
     const Folder folder;
-    make_models(folder);
+    make_models_with_bad(folder);
     struct Case {
         const char *kind, *message;
     };
@@ -77,21 +77,21 @@ TEST_CASE("a model whose process crashes, is killed or hangs costs only itself")
                               Case{"hang", "did not end within 1 seconds"}}) {
         CAPTURE(fault.kind);
         const BadFile bad(fault.kind);
-        const Outcome outcome = run(folder, batch + "--force --end-after 1 --jobs 2");
+        const Outcome outcome = run(folder, batch_words + "--force --end-after 1 --jobs 2");
         CHECK(outcome.code == 9);
-        const auto lines = lines_of(outcome);
+        const auto lines = lines_by_path(outcome);
         REQUIRE(lines.size() == 6);
         for (const auto& [name, line] : lines)
             CHECK(line["status"] == (name == "bad.ply" ? "failed" : "done"));
         CHECK(lines.at("bad.ply")["code"] == 1);
         CHECK(lines.at("bad.ply")["message"].get<std::string>().find(fault.message) != std::string::npos);
     }
-    CHECK(run(folder, batch + "--resume").code == 0);
+    CHECK(run(folder, batch_words + "--resume").code == 0);
 }
 
 TEST_CASE("the processes of a batch that is killed end with it, in the middle of a model too") {
     const Folder folder;
-    make_models(folder);
+    make_models_with_bad(folder);
     const BadFile bad("hang");
     const pid_t process = fork();
     REQUIRE(process >= 0);
