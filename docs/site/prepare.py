@@ -79,7 +79,7 @@ def reference(tool):
     """Markdown page with the help texts of the command."""
     manual = subprocess.run([tool, "--help"], check=True, capture_output=True, text=True).stdout
     text = "# Help texts of the command {#page_help}\n\n```\n" + manual + "```\n"
-    for command in re.findall(r"^  ([a-z]+) ", manual.split("Subcommands:")[1], flags=re.M):
+    for command in re.findall(r"^  ([a-z]+) ", manual.split("Commands:")[1].split("Options:")[0], flags=re.M):
         shown = subprocess.run([tool, command, "--help"], check=True, capture_output=True, text=True).stdout
         text += f"\n## faqem {command} {{#help-{command}}}\n\n```\n{shown}```\n"
     return text

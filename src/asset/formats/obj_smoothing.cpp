@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "asset/scene/affine.hpp"
 #include "asset/scene/value_numbers.hpp"
-#include "asset/scene/vectors.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -17,7 +17,7 @@ namespace faqem::detail {
 
 /// A new, locked file `.faqem-N.tmp`, where N is a random number of 24 hexadecimal digits. It is removed on
 /// destruction unless release() was called. On file systems without locks it is not locked.
-class TemporaryFile {
+class FAQEM_EXPORT TemporaryFile {
 public:
     /// \param target  file that the temporary file will replace: it is created in the same folder
     /// \param mode    permissions, reduced by the umask

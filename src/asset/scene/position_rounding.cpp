@@ -13,7 +13,6 @@
 #include "asset/scene/affine.hpp"
 #include "asset/scene/coordinate_precision.hpp"
 #include "asset/scene/flatten.hpp"
-#include "asset/scene/vectors.hpp"
 
 namespace faqem::detail {
 namespace {

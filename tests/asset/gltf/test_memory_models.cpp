@@ -32,6 +32,6 @@ TEST_CASE("a model in memory cannot refer to files, also not to those of the cur
     CHECK(asset.warnings[0] ==
           "/images/0/uri: a model in memory cannot refer to files; the textures that use it were left "
           "out");
-    builder.json["buffers"][0]["uri"] = "data.bin";
+    builder.json["buffers"][0] = {{"uri", "data.bin"}, {"byteLength", 1000}};
     CHECK_THROWS_WITH(read(), "/buffers/0/uri: a model in memory cannot refer to files");
 }

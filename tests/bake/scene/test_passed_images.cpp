@@ -64,7 +64,7 @@ TEST_CASE("KTX2 and AVIF images are passed through, with their extensions") {
 }
 
 TEST_CASE("an image that is passed through keeps its type beside one of another type with the same bytes") {
-    GltfBuilder builder = passed_square("raw bytes", "EXT_texture_avif", "image/avif");
+    GltfBuilder builder = passed_square("bytes of no known kind", "EXT_texture_avif", "image/avif");
     Json other = builder.json["images"][0];
     other["mimeType"] = "image/other";
     builder.json["images"] = {other, builder.json["images"][0]};

@@ -218,11 +218,12 @@ TEST_CASE("vertex weights: a weight out of range is an error that names the vert
         const std::vector<float> weights = {1, 1e-6f, bad, 1e6f};
         MeshView view = mesh.view();
         view.vertex_weights = weights;
-        CHECK_THROWS_WITH(simplify(view), "vertex 2: weight is not in [1e-6, 1e6]");
+        CHECK_THROWS_WITH(simplify(view), Catch::StartsWith("vertex 2: weight ") &&
+                                              Catch::EndsWith(" is not in [1e-6, 1e6]"));
         CHECK_THROWS_AS(simplify(view), InputError);
     }
     const std::vector<float> few = {1, 1, 1};
     MeshView view = mesh.view();
     view.vertex_weights = few;
-    CHECK_THROWS_WITH(simplify(view), "vertex_weights: needs one entry per vertex or none");
+    CHECK_THROWS_WITH(simplify(view), "vertex_weights: needs one entry per vertex or none, but has 3 for 4");
 }

@@ -60,8 +60,8 @@ FAQEM_INLINE std::string command_spelling(const OptionRow& row) {
 
 /// Options of the command that stand for no member of Options.
 inline constexpr std::string_view command_options[] = {
-    "config",  "correspondence", "force",  "max-memory",    "output",
-    "profile", "quiet",          "report", "strict-target", "strict"};
+    "config", "correspondence", "force", "help",   "help-all",      "max-memory",
+    "output", "profile",        "quiet", "report", "strict-target", "strict"};
 
 FAQEM_INLINE const OptionRow& named_option(std::string_view name, OptionTable table) {
     std::vector<std::string> known;

@@ -84,7 +84,10 @@ private:
         if (mesh_.vertex_weights.empty()) prepared_.release_welded();
         if (settings_.fit_vertices) state_.keep_initial_surface();
         if (settings_.quadric_policy == Settings::QuadricPolicy::tracked) state_.track_original();
-        if (settings_.quadric_policy != Settings::QuadricPolicy::memory) state_.find_planar_borders();
+        // Virtual edges are to join borders, which the borders' own rule would not.
+        if (settings_.quadric_policy != Settings::QuadricPolicy::memory &&
+            options_.topology.virtual_edges != VirtualEdges::on)
+            state_.find_planar_borders();
         untimed_.check_now();
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length(),
