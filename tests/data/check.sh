@@ -15,7 +15,7 @@ for file in "$work"/*; do
     if ! cmp -s "$data/$name" "$file"; then
         echo "$name has other bytes"
         [ "$(description "$data/$name")" = "$(description "$file")" ]
-        "$faqem" compare "$data/$name" "$file" | tr -d ' \n' | grep -qF '"colors":{"rmse":0.0,'
+        "$faqem" compare "$data/$name" "$file" --json | tr -d ' \n' | grep -qF '"colors":{"rmse":0.0,'
     fi
     case $file in *.mtl) continue ;; esac
     "$faqem" simplify "$data/$(basename "$file")" "$work/simplified-$(basename "${file%.*}").glb" --ratio 0.5 --quiet

@@ -78,9 +78,13 @@ class Textures(unittest.TestCase):
         (image,) = faqem.load(self.folder / "grid.obj").images
         with self.assertRaisesRegex(faqem.InputError, "colours.png"):
             image.pixels()
-        file.write_bytes(b"no image")
+        file.write_bytes(b"bytes that are no image of a known kind")
         with self.assertRaisesRegex(faqem.UnsupportedError, "colours.png"):
             faqem.load(self.folder / "grid.obj").images[0].pixels()
+        file.write_bytes(b"no image")
+        model = faqem.load(self.folder / "grid.obj")
+        self.assertEqual(len(model.images), 0)
+        self.assertTrue(any("colours.png" in warning for warning in model.warnings))
 
     def test_arrays_are_not_copied_and_outlive_the_model(self):
         model = self.textured(self.pixels)
