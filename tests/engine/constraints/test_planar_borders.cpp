@@ -37,33 +37,33 @@ TEST_CASE("the sides of a rough tile are four planes that meet in its corners") 
         const double c = std::cos(angle), s = std::sin(angle);
         return Vec3{c * p[0] - s * p[1], s * p[0] + c * p[1], rough(p[0], p[1])};
     };
-    const TriangleMesh mesh = moved(test::grid(6), turned);
+    const TriangleMesh mesh = moved(test::grid(16), turned);
     const PlanarBorders borders = borders_of(mesh);
     CHECK(borders.flats.size() == 4);
     CHECK(count_of(borders, PlanarBorders::corner) == 4);
-    for (const Index v : {0, 6, 42, 48}) CHECK(borders.at[v] == PlanarBorders::corner);
-    CHECK(count_of(borders, no_index) == 5 * 5);
-    for (Index v = 1; v < 6; ++v) {
+    for (const Index v : {0, 16, 272, 288}) CHECK(borders.at[v] == PlanarBorders::corner);
+    CHECK(count_of(borders, no_index) == 15 * 15);
+    for (Index v = 1; v < 16; ++v) {
         CHECK(borders.at[v] == borders.at[1]);
-        CHECK(borders.at[7 * v] == borders.at[7]);
+        CHECK(borders.at[17 * v] == borders.at[17]);
     }
-    const Vector3 normal(-std::sin(angle), std::cos(angle), 0);  // of the side through vertices 0 and 6
+    const Vector3 normal(-std::sin(angle), std::cos(angle), 0);  // of the side through vertices 0 and 16
     CHECK((borders.flats[borders.at[1]].along * normal).norm() < 1e-12);
     CHECK((borders.flats[borders.at[1]].along * Vector3(0, 0, 1) - Vector3(0, 0, 1)).norm() < 1e-12);
 }
 
 TEST_CASE("a side that is partly straight is a plane, and its straight part a line") {
-    // The half x <= 6 of the side y = 0 has the height 0, but the surface beside it has not.
-    const TriangleMesh mesh = moved(test::grid(12), [](const Vec3& p) {
-        return Vec3{p[0], p[1], p[1] == 0 && p[0] <= 6 ? 0 : 1 + rough(p[0], p[1])};
+    // The half x <= 16 of the side y = 0 has the height 0, but the surface beside it has not.
+    const TriangleMesh mesh = moved(test::grid(32), [](const Vec3& p) {
+        return Vec3{p[0], p[1], p[1] == 0 && p[0] <= 16 ? 0 : 1 + rough(p[0], p[1])};
     });
     const PlanarBorders borders = borders_of(mesh);
     CHECK(borders.flats.size() == 5);
     CHECK(count_of(borders, PlanarBorders::corner) == 5);
-    CHECK(borders.at[6] == PlanarBorders::corner);
+    CHECK(borders.at[16] == PlanarBorders::corner);
     const Eigen::Matrix3d& line = borders.flats[borders.at[3]].along;
     CHECK((line * Vector3(1, 1, 1) - Vector3(1, 0, 0)).norm() < 1e-12);
-    const Eigen::Matrix3d& plane = borders.flats[borders.at[9]].along;
+    const Eigen::Matrix3d& plane = borders.flats[borders.at[20]].along;
     CHECK((plane * Vector3(1, 1, 1) - Vector3(1, 0, 1)).norm() < 1e-12);
 }
 
@@ -77,6 +77,12 @@ TEST_CASE("the rims of an open tube are planes without corners") {
 TEST_CASE("a flat surface needs no planes for its border") {
     CHECK(borders_of(test::grid(6)).at.empty());
     CHECK(borders_of(test::fan(16)).at.empty());
+}
+
+TEST_CASE("parts of fewer than 16 edges, as of small modelled pieces, have no planes") {
+    const auto piece = [](const Vec3& p) { return Vec3{p[0], p[1], rough(p[0], p[1])}; };
+    CHECK(borders_of(moved(test::grid(15), piece)).at.empty());
+    CHECK(borders_of(moved(test::grid(16), piece)).flats.size() == 4);
 }
 
 TEST_CASE("closed surfaces and ragged borders have no planes") {

@@ -82,6 +82,8 @@ private:
         bool is_line;
     };
 
+    static constexpr std::size_t least_edges = 16;
+
     /// A part of a path that starts at `begin`.
     struct Growth {
         std::size_t end;  ///< last vertex
@@ -150,13 +152,13 @@ private:
         }
     }
 
-    // Three edges are the least that can be in a plane, or on a line, by more than chance. Short parts of a ragged
-    // border, as along the cells of a grid, do not count.
+    // Parts of few edges do not count: small modelled pieces have many, and their few faces are better spent elsewhere;
+    // nor do short parts of a ragged border, as along the cells of a grid.
     void add(const std::vector<Index>& path, std::size_t begin, const Growth& part, double all,
              bool is_line) {
         double length = 0;
         for (std::size_t i = begin; i < part.end; ++i) length += (at(path, i + 1) - at(path, i)).norm();
-        if (part.end - begin < 3 || !(length >= least_share * all)) return;
+        if (part.end - begin < least_edges || !(length >= least_share * all)) return;
         const auto first = path.begin() + static_cast<std::ptrdiff_t>(begin);
         chains_.push_back(
             {{first, first + static_cast<std::ptrdiff_t>(part.end - begin + 1)}, part.axis, is_line});
