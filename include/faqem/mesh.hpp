@@ -111,8 +111,8 @@ public:
         : PositionView(detail::first_number(p), detail::triple_count(p, "positions"),
                        3 * sizeof *detail::first_number(p)) {}
 
-    /// Any layout in which no two numbers overlap. For an array of structs Vertex the stride is sizeof(Vertex). For a column-major matrix
-    /// with one row per vertex the stride is sizeof(double), and the step sizeof(double) * rows.
+    /// Any layout in which no two numbers overlap. For an array of structs Vertex the stride is sizeof(Vertex). For a
+    /// column-major matrix with one row per vertex the stride is sizeof(double), and the step sizeof(double) * rows.
     /// \param first   x of the first vertex; need not be aligned
     /// \param count   number of vertices
     /// \param stride  bytes from one vertex to the next

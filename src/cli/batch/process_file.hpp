@@ -37,8 +37,8 @@ struct BatchAttempt {
 /// Simplifies one model as `faqem simplify` does. With BatchContext::resume, up-to-date results are skipped, and results
 /// that the record lists and that were not changed since may be overwritten. Limits the memory of the process to what
 /// is granted.
-/// \return the members of the line that is printed for the model, without its names: see docs/reference.md. If the memory that
-/// was granted is exhausted, and there is more, the member `retry`, and `overwrite` for the next attempt
+/// \return the members of the line that is printed for the model, without its names: see docs/reference.md. If the
+/// memory that was granted is exhausted, and there is more, the member `retry`, and `overwrite` for the next attempt
 Json process_batch_file(const BatchFile& file, const BatchContext& work, const BatchAttempt& attempt);
 
 /// Returns the members of the line of a model without a result.

@@ -93,7 +93,11 @@ int run(const BatchArguments& arguments) {
         });
     bar.hide();
     std::cerr << "faqem: " << detail::pluralized(files.size(), "model") << ":";
-    for (const auto& [status, count] : counts) std::cerr << " " << count << " " << status;
+    const char* separator = " ";
+    for (const auto& [status, count] : counts) {
+        std::cerr << separator << count << " " << status;
+        separator = ", ";
+    }
     if (others > 0) std::cerr << "; " << detail::pluralized(others, "other file") << " passed over";
     std::cerr << "\n";
     return code;

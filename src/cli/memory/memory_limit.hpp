@@ -24,8 +24,8 @@ inline constexpr std::uint64_t min_process_memory = 500'000'000;
 /// Limits the writable private memory of the process (RLIMIT_DATA), so that an allocation above the limit
 /// fails with std::bad_alloc. A sixteenth is left for program code, which is not writable. Memory that is
 /// mapped but not in use, and the stacks of threads, are added to the limit, because they need no physical
-/// memory. A lower limit that the process had before the first call is kept. If memory is exhausted where no exception can be thrown, the
-/// process ends with exit_no_memory.
+/// memory. A lower limit that the process had before the first call is kept. If memory is exhausted where no exception
+/// can be thrown, the process ends with exit_no_memory.
 /// \param bytes    memory that the process may use; less than min_process_memory counts as that
 /// \param threads  number of threads that will be started
 void limit_process_memory(std::uint64_t bytes, std::uint64_t threads);

@@ -21,8 +21,8 @@ constexpr const char* schema_key = "$schema";  // used by editors, ignored by fa
 constexpr int profile_version = 1;
 constexpr std::uint64_t max_file_size = 1'000'000;
 
-/// Returns the value of an option with a long name on the command line; empty if the option is the last word; nothing if it is
-/// not given.
+/// Returns the value of an option with a long name on the command line; empty if the option is the last word;
+/// nothing if it is not given.
 std::optional<std::string> value_of(const std::string& option, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
         if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);

@@ -26,8 +26,8 @@ FAQEM_EXPORT std::string name_spelling(const OptionRow& row);
 /// Name in the command, for example `--texel-density`.
 FAQEM_EXPORT std::string command_spelling(const OptionRow& row);
 
-/// Returns the option with a name of C. \throws OptionError  there is none; the message suggests one, or says what stands for an option
-/// of the command
+/// Returns the option with a name of C. \throws OptionError  there is none; the message suggests one,
+/// or says what stands for an option of the command
 FAQEM_EXPORT const OptionRow& named_option(std::string_view name, OptionTable table = option_table());
 
 /// The words of a choice.

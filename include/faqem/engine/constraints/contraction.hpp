@@ -67,8 +67,8 @@ public:
         if (!closed_.empty()) closed_[survivor] |= closed_[removed];
     }
 
-    /// Finds the set for the pair (u, v), if it belongs to a surface that stays closed. Two faces with the same corners would leave a flap without volume: they are
-    /// removed with a vertex that has no other faces.
+    /// Finds the set for the pair (u, v), if it belongs to a surface that stays closed. Two faces with the same
+    /// corners, a flap without volume, are removed with a vertex that has no other faces.
     /// \return whether the set has more vertices: the pair must not be collapsed alone
     bool find(const CollapseMesh& mesh, Index u, Index v) {
         if (!is_closed(u, v)) return false;
