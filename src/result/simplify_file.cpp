@@ -52,7 +52,7 @@ void explain_images(const Report& report, const Options& options, LittleSaved& s
 
 void explain_geometry(const SimplifiedAsset& result, bool is_gltf, LittleSaved& saved) {
     const Report& report = result.report;
-    if (is_most(report.faces_out, report.faces_in)) {
+    if (is_most(report.faces_out, report.faces_in) && report.bytes_out <= report.bytes_in) {
         const bool is_reached = report.stop == StopReason::reached_target;
         saved.reason = is_reached ? "so many faces were asked for"
                                   : "most faces are left: " + std::string(name(report.stop));

@@ -1,5 +1,6 @@
 // Options::format, and simplify() of files: the library and the command give the same bytes.
 
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -154,6 +155,12 @@ TEST_CASE("the report says what holds the bytes of a result that is hardly small
     REQUIRE(most);
     CHECK(most->geometry > most->images);
     CHECK(has(*most, "ratio"));
+    std::ofstream(folder / "short.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n";
+    options.target = faqem::ratio(1);
+    most = saved("short.obj", "out.obj");
+    REQUIRE(most);
+    CHECK(fs::file_size(folder / "out.obj") > fs::file_size(folder / "short.obj"));
+    CHECK_FALSE(has(*most, "ratio"));
 
     faqem::Asset pictured = painted_sheet(4);
     faqem::save(pictured, folder / "image.glb");

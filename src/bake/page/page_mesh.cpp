@@ -10,6 +10,7 @@
 #include "bake/parts/corner_normals.hpp"
 #include "faqem/detail/base/morton.hpp"
 #include "faqem/engine/mesh/vector.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -228,17 +229,36 @@ PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> f
     return page;
 }
 
-double relative_density(const PageMesh& mesh, const Atlas& atlas) {
-    double own = 0, wanted = 0;
+PageDensity relative_density(std::span<const BakePart> parts, const PageMesh& mesh, const Atlas& atlas) {
+    struct Texels {
+        double own = 0, wanted = 0;
+
+        double density() const { return wanted > 0 ? std::sqrt(own / wanted) : 0; }
+    };
+    std::map<Index, Texels> by_material;
+    Texels all;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const double density = mesh.source_density[i];
-        const double texels = area_vector(mesh.triangles[i]).norm() / 2 * density * density;
-        if (!std::isfinite(texels)) continue;
+        const double wanted = area_vector(mesh.triangles[i]).norm() / 2 * density * density;
+        if (!std::isfinite(wanted)) continue;
         const Triangle2& uv = atlas.placements[i].uv;
-        own += std::abs(twice_signed_area(uv[0], uv[1], uv[2])) / 2;
-        wanted += texels;
+        const double own = std::abs(twice_signed_area(uv[0], uv[1], uv[2])) / 2;
+        const BakePart& part = parts[mesh.faces[i].part];
+        const Index source_face = part.simplified->history.remaining_faces[mesh.faces[i].face];
+        for (Texels* const to : {&all, &by_material[face_material(*part.source, source_face)]}) {
+            to->own += own;
+            to->wanted += wanted;
+        }
     }
-    return wanted > 0 ? std::sqrt(own / wanted) : 0;
+    PageDensity result{all.density(), all.density(), no_index};
+    for (const auto& [material, texels] : by_material) {
+        if (!(texels.wanted > 0)) continue;
+        if (result.material == no_index || texels.density() < result.lowest) {
+            result.lowest = texels.density();
+            result.material = material;
+        }
+    }
+    return result;
 }
 
 }  // namespace faqem::detail

@@ -46,9 +46,15 @@ struct PageMesh {
 PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> faces,
                         const SourceSampler& sampler, const BakeOptions& bake, const RunContext& context);
 
-/// Texel density of a page divided by that of the source, both root mean squares over the simplified surface.
-/// \param atlas  of the triangles
-/// Complexity: O(n).
-double relative_density(const PageMesh& mesh, const Atlas& atlas);
+/// Texel densities of a page divided by those of the source, root mean squares over the simplified surface.
+struct PageDensity {
+    double mean = 0;            ///< of the page; 0 if the source has no texels there
+    double lowest = 0;          ///< of the faces of one material of the source
+    Index material = no_index;  ///< the first one with the lowest density
+};
+
+/// Returns the texel densities of a page. \param atlas  of the triangles
+/// Complexity: O(n log m) for n triangles of m materials.
+PageDensity relative_density(std::span<const BakePart> parts, const PageMesh& mesh, const Atlas& atlas);
 
 }  // namespace faqem::detail

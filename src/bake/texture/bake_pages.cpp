@@ -154,9 +154,10 @@ PartUvs uvs_of_pages(std::span<const BakePart> parts, const std::vector<Page>& p
     return result;
 }
 
-// Pages whose texel density is a smaller fraction of the source's cause a warning. The usual reasons are a
-// tiled texture that does not fit on a page, and many textures on one page.
-constexpr double min_relative_density = 0.5;
+// Pages whose texel density is a smaller fraction of the source's cause a warning, and those on which that of a material
+// is. The usual reasons are a tiled texture that does not fit on a page, many textures on one page, and a label whose
+// texels are much smaller than those around it.
+constexpr double min_relative_density = 0.5, min_density_of_material = 0.25;
 
 void report_page(const BakeJob& job, const Page& page, Index first_material, const PageImages& images,
                  Report& report) {
@@ -164,14 +165,19 @@ void report_page(const BakeJob& job, const Page& page, Index first_material, con
     BakedPage baked = page.layout->summary;
     baked.material = material_or_default(job.source, first_material).name;
     baked.fill = static_cast<double>(images.texels) / (static_cast<double>(atlas.width) * atlas.height);
-    baked.density = relative_density(page.mesh, atlas);
+    const PageDensity density = relative_density(job.parts, page.mesh, atlas);
+    baked.density = density.mean;
     baked.samples = images.samples;
     baked.uncertain_texels = images.uncertain_texels;
-    if (baked.density > 0 && baked.density < min_relative_density * job.options.texel_density.value_or(1)) {
-        const std::string side = std::to_string(std::lround(1 / baked.density));
-        report.warnings.push_back(
-            "atlas of " + material_title(job.source, first_material) + ": one texel for " + side + " x " +
-            side + " texels of the source; texture_size is " + std::to_string(job.options.texture_size));
+    const double wanted = job.options.texel_density.value_or(1);
+    if (density.mean > 0 &&
+        (density.mean < min_relative_density * wanted || density.lowest < min_density_of_material * wanted)) {
+        const std::string side = std::to_string(std::lround(1 / density.lowest));
+        const std::string where =
+            density.material == first_material ? "" : " in " + material_title(job.source, density.material);
+        report.warnings.push_back("atlas of " + material_title(job.source, first_material) +
+                                  ": one texel for " + side + " x " + side + " texels of the source" + where +
+                                  "; texture_size is " + std::to_string(job.options.texture_size));
     }
     if (baked.faces_outside_charts > 0) {
         report.warnings.push_back("atlas: " + std::to_string(baked.faces_outside_charts) +

@@ -226,6 +226,31 @@ TEST_CASE("a page much coarser than the source causes a warning unless texel_den
     CHECK(bake(asset, unchanged(asset), options).report.warnings.empty());
 }
 
+TEST_CASE("the warning of a coarse page names the material that loses most") {
+    // The texels of the label are 17 times smaller than those around it, which fill the page.
+    Asset asset = textured_square(ramp(128));
+    asset.images.push_back(encode_png(ramp(64), "label"));
+    Material label = asset.materials[0];
+    label.name = "label";
+    label.base_color_texture.image = 1;
+    asset.materials.push_back(label);
+    Part& part = asset.parts[0];
+    part.face_material = {0, 0, 1};
+    part.triangles.push_back({4, 5, 6});
+    for (const Vec2f& uv : {Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{0, 1}}) {
+        part.positions.push_back({2 + 0.03 * uv[0], 0.03 * uv[1], 0});
+        part.uvs[0].push_back(uv);
+    }
+    if (!part.normals.empty()) part.normals.resize(part.positions.size(), part.normals[0]);
+    Options options = lossless();
+    options.bake.texture_size = 128;
+    const std::vector<std::string> warnings = bake(asset, unchanged(asset), options).report.warnings;
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], ContainsSubstring(" texels of the source in material 'label'"));
+    options.bake.texture_size = 2048;
+    CHECK(bake(asset, unchanged(asset), options).report.warnings.empty());
+}
+
 TEST_CASE("without texel_density only small pages are finer than the source") {
     const auto density = [](std::uint32_t side, std::optional<double> requested) {
         const Asset asset = textured_square(ramp(side));
