@@ -34,9 +34,11 @@ std::string string_member(const Json& object, const char* key) {
 
 Index texture_image(const Json& texture) {
     Index image = index_member(texture, "source");
+    const Json& extensions = member(texture, "extensions");
     for (const ImageExtension& extension : image_extensions)
-        if (image == no_index)
-            image = index_member(member(member(texture, "extensions"), extension.name), "source");
+        if (image == no_index) image = index_member(member(extensions, extension.name), "source");
+    for (const Json& extension : extensions)
+        if (image == no_index) image = index_member(extension, "source");
     return image;
 }
 

@@ -33,7 +33,8 @@ struct ImageExtension {
 };
 inline constexpr ImageExtension image_extensions[] = {{"EXT_texture_webp", "image/webp"},
                                                       {"KHR_texture_basisu", "image/ktx2"},
-                                                      {"EXT_texture_avif", "image/avif"}};
+                                                      {"EXT_texture_avif", "image/avif"},
+                                                      {"MSFT_texture_dds", "image/vnd-ms.dds"}};
 
 /// object[key], or null if `object` is not an object or has no such key.
 const Json& member(const Json& object, const char* key);

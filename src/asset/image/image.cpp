@@ -105,8 +105,7 @@ std::string media_type(const Image& image) {
 bool needs_plugin(const Image& image) { return !plugin_format(image).empty(); }
 
 bool is_passed_through(const Image& image) {
-    const std::string type = sniff_mime_type(image.encoded);
-    return type == "image/ktx2" || type == "image/avif";
+    return !image.encoded.empty() && !needs_plugin(image) && !can_decode_image(media_type(image));
 }
 
 bool can_decode_image(const std::string& mime_type) {

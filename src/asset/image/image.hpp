@@ -31,14 +31,11 @@ FAQEM_EXPORT std::string media_type(const Image& image);
 /// Whether decode() uses the plugin: for TGA, BMP, TIFF and GIF. glTF cannot hold such images.
 bool needs_plugin(const Image& image);
 
-/// Whether an image is KTX2 or AVIF, which glTF files have by an extension: it is not decoded, but stays as it is.
+/// Whether an image is of a kind that decode() does not know (KTX2, AVIF, DDS ...): it stays as it is.
 FAQEM_EXPORT bool is_passed_through(const Image& image);
 
 /// Whether glTF images of the media type, which is that of PNG, JPEG or WebP, are read.
 bool can_decode_image(const std::string& mime_type);
-
-/// Names of the formats of can_decode_image(), for error messages.
-inline constexpr const char* decodable_format_names = "PNG, JPEG and WebP";
 
 /// Usual file name extension of a media type, including the dot; ".bin" for unknown types.
 std::string file_extension(const std::string& mime_type);

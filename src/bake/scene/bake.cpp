@@ -263,7 +263,9 @@ UnencodedResult bake_unencoded(const Asset& given, const SimplifiedParts& simpli
         if (options.bake.kind == Bake::keep && requested.bake.kind != Bake::keep &&
             std::any_of(source.images.begin(), source.images.end(), is_passed_through))
             out.asset.report.warnings.push_back(
-                "images of KTX2 or AVIF cannot be baked: the UVs and images of the source are kept");
+                "images of KTX2, AVIF, DDS and of unknown kinds cannot be baked: the UVs and images of the "
+                "source are "
+                "kept");
         bake_parts(source, simplified, options.bake, requested.bake.kind, context, out);
     };
     return run_bake(given, simplified, requested, context, work);

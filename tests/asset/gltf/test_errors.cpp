@@ -281,30 +281,8 @@ TEST_CASE("unsupported required extensions are rejected with their name") {
                    "/extensionsRequired/0: the extension ACME_teapots is not supported"));
     for (const char* name :
          {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_variants",
-          "KHR_lights_punctual", "KHR_texture_basisu", "EXT_texture_avif"})
+          "KHR_lights_punctual", "KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"})
         CHECK(required(name) == "accepted");
-}
-
-TEST_CASE("textures whose only image is of an unknown kind, or KTX2 without its extension, are unsupported") {
-    GltfBuilder builder = square_gltf();
-    const std::string ktx = "\xabKTX 20\xbb\r\n\x1a\n";
-    const auto view = builder.view(std::vector<char>(ktx.begin(), ktx.end()));
-    builder.add("images", {{"bufferView", view}, {"mimeType", "image/ktx2"}});
-    SECTION("in an extension that is not known") {
-        builder.json["textures"] = Json::parse(R"([{"extensions":{"MSFT_texture_dds":{"source":0}}}])");
-        CHECK(contains(refusal<UnsupportedError>(builder),
-                       "/textures/0: its only image is in MSFT_texture_dds"));
-    }
-    SECTION("in an extension for another kind") {
-        builder.json["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_avif":{"source":0}}}])");
-        builder.json["materials"] = Json::parse(R"([{"emissiveTexture":{"index":0}}])");
-        CHECK(contains(refusal<UnsupportedError>(builder), "/images/0: is KTX2 (KHR_texture_basisu)"));
-    }
-    SECTION("as the source of the texture") {
-        builder.json["textures"] = Json::parse(R"([{"source":0}])");
-        builder.json["materials"] = Json::parse(R"([{"emissiveTexture":{"index":0}}])");
-        CHECK(contains(refusal<UnsupportedError>(builder), "/images/0: is KTX2 (KHR_texture_basisu)"));
-    }
 }
 
 TEST_CASE(

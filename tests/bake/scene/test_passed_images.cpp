@@ -10,11 +10,18 @@ using namespace faqem::testing;
 
 namespace {
 
-const std::string ktx2_bytes = "\xabKTX 20\xbb\r\n\x1a\n and more";
-const std::string avif_bytes = std::string("\0\0\0\x1c", 4) + "ftypavif and more";
+struct PassedKind {
+    std::string extension, media_type, bytes;
+};
+
+const PassedKind passed_kinds[] = {
+    {"KHR_texture_basisu", "image/ktx2", "\xabKTX 20\xbb\r\n\x1a\n and more"},
+    {"EXT_texture_avif", "image/avif", std::string("\0\0\0\x1c", 4) + "ftypavif and more"},
+    {"MSFT_texture_dds", "image/vnd-ms.dds", "DDS | and much more"}};
 
 /// The square with a base colour texture of an extension.
-GltfBuilder passed_square(const std::string& bytes, const char* extension, const char* media_type) {
+GltfBuilder passed_square(const PassedKind& kind) {
+    const auto& [extension, media_type, bytes] = kind;
     GltfBuilder builder = square_gltf();
     const auto uvs = builder.accessor<Vec2f>({{0, 0}, {1, 0}, {0, 1}, {1, 1}}, f32, "VEC2");
     builder.add("images", {{"bufferView", builder.view(std::vector<char>(bytes.begin(), bytes.end()))},
@@ -30,13 +37,12 @@ GltfBuilder passed_square(const std::string& bytes, const char* extension, const
 
 }  // namespace
 
-TEST_CASE("KTX2 and AVIF images are passed through, with their extensions") {
-    const bool is_ktx2 = GENERATE(true, false);
-    const char* extension = is_ktx2 ? "KHR_texture_basisu" : "EXT_texture_avif";
-    const std::string& bytes = is_ktx2 ? ktx2_bytes : avif_bytes;
-    const Asset asset = load_glb(passed_square(bytes, extension, is_ktx2 ? "image/ktx2" : "image/avif"));
+TEST_CASE("KTX2, AVIF and DDS images are passed through, with their extensions") {
+    const PassedKind& kind = passed_kinds[GENERATE(0, 1, 2)];
+    const auto& [extension, media_type, bytes] = kind;
+    const Asset asset = load_glb(passed_square(kind));
     REQUIRE(asset.images.size() == 1);
-    CHECK(asset.images[0].mime_type == (is_ktx2 ? "image/ktx2" : "image/avif"));
+    CHECK(asset.images[0].mime_type == media_type);
     const auto check = [&](const Asset& out) {
         const Json json = json_of(saved(out));
         CHECK(json["extensionsRequired"] == Json({extension}));
@@ -46,13 +52,13 @@ TEST_CASE("KTX2 and AVIF images are passed through, with their extensions") {
         CHECK(std::string(image.encoded.begin(), image.encoded.end()) == bytes);
     };
     check(asset);
-    for (const Bake kind : {Bake::automatic, Bake::atlas, Bake::vertex, Bake::keep}) {
+    for (const Bake bake : {Bake::automatic, Bake::atlas, Bake::vertex, Bake::keep}) {
         Options options{.target = ratio(0.5)};
-        options.bake.kind = kind;
+        options.bake.kind = bake;
         const SimplifiedAsset result = simplify(asset, options);
         check(result.asset);
         CHECK(result.asset.parts[0].uvs.size() == 1);
-        CHECK(any_contains(result.report.warnings, "KTX2 or AVIF") == (kind != Bake::keep));
+        CHECK(any_contains(result.report.warnings, "cannot be baked") == (bake != Bake::keep));
         options.target = {};
         const auto levels = simplify_levels(asset, {ratio(0.5)}, options);
         REQUIRE(levels.size() == 1);
@@ -64,7 +70,7 @@ TEST_CASE("KTX2 and AVIF images are passed through, with their extensions") {
 }
 
 TEST_CASE("an image that is passed through keeps its type beside one of another type with the same bytes") {
-    GltfBuilder builder = passed_square("bytes of no known kind", "EXT_texture_avif", "image/avif");
+    GltfBuilder builder = passed_square({"EXT_texture_avif", "image/avif", "bytes of no known kind"});
     Json other = builder.json["images"][0];
     other["mimeType"] = "image/other";
     builder.json["images"] = {other, builder.json["images"][0]};
@@ -74,16 +80,16 @@ TEST_CASE("an image that is passed through keeps its type beside one of another 
     CHECK(json["images"][0]["mimeType"] == "image/avif");
 }
 
-TEST_CASE("KTX2 and AVIF images as core sources are those of extensions that the file uses") {
-    const bool is_ktx2 = GENERATE(true, false);
-    const char* extension = is_ktx2 ? "KHR_texture_basisu" : "EXT_texture_avif";
-    const char* media_type = is_ktx2 ? "image/ktx2" : "image/avif";
-    GltfBuilder builder = passed_square(is_ktx2 ? ktx2_bytes : avif_bytes, extension, media_type);
+TEST_CASE("KTX2, AVIF and DDS images as core sources are those of extensions, which the file need not list") {
+    const PassedKind& kind = passed_kinds[GENERATE(0, 1, 2)];
+    const auto& [extension, media_type, bytes] = kind;
+    GltfBuilder builder = passed_square(kind);
     builder.json["textures"][0] = {{"source", 0}, {"name", "kept"}};
     builder.json.erase("extensionsRequired");
+    if (GENERATE(true, false)) builder.json.erase("extensionsUsed");
     const Asset asset = load_glb(builder);
     CHECK(asset.warnings ==
-          std::vector<std::string>{"1 texture with " + std::string(media_type) +
+          std::vector<std::string>{"1 texture with " + media_type +
                                    " as the core source: read as the source of " + extension});
     Options options{.target = ratio(0.5)};
     for (const Asset& out : {asset, simplify(asset, options).asset}) {
@@ -93,8 +99,19 @@ TEST_CASE("KTX2 and AVIF images as core sources are those of extensions that the
         CHECK(json["extensionsUsed"] == Json({extension}));
         CHECK(json["extensionsRequired"] == Json({extension}));
     }
-    builder.json.erase("extensionsUsed");
-    CHECK(contains(refusal<UnsupportedError>(builder), "/images/0: is "));
+}
+
+TEST_CASE(
+    "an image of an unknown kind, or of an unknown extension, stays as it is, with the UVs of the source") {
+    GltfBuilder builder = passed_square({"VENDOR_image", "image/other", "bytes of no known kind"});
+    builder.json.erase("extensionsRequired");
+    if (GENERATE(true, false)) builder.json["textures"][0] = {{"source", 0}};
+    const SimplifiedAsset result = simplify(load_glb(builder), Options{.target = ratio(0.5)});
+    CHECK(any_contains(result.report.warnings, "cannot be baked"));
+    const std::string out = saved(result.asset);
+    CHECK(json_of(out)["textures"] == builder.json["textures"]);
+    CHECK(load_glb(out).images.at(0).encoded.size() == 22);
+    CHECK(load_glb(out).parts[0].uvs.size() == 1);
 }
 
 TEST_CASE(
@@ -108,7 +125,7 @@ TEST_CASE(
         pixels.rgba.push_back(i % 4 == 3 ? 255 : static_cast<std::uint8_t>(100 + (state >> 24) / 8));
     }
     const std::vector<std::uint8_t> noise = encode_png(pixels, "").encoded;
-    GltfBuilder builder = passed_square(std::string(noise.begin(), noise.end()), "unused", "image/png");
+    GltfBuilder builder = passed_square({"unused", "image/png", std::string(noise.begin(), noise.end())});
     add_texture(builder, 10);
     builder.json["textures"][0] = {{"source", 0}};
     builder.json["materials"].insert(builder.json["materials"].begin(), Json{{"name", "unused"}});

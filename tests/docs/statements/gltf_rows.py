@@ -276,10 +276,11 @@ def nearest(runs):
         expect(gltf.attribute("TEXCOORD_0") is not None, "its own UVs")
 
 
-@row("EXT_texture_webp, KHR_texture_basisu, EXT_texture_avif")
+@row("EXT_texture_webp, KHR_texture_basisu, EXT_texture_avif, MSFT_texture_dds")
 def image_extensions(runs):
     files = {"KHR_texture_basisu": (b"\xabKTX 20\xbb\r\n\x1a\n and more", "image/ktx2"),
-             "EXT_texture_avif": (b"\0\0\0\x1cftypavif and more", "image/avif")}
+             "EXT_texture_avif": (b"\0\0\0\x1cftypavif and more", "image/avif"),
+             "MSFT_texture_dds": (b"DDS | and much more", "image/vnd-ms.dds")}
     for name, (data, mime) in files.items():
         for is_core in (False, True):
             glb = textured(PATTERN)

@@ -17,10 +17,11 @@ constexpr std::array top_level_arrays = {"accessors", "animations", "buffers", "
                                          "scenes",    "skins",      "textures"};
 
 /// Required extensions that are read, or that are passed through and do not affect meshes and materials.
-constexpr std::array<std::string_view, 12> supported_extensions = {
+constexpr std::array<std::string_view, 13> supported_extensions = {
     "KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",    "KHR_xmp_json_ld",
     "KHR_animation_pointer", "KHR_node_visibility",   "EXT_lights_image_based", "EXT_texture_webp",
-    "KHR_texture_basisu",    "EXT_texture_avif",      instancing_name,          lod_name};
+    "KHR_texture_basisu",    "EXT_texture_avif",      "MSFT_texture_dds",       lod_name,
+    instancing_name};
 
 /// Other extensions that are read, or whose references are kept up to date.
 constexpr std::array<std::string_view, 8> other_known_extensions = {draco_name,

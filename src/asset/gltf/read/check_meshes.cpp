@@ -129,21 +129,11 @@ void check_material(const GltfChecker& checker, const Json& material, const std:
                 check_texture_info(checker, value, where + "/extensions/" + name + "/" + key);
 }
 
-bool is_image_extension(const std::string& name) {
-    return std::any_of(std::begin(image_extensions), std::end(image_extensions),
-                       [&](const ImageExtension& extension) { return name == extension.name; });
-}
-
 void check_texture(const GltfChecker& checker, const Json& texture, const std::string& where) {
     checker.reference(texture, where, "sampler", "samplers");
-    const auto source = checker.reference(texture, where, "source", "images");
-    const Json& extensions = checker.object(texture, where, "extensions");
-    for (const auto& [name, extension] : extensions.items()) {
-        const auto other = checker.reference(extension, where + "/extensions/" + name, "source", "images");
-        if (other && !source && !is_image_extension(name))
-            checker.fail_unsupported(where, "its only image is in " + name + "; only " +
-                                                decodable_format_names + " are supported");
-    }
+    checker.reference(texture, where, "source", "images");
+    for (const auto& [name, extension] : checker.object(texture, where, "extensions").items())
+        checker.reference(extension, where + "/extensions/" + name, "source", "images");
 }
 
 void check_image(const GltfChecker& checker, const Json& image, const std::string& where) {

@@ -18,27 +18,16 @@
 namespace faqem::detail {
 namespace {
 
-/// Whether a texture refers to an image by the extension for its media type only.
-bool is_extension_image(const SourceDocument& source, Index image, const std::string& type) {
-    for (const Json& texture : member(source.document, "textures"))
-        for (const ImageExtension& extension : image_extensions)
-            if (index_member(member(member(texture, "extensions"), extension.name), "source") == image &&
-                index_member(texture, "source") == no_index && type == extension.media_type)
-                return true;
-    return false;
-}
-
 bool is_listed(const Json& document, const char* list, const char* extension) {
     const Json& names = member(document, list);
     return std::find(names.begin(), names.end(), extension) != names.end();
 }
 
-/// Some programs write KTX2 and AVIF images as the core source of a texture, where glTF allows PNG and JPEG only, and
-/// name the extension in `extensionsUsed` alone. Such a source becomes that of the extension, which is required then.
+/// Some programs write KTX2, AVIF and DDS images as the core source of a texture, where glTF allows PNG and JPEG only.
+/// Such a source becomes that of the extension for its type, which is required then.
 void move_sources_to_extensions(SourceDocument& source, std::vector<std::string>& warnings) {
     Json& document = source.document;
     for (const ImageExtension& extension : image_extensions) {
-        if (!is_listed(document, "extensionsUsed", extension.name)) continue;
         std::uint64_t moved = 0;
         for (std::size_t t = 0; t < array_size(document, "textures"); ++t) {
             Json& texture = document["textures"][t];
@@ -52,26 +41,11 @@ void move_sources_to_extensions(SourceDocument& source, std::vector<std::string>
             ++moved;
         }
         if (moved == 0) continue;
-        if (!is_listed(document, "extensionsRequired", extension.name))
-            document["extensionsRequired"].push_back(extension.name);
+        for (const char* list : {"extensionsUsed", "extensionsRequired"})
+            if (!is_listed(document, list, extension.name)) document[list].push_back(extension.name);
         warnings.push_back(pluralized(moved, "texture") + " with " + extension.media_type +
                            " as the core source: read as the source of " + extension.name);
     }
-}
-
-/// Checks that the textures of the core material model can be decoded, or that an extension says what they are.
-/// \throws UnsupportedError  if the image format of one of them is not supported
-void check_image_types(const Asset& asset, const SourceDocument& source, const std::string& file) {
-    const auto check = [&](const TextureRef& ref) {
-        if (!ref) return;
-        const std::string& type = source.images[ref.image].mime_type;
-        if (type.empty() || can_decode_image(type) || is_extension_image(source, ref.image, type)) return;
-        throw UnsupportedError(file, child_path("/images", ref.image),
-                               "is " +
-                                   (type == "image/ktx2" ? std::string("KTX2 (KHR_texture_basisu)") : type) +
-                                   "; only " + decodable_format_names + " are supported");
-    };
-    for (const Material& material : asset.materials) for_each_core_texture(material, check);
 }
 
 /// Copies the images that the materials use to the asset, each one once, and updates the references.
@@ -134,7 +108,6 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
     move_sources_to_extensions(*loaded.source, loaded.warnings);
     loaded.source->materials = read_materials(loaded);
     asset.materials = loaded.source->materials;
-    check_image_types(asset, *loaded.source, loaded.file);
     add_used_images(asset, *loaded.source);
     std::uint64_t faces = 0, dropped_faces = 0;
     for (Index mesh = 0; mesh < loaded.model.meshes.size(); ++mesh) {
