@@ -17,7 +17,6 @@ namespace faqem::cli {
 namespace {
 
 constexpr const char* version_key = "faqem-profile";
-constexpr const char* schema_key = "$schema";  // used by editors, ignored by faqem
 constexpr int profile_version = 1;
 constexpr std::uint64_t max_file_size = 1'000'000;
 
@@ -47,6 +46,19 @@ Json parse_profile(const std::string& file) {
     } catch (const Json::exception& error) {
         throw InputError(file, "", std::string("is not valid JSON: ") + error.what());
     }
+}
+
+/// Tests whether a command has --config.
+bool reads_profiles(const CommandInfo& command) {
+    return std::any_of(command.options.begin(), command.options.end(),
+                       [](const OptionInfo& option) { return option.names.back() == "--config"; });
+}
+
+/// The key of an option in profiles: its name without dashes; empty if profiles do not have it.
+std::string profile_key(const OptionInfo& option) {
+    const std::string& name = option.names.back();
+    const bool is_key = option.read && !option.is_positional && name != "--config" && name != "--profile";
+    return is_key ? name.substr(2) : "";
 }
 
 const OptionInfo* find_option(const CommandInfo& command, const std::string& key) {
@@ -126,28 +138,6 @@ void check_version(const Json& profile, const std::string& file) {
                           " is not supported, only version 1");
 }
 
-}  // namespace
-
-OptionInfo profile_option() {
-    OptionInfo info =
-        rare({{"--config"}, "FILE", "Read options from a profile (JSON file); those typed take precedence"});
-    info.read = [](const std::vector<std::string>&, bool) {};
-    return info;
-}
-
-bool reads_profiles(const CommandInfo& command) {
-    return std::any_of(command.options.begin(), command.options.end(),
-                       [](const OptionInfo& option) { return option.names.back() == "--config"; });
-}
-
-std::string profile_key(const OptionInfo& option) {
-    const std::string& name = option.names.back();
-    const bool is_key = option.read && !option.is_positional && name != "--config" && name != "--profile";
-    return is_key ? name.substr(2) : "";
-}
-
-namespace {
-
 // Inserts options before `--`, because words after it are not options.
 void insert_options(std::vector<std::string>& words, const std::vector<std::string>& added) {
     words.insert(std::find(words.begin(), words.end(), "--"), added.begin(), added.end());
@@ -160,7 +150,7 @@ void add_profile_file(const CommandTree& tree, const CommandInfo& command, const
     check_version(profile, file);
     std::vector<std::string> added;
     for (const auto& [key, value] : profile.items()) {
-        if (key == version_key || key == schema_key) continue;
+        if (key == version_key) continue;
         const OptionInfo* option = find_option(command, key);
         if (!option) throw_unknown_key(tree, command, file, key);
         const std::vector<std::string> more = to_words(*option, value, file + ": " + key);
@@ -181,6 +171,13 @@ void add_builtin_profile(const CommandInfo& command, const BuiltinProfile& profi
 }
 
 }  // namespace
+
+OptionInfo profile_option() {
+    OptionInfo info =
+        rare({{"--config"}, "FILE", "Read options from a profile (JSON file); those typed take precedence"});
+    info.read = [](const std::vector<std::string>&, bool) {};
+    return info;
+}
 
 std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std::string> words) {
     const auto command = std::find_if(tree.commands.begin(), tree.commands.end(), [&](const CommandInfo& c) {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Commands and options as plain data. The parser, the manual page, completion scripts, suggestions and the
-/// schema of profiles are made from it.
+/// Commands and options as plain data. The parser, the manual page, completion scripts, suggestions and the keys of
+/// profiles are made from it.
 
 #include <functional>
 #include <string>

@@ -7,7 +7,6 @@
 
 #include "cli/commands/command_line.hpp"
 #include "cli/options/profile.hpp"
-#include "cli/options/profile_schema.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/shell/completion.hpp"
 #include "cli/shell/man_page.hpp"
@@ -141,7 +140,6 @@ TEST_CASE("an option that is added to the table is in the command, its messages,
     write(folder / "p.json", R"({"faqem-profile": 1, "w-novelty": 1.25})");
     extended.run({"simplify", "--config", (folder / "p.json").string()});
     CHECK(extended.options.weights.uv == 1.25);
-    CHECK(contains_text(profile_schema(extended.tree), R"("w-novelty": {"description":)"));
 
     CHECK(documentation_problems(extended.rows) == std::vector<std::string>{"--w-novelty: is missing"});
 }

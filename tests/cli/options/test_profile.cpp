@@ -1,10 +1,7 @@
 #include "cli/options/profile.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "cli/commands/command_line.hpp"
 #include "cli/options/builtin_profiles.hpp"
-#include "cli/options/profile_schema.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
@@ -46,7 +43,6 @@ TEST_CASE("numbers, strings, flags and lists of a profile are converted to optio
     CHECK(added(R"({"faqem-profile": 1, "virtual-edges": 0.02})") == Words{"--virtual-edges=0.02"});
     CHECK(added(R"({"faqem-profile": 1, "levels": [0.5, 5000, "error:1%"]})", {"lod", "a", "b"}) ==
           Words{"--levels=0.5,5000,error:1%"});
-    CHECK(added(R"({"$schema": "profile.schema.json", "faqem-profile": 1})").empty());
 }
 
 TEST_CASE("the command line takes precedence over the profile, also for options that exclude each other") {
@@ -115,20 +111,6 @@ TEST_CASE("a profile that is missing or not a JSON object is bad input") {
         CHECK(outcome.code == 3);
         CHECK(outcome.err.find("faqem: p.json: ") == 0);
     }
-}
-
-TEST_CASE("docs/profile.schema.json is the schema of all options of simplify, lod and batch") {
-    const std::string schema = profile_schema(command_tree());
-    const nlohmann::json properties = nlohmann::json::parse(schema)["properties"];
-    CHECK(properties["texel-density"]["minimum"] == 0.125);
-    CHECK(properties["texel-density"]["maximum"] == 8);
-    CHECK(properties["texture-size"]["enum"].size() == 9);
-    CHECK(properties["normals"]["pattern"] == "^(auto|transfer|smooth(:[0-9.]+)?|flat|none)$");
-    CHECK(properties["virtual-edges"]["type"] == "number");
-    CHECK(properties["report"]["description"].get<std::string>().starts_with("simplify: "));
-    for (const char* other : {"help", "config", "output", "source"}) CHECK(!properties.contains(other));
-    write("profile.schema.json", schema);  // to be copied to docs after a change of the options
-    CHECK(schema == read(fs::path(source_path) / "docs/profile.schema.json"));
 }
 
 TEST_CASE("the options of a built-in profile come last, and a file before them") {
