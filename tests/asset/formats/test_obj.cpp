@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "asset/image/srgb.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 
@@ -165,33 +164,6 @@ TEST_CASE("concave polygons are triangulated inside", "[obj]") {
         const Vec3 &a = part.positions[t[0]], &b = part.positions[t[1]], &c = part.positions[t[2]];
         CHECK((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) == Approx(4));
     }
-}
-
-TEST_CASE("vertex colours are read as sRGB and missing ones are white", "[obj]") {
-    const Part part = parse_obj("v 0 0 0\nv 1 0 0 1 0.5 0\nv 1 1 0\nf 1 2 3\n").parts[0];
-    REQUIRE(part.colors.size() == 3);
-    CHECK(part.colors[0] == Vec4f{1, 1, 1, 1});
-    CHECK(part.colors[1][0] == 1);
-    CHECK(part.colors[1][1] == Approx(0.214041));
-    CHECK(part.colors[1] == Vec4f{1, static_cast<float>(linear_from_srgb(0.5)), 0, 1});
-}
-
-TEST_CASE("weights other than 1 give a warning", "[obj]") {
-    CHECK(parse_obj("v 0 0 0 1\nv 1 0 0 1.0\nv 1 1 0\nf 1 2 3\n").warnings.empty());
-    CHECK(any_contains(parse_obj("v 0 0 0 2\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").warnings,
-                       "1 position with a weight"));
-}
-
-TEST_CASE("all objects and groups are one part named after the first object", "[obj]") {
-    const Asset asset =
-        parse_obj("g group\no first one\n" + square_vertices + "f 1 2 3\no second\ng x\nf 1 3 4\n");
-    REQUIRE(asset.parts.size() == 1);
-    const Part& part = asset.parts[0];
-    CHECK(part.name == "first one");
-    CHECK(part.positions.size() == 4);
-    CHECK(part.object_names == std::vector<std::string>{"first one", "second"});
-    CHECK(part.face_object == std::vector<Index>{0, 1});
-    CHECK(asset.warnings.empty());
 }
 
 TEST_CASE("objects have faces, and are continued by an equal name", "[obj]") {

@@ -84,24 +84,6 @@ TEST_CASE("the marks of tiles have several spellings", "[obj]") {
     CHECK(tile_file_name("a.1001.png", 1002) == "a.1001.png");
 }
 
-TEST_CASE("missing tiles, faces outside of all tiles and faces across borders are warnings", "[obj]") {
-    TiledModel model("map_Kd skin.<UDIM>.png\n", {"skin.1001.png"});
-    model.tile(0, 0);
-    model.tile(2, 0);
-    model.tile(-1, 0);
-    model.tile(10, 0);
-    model.faces += "vt 0.5 0\nvt 1.2 0\nvt 0.5 1\nf 1/-3 2/-2 3/-1\n";
-    const Asset asset = model.read();
-    CHECK(any_contains(asset.warnings, "material 'skin.1003': texture left out"));
-    CHECK(any_contains(asset.warnings, "2 faces outside of the UDIM tiles 1001 to 1100"));
-    CHECK(any_contains(asset.warnings, "1 face across borders of UDIM tiles"));
-    CHECK(asset.warnings.size() == 3);
-    CHECK(!material_of(asset, 1).base_color_texture);
-    CHECK(!material_of(asset, 2).base_color_texture);
-    CHECK(shown(asset, 3, 0, {}) == Vec2f{10, 0});
-    CHECK(material_of(asset, 4).name == "skin.1001");
-}
-
 TEST_CASE("other textures of a material with tiles show the same, and their placements hold", "[obj]") {
     // The face is in column 1 of the tiles, at u from 0.5 to 1 of the file. The tileable texture repeats 3 times.
     TiledModel model("map_Kd -s 2 2 1 skin.<UDIM>.png\nmap_Ke -s 3 3 1 -o 0.25 0 glow.png\n",

@@ -69,24 +69,6 @@ TEST_CASE("OFF polygons are triangulated and faces with two corners left out", "
     CHECK(any_contains(asset.warnings, "2 faces with fewer than three"));
 }
 
-TEST_CASE("colours of OFF faces become vertex colours that are constant on each face", "[off]") {
-    const std::string vertices = "OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
-    const Asset asset = parse_off(vertices + "3 0 1 2 255 0 0\n3 0 2 3 0.0 1.0 0.0 0.5\n3 1 3 2\n");
-    CHECK(asset.warnings.empty());
-    const Part& part = asset.parts.at(0);
-    CHECK(part.positions.size() == 9);
-    const std::array<Vec4f, 3> expected = {{{1, 0, 0, 1}, {0, 1, 0, 0.5f}, {1, 1, 1, 1}}};
-    for (std::size_t f = 0; f < 3; ++f)
-        for (const Index v : part.triangles.at(f)) CHECK(part.colors.at(v) == expected[f]);
-    const Asset map = parse_off(vertices + "3 0 1 2 7\n3 0 2 3 1 2\n3 1 3 2\n");
-    CHECK(map.parts.at(0).colors.empty());
-    CHECK(any_contains(map.warnings, "colours of 2 faces ignored"));
-    const Asset both =
-        parse_off("COFF\n3 1 0\n0 0 0 255 0 0\n1 0 0 255 0 0\n1 1 0 255 0 0\n3 0 1 2 0 0 255\n");
-    CHECK(any_contains(both.warnings, "face colours are ignored beside vertex colours"));
-    CHECK(both.parts.at(0).colors.at(0) == Vec4f{1, 0, 0, 1});
-}
-
 TEST_CASE("other kinds of OFF are reported as unsupported", "[off]") {
     for (const std::string keyword : {"4OFF", "nOFF", "4nOFF", "C4OFF", "OFF BINARY", "COFF BINARY"}) {
         CAPTURE(keyword);

@@ -3,7 +3,6 @@
 #include "asset/formats/ply_content.hpp"
 
 #include "asset/formats/ply.hpp"
-#include "asset/image/srgb.hpp"
 #include "asset/model_files.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
@@ -67,7 +66,7 @@ TEST_CASE("PLY texture coordinates of corners split the vertices that differ", "
     CHECK(uvs(read(square).parts.at(0), 0) == upright);
 }
 
-TEST_CASE("texture files of PLY become materials", "[ply]") {
+TEST_CASE("texture files of PLY become materials, also those named as on another computer", "[ply]") {
     const TemporaryFolder folder;
     put(folder / "a b.png", png_signature);
     put(folder / "c.jpg", jpeg_signature);
@@ -76,7 +75,7 @@ TEST_CASE("texture files of PLY become materials", "[ply]") {
     square.comments = "comment TextureFile a b.png\ncomment TextureFile X:\\y\\C.JPG\n";
     square.face_properties = texcoord + "property int texnumber\n";
     square.faces = {"6 0 0 1 0 1 1 1", "6 0 0 1 1 0 1 0"};
-    Asset asset = read(square, file);
+    const Asset asset = read(square, file);
     REQUIRE(asset.materials.size() == 2);
     CHECK(asset.materials[0].name == "a b");
     CHECK(asset.materials[0].metallic == 0);
@@ -87,26 +86,7 @@ TEST_CASE("texture files of PLY become materials", "[ply]") {
     put(folder / "m.ply", square.text());
     CHECK(referenced_files(folder / "m.ply", References::readable).size() == 2);
 
-    square.faces = {"6 0 0 1 0 1 1 -1", "6 0 0 1 1 0 1 7"};
-    asset = read(square, file);
-    CHECK(asset.materials.empty());
-    CHECK(asset.parts.at(0).face_material == std::vector<Index>{no_index, no_index});
-    CHECK(any_contains(asset.warnings, "1 face with the number of a texture that the file does not name"));
-}
-
-TEST_CASE("a PLY texture is used with coordinates of vertices, too, and not without any", "[ply]") {
-    const TemporaryFolder folder;
-    put(folder / "t.png", png_signature);
-    SquareFile square;
-    square.comments = "comment TextureFile t.png\n";
-    CHECK(any_contains(read(square, (folder / "m.ply").string()).warnings, "no texture coordinates"));
-    square.vertex_properties = "property float s\nproperty float t\n";
-    square.vertices = {"0 0", "1 0", "1 1", "0 1"};
-    const Asset asset = read(square, (folder / "m.ply").string());
-    CHECK(asset.warnings.empty());
-    CHECK(asset.parts.at(0).face_material == std::vector<Index>{0, 0});
-    CHECK(uvs(asset.parts[0], 0) == upright);
-    square.comments = "comment TextureFile ../t.png\ncomment TextureFile\n";
+    square.comments = "comment TextureFile ../c.jpg\ncomment TextureFile\n";
     const Asset outside = read(square, (folder / "in/m.ply").string());
     CHECK(outside.materials.empty());
     CHECK(any_contains(outside.warnings, "texture left out"));
@@ -124,15 +104,9 @@ TEST_CASE("PLY face colours become vertex colours that are constant on each face
     for (const Index v : part.triangles.at(1)) CHECK(part.colors.at(v) == Vec4f{0, 0, 1, 0.2f});
     square.faces[1] = square.faces[0];
     CHECK(read(square).parts.at(0).positions.size() == 4);
-
-    square.vertex_properties = rgb;
-    square.vertices.fill("0 255 0");
-    const Asset both = read(square);
-    CHECK(any_contains(both.warnings, "face colours are ignored beside vertex colours"));
-    for (const Vec4f& c : both.parts.at(0).colors) CHECK(c == Vec4f{0, 1, 0, 1});
 }
 
-TEST_CASE("PLY faces with a texture have no colours", "[ply]") {
+TEST_CASE("PLY faces with a texture have no colours, others keep theirs", "[ply]") {
     const TemporaryFolder folder;
     put(folder / "t.png", png_signature);
     const std::string file = (folder / "m.ply").string();
@@ -147,8 +121,4 @@ TEST_CASE("PLY faces with a texture have no colours", "[ply]") {
     const Part& part = mixed.parts.at(0);
     for (const Index v : part.triangles.at(0)) CHECK(part.colors.at(v) == Vec4f{1, 1, 1, 1});
     for (const Index v : part.triangles.at(1)) CHECK(part.colors.at(v) == Vec4f{0, 1, 0, 1});
-    square.faces[1] = "6 0 0 1 1 0 1";
-    const Asset textured = read(square, file);
-    CHECK(textured.parts.at(0).colors.empty());
-    CHECK(any_contains(textured.warnings, "colours of 2 faces"));
 }

@@ -53,6 +53,7 @@ def base_color(runs):
     whole, baked = both(runs, "a.obj")
     expect("baseColorTexture" in pbr(whole) and whole.has_color((1, 0.5, 0.5, 1)), "a texture and its factor")
     expect(abs(baked.factor()[0] - 0.2158) < 0.01 and abs(baked.factor()[1] - 0.0462) < 0.01, "their product, baked")
+    expect_no_warning(runs, write_obj(runs, "Kd 0 0 0"))
     write_obj(runs, "Kd 0 0 0\nmap_Kd c.png", {"c.png": GREY})
     expect_repair(runs, "a.obj", "Kd 0 0 0 with a map_Kd")
     expect(runs.baked("a.obj").has_color((0.5, 0.5, 0.5, 1)), "the colour of the image")
@@ -75,7 +76,7 @@ def opacity(runs):
         for gltf in both(runs, write_obj(runs, library)):
             expect(gltf.material().get("alphaMode") == "BLEND", "mode blend")
             expect(gltf.has_color((1, 0, 0, 0.25)), "the alpha")
-    for library in ("Kd 1 0 0\nd 0", "Kd 1 0 0\nTr 1"):
+    for library in ("Kd 1 0 0\nd 0", "Kd 1 0 0\nTr 1", "Kd 1 0 0\nd -halo -1\nTr 0"):
         expect_repair(runs, write_obj(runs, library), "would hide everything")
         for gltf in both(runs, "a.obj"):
             expect("alphaMode" not in gltf.material() and gltf.has_color((1, 0, 0, 1)), "opaque")
@@ -96,10 +97,10 @@ def alpha_image(runs):
     write_obj(runs, "map_Kd c.png\nmap_d m.png", {"c.png": color, "m.png": WHITE})
     expect_no_warning(runs, "a.obj")
     expect("alphaMode" not in runs.whole("a.obj").material(), "white: opaque")
-    for library, image in (("map_d m.png", (0, 0, 0, 0)), ("map_d -s 2 2 m.png", GREY),
-                           ("map_d m.png", b"\x89PNG\r\n\x1a\nno")):
+    for library, image in (("map_d m.png", (0, 0, 0, 0)), ("map_d m.png", BLACK), ("map_d -s 2 2 m.png", GREY),
+                           ("map_d m.png", b"\x89PNG\r\n\x1a\nno"), ("map_d a.obj", GREY), ("map_d gone.png", GREY)):
         write_obj(runs, "map_Kd c.png\n" + library, {"c.png": color, "m.png": image})
-        expect_repair(runs, "a.obj", "map_d")
+        expect_repair(runs, "a.obj", "gone.png" if "gone" in library else "map_d")
         expect("alphaMode" not in runs.whole("a.obj").material(), "opaque without map_d")
 
 
@@ -115,9 +116,9 @@ def emissive(runs):
 
 @row("`Pr`, else `Ns`")
 def roughness(runs):
-    for library, value in (("Pr 0.3\nNs 10", 0.3), ("Ns 10", (2 / 12) ** 0.25)):
+    for library, value in (("Pr 0.3\nNs 10", 0.3), ("Ns 10", (2 / 12) ** 0.25), ("Ns 0", 1)):
         for gltf in both(runs, write_obj(runs, library)):
-            expect(abs(pbr(gltf)["roughnessFactor"] - value) < 1e-3, f"roughness {value}")
+            expect(abs(pbr(gltf).get("roughnessFactor", 1) - value) < 1e-3, f"roughness {value}")
 
 
 @row("`Pm`")

@@ -106,6 +106,7 @@ def obj_colors(runs):
     runs.write("a.obj", obj_vertices(" 0.8 0.2 0") + obj_faces(triangles))
     expect_no_warning(runs, "a.obj")
     expect(runs.info("a.obj")["parts"][0]["vertex_colors"], "vertex colours")
+    expect_no_warning(runs, runs.write("b.obj", obj_vertices(" 1") + obj_faces(triangles)))
     expect(runs.baked("a.obj").has_color((0.8, 0.2, 0, 1)), "baked")
     expect("COLOR_0" in runs.kept("a.obj").primitive()["attributes"], "kept")
     runs.write("a.obj", obj_vertices(" 2") + obj_faces(triangles))
@@ -254,12 +255,13 @@ def ply_strips(runs):
 
 @row("PLY", "other elements and properties")
 def ply_other(runs):
-    write_ply(runs, "property float quality\nproperty float nx", "property int flags", lambda i: "1 1", lambda t: "3",
-              other="element edge 1\nproperty int vertex1\n", other_data="0\n")
+    write_ply(runs, "property float quality\nproperty float nx\nproperty float s", "property int flags\nproperty uchar red",
+              lambda i: "1 1 1", lambda t: "3 4", other="element edge 1\nproperty int vertex1\n", other_data="0\n")
     expect_no_warning(runs, "a.ply")
     expect(not runs.is_strict("a.ply"), "accepted by --strict")
-    expect(runs.info("a.ply")["not_understood"] == ["property 'quality' of vertex", "property 'nx' of vertex",
-                                                  "property 'flags' of face", "element 'edge'"], "`info` names them")
+    expect(runs.info("a.ply")["not_understood"] == [
+        "property 'quality' of vertex", "property 'nx' of vertex", "property 's' of vertex", "property 'flags' of face",
+        "property 'red' of face", "element 'edge'"], "`info` names them")
     expect(len(runs.baked("a.ply").attribute("POSITION")) < 81, "the mesh")
 
 
@@ -274,14 +276,15 @@ def write_stl(runs, attribute, header=b""):
 
 @row("STL", "colours of facets (binary)")
 def stl_colors(runs):
-    red = 31
-    write_stl(runs, lambda i: red, b"COLOR=\x00\x33\xcc\xff")
-    expect(runs.baked("a.stl").has_color((1, 0, 0, 1)), "Magics: red is lowest")
-    write_stl(runs, lambda i: 0x8000, b"COLOR=\x00\x33\xcc\xff")
+    bits = 31 | 15 << 10
+    write_stl(runs, lambda i: bits, b"COLOR=\x00\x33\xcc\xff")
+    expect(runs.baked("a.stl").has_color((1, 0, 15 / 31, 1)), "Magics: red is lowest")
+    write_stl(runs, lambda i: 0x8000, b"COLOR=\x00\x33\xcc\x80")
     expect(runs.baked("a.stl").has_color((0, 0.2, 0.8, 1)), "Magics: the colour of the header")
-    write_stl(runs, lambda i: 0x8000 | red)
-    expect(runs.baked("a.stl").has_color((0, 0, 1, 1)), "VisCAM: blue is lowest")
-    write_stl(runs, lambda i: 0x8000 | red if i else red)
+    expect(round(runs.whole("a.stl").attribute("COLOR_0")[0][3] / 65535, 2) == 0.5, "its alpha")
+    write_stl(runs, lambda i: 0x8000 | bits)
+    expect(runs.baked("a.stl").has_color((15 / 31, 0, 1, 1)), "VisCAM: blue is lowest")
+    write_stl(runs, lambda i: 0x8000 | bits if i else bits)
     whole = runs.whole("a.stl")
     expect(len(set(whole.attribute("COLOR_0"))) == 2 and (65535,) * 4 in whole.attribute("COLOR_0"), "VisCAM: white")
     expect_no_warning(runs, "a.stl")
@@ -337,9 +340,10 @@ def write_off(runs, color, keyword="OFF", vertex=""):
 
 @row("OFF", "colours of faces")
 def off_face_colors(runs):
-    write_off(runs, lambda i: " 255 0 0" if i else "")
+    write_off(runs, lambda i: (" 255 0 0", " 0.0 1.0 0.0 0.5", "")[i % 3])
     expect_no_warning(runs, "a.off")
-    expect(len(set(runs.whole("a.off").attribute("COLOR_0"))) == 2, "constant on each face, and white")
+    colors = {tuple(round(c / 65535, 3) for c in color) for color in runs.whole("a.off").attribute("COLOR_0")}
+    expect(colors == {(1, 0, 0, 1), (0, 1, 0, 0.5), (1, 1, 1, 1)}, "constant on each face, and white")
     write_off(runs, lambda i: " 0 0 255", "COFF", " 204 51 0")
     expect_repair(runs, "a.off", "face colours are ignored")
     expect(runs.baked("a.off").has_color((0.8, 0.2, 0, 1)), "the colours of the vertices")
