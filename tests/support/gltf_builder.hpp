@@ -39,6 +39,31 @@ public:
                                  {"count", values.size()}});
     }
 
+    /// Adds a mesh of triangles with a root node.
+    void triangles(const std::vector<Vec3f>& positions, const std::vector<std::uint16_t>& corners) {
+        const auto vertices = accessor(positions, f32, "VEC3"), indices = accessor(corners, u16, "SCALAR");
+        mesh({{"attributes", {{"POSITION", vertices}}}, {"indices", indices}});
+    }
+
+    /// The first primitive of a mesh.
+    Json& primitive(std::size_t mesh = 0) { return json["meshes"][mesh]["primitives"][0]; }
+
+    /// Adds a vertex attribute to the first primitive of mesh 0. \return its accessor
+    template <class T>
+    std::size_t attribute(const std::string& name, const std::vector<T>& values, int component,
+                          const std::string& type) {
+        const std::size_t index = accessor(values, component, type);
+        primitive()["attributes"][name] = index;
+        return index;
+    }
+
+    /// Adds a material, and gives it to the first primitive of mesh 0. \return its index
+    std::size_t material(const std::string& text) {
+        const std::size_t index = add("materials", Json::parse(text));
+        primitive()["material"] = index;
+        return index;
+    }
+
     /// Appends a value to a top-level array of the document. \return its index
     std::size_t add(const char* array, Json value) {
         json[array].push_back(std::move(value));
@@ -92,9 +117,7 @@ inline const std::vector<std::uint16_t> square_corners = {0, 1, 2, 2, 1, 3};
 /// The square as mesh 0, node 0; accessor 0 holds the positions, 1 the indices.
 inline GltfBuilder square_gltf() {
     GltfBuilder builder;
-    const auto positions = builder.accessor(square, f32, "VEC3");
-    const auto indices = builder.accessor(square_corners, u16, "SCALAR");
-    builder.mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+    builder.triangles(square, square_corners);
     return builder;
 }
 
@@ -140,6 +163,8 @@ struct WrittenGltf {
 
     bool warns(const std::string& text) const { return any_contains(warnings, text); }
     const Json& primitive() const { return json["meshes"][0]["primitives"][0]; }
+    const Json& accessor(const Json& index) const { return json["accessors"][index.get<std::size_t>()]; }
+    const Json& positions() const { return accessor(primitive()["attributes"]["POSITION"]); }
 };
 
 inline WrittenGltf write_gltf_of(const Asset& asset) {

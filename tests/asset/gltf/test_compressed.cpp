@@ -246,7 +246,7 @@ TEST_CASE("draco: damaged and inconsistent data is rejected with the primitive")
     draco_of(builder)["bufferView"] = 5;
     CHECK(contains(refusal(builder), "refers to /bufferViews/5"));
     builder = draco_square(Method::edgebreaker);
-    builder.json["meshes"][0]["primitives"][0].erase("indices");
+    builder.primitive().erase("indices");
     CHECK(contains(refusal(builder), "no indices"));
 }
 

@@ -16,7 +16,7 @@ GltfBuilder square_with_features() {
     GltfBuilder builder = square_gltf();
     add_texture(builder, 1);  // not used
     add_texture(builder, 2);
-    Json& primitive = builder.json["meshes"][0]["primitives"][0];
+    Json& primitive = builder.primitive();
     primitive["attributes"]["TEXCOORD_0"] =
         builder.accessor(std::vector<Vec2f>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}, f32, "VEC2");
     primitive["attributes"]["_FEATURE_ID_0"] =
@@ -62,24 +62,6 @@ TEST_CASE("feature ids and their properties are kept for unchanged meshes, with 
     std::array<float, 3> heights;
     std::memcpy(heights.data(), written.glb.data() + binary + view["byteOffset"].get<std::size_t>(), 12);
     CHECK(heights == std::array<float, 3>{1.5f, 2.5f, 3.5f});
-}
-
-TEST_CASE("a simplified mesh loses the feature ids that are numbers of vertices") {
-    Asset asset = load_glb(square_with_features());
-    asset.parts[0].file_order = FileOrder::for_gpu;
-    const WrittenGltf written = write_gltf_of(asset);
-    CHECK(written.primitive()["extensions"]["EXT_mesh_features"]["featureIds"].size() == 2);
-    CHECK(written.warns("feature ids that the new vertices or texture coordinates do not have"));
-    CHECK(written.json["extensions"].contains("EXT_structural_metadata"));
-}
-
-TEST_CASE("a mesh without its UVs loses the features in textures") {
-    Asset asset = load_glb(square_with_features());
-    asset.parts[0].uvs.clear();
-    const WrittenGltf written = write_gltf_of(asset);
-    CHECK(written.primitive()["extensions"]["EXT_mesh_features"]["featureIds"].size() == 2);
-    CHECK_FALSE(written.primitive()["extensions"].contains("EXT_structural_metadata"));
-    CHECK(written.warns("EXT_structural_metadata does not fit"));
 }
 
 TEST_CASE("properties that refer to nothing are left out with a warning") {

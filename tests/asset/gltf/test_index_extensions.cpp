@@ -14,13 +14,9 @@ GltfBuilder numbered_square() {
     positions.insert(positions.end(), square.begin(), square.end());
     std::vector<std::uint16_t> corners = square_corners;
     for (std::uint16_t& corner : corners) ++corner;
-    const auto vertices = builder.accessor(positions, f32, "VEC3");
-    const auto indices = builder.accessor(corners, u16, "SCALAR");
-    builder.mesh({{"attributes", {{"POSITION", vertices}}}, {"indices", indices}});
+    builder.triangles(positions, corners);
     return builder;
 }
-
-Json& primitive_of(GltfBuilder& builder) { return builder.json["meshes"][0]["primitives"][0]; }
 
 // The numbers in an accessor of a GLB file.
 std::vector<Index> numbers(const std::string& glb, const Json& accessor) {
@@ -31,8 +27,8 @@ std::vector<Index> numbers(const std::string& glb, const Json& accessor) {
 GltfBuilder outlined_square() {
     GltfBuilder builder = numbered_square();
     const auto outline = builder.accessor(std::vector<std::uint8_t>{1, 2, 2, 4}, u8, "SCALAR");
-    primitive_of(builder)["extensions"] = {{"CESIUM_primitive_outline", {{"indices", outline}}},
-                                           {"FB_ngon_encoding", Json::object()}};
+    builder.primitive()["extensions"] = {{"CESIUM_primitive_outline", {{"indices", outline}}},
+                                         {"FB_ngon_encoding", Json::object()}};
     return builder;
 }
 
@@ -56,7 +52,7 @@ GltfBuilder manifold_square() {
 
 TEST_CASE("the outline of unchanged triangles gets the new numbers of the vertices") {
     const WrittenGltf written = write_gltf_of(load_glb(outlined_square()));
-    const Json& extensions = written.json["meshes"][0]["primitives"][0]["extensions"];
+    const Json& extensions = written.primitive()["extensions"];
     CHECK(numbers(written.glb, extensions["CESIUM_primitive_outline"]["indices"]) ==
           std::vector<Index>{0, 1, 1, 3});
     CHECK(extensions.contains("FB_ngon_encoding"));

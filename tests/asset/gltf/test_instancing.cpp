@@ -57,27 +57,6 @@ TEST_CASE("instances are posed by their translation, rotation and scale") {
     check_near(corners(load_glb(builder)), {{10, 0, 7}, {50, 20, 7}, {90, 10, 7}});
 }
 
-TEST_CASE("all instances are in formats without a scene") {
-    const TemporaryFolder folder;
-    const Asset asset = load_glb(three_squares());
-    const std::string format = GENERATE("obj", "ply", "stl");
-    save(asset, folder / ("out." + format));
-    const Asset back = load(folder / ("out." + format));
-    REQUIRE(back.parts.size() == 1);
-    const Part& part = back.parts[0];
-    REQUIRE(part.triangles.size() == 6);
-    // The winding of the mirrored instance is turned, so that all faces are seen from +z.
-    double area = 0;
-    for (const Triangle& t : part.triangles) {
-        const Vec3 &a = part.positions[t[0]], &b = part.positions[t[1]], &c = part.positions[t[2]];
-        const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        CHECK(twice > 0);
-        area += twice / 2;
-    }
-    CHECK(area == Approx(4));
-    if (format == "obj") CHECK(part.object_names.size() == 3);
-}
-
 TEST_CASE("instances may have some of the attributes, as integers and without a buffer view") {
     SECTION("rotations as normalised bytes") {
         GltfBuilder builder = square_gltf();
@@ -99,16 +78,6 @@ TEST_CASE("instances may have some of the attributes, as integers and without a 
     SECTION("no attributes") {
         check_near(corners(load_glb(instanced(square_gltf(), Json::object()))), {{1, 0, 0}});
     }
-}
-
-TEST_CASE("instancing may be required and is kept in glTF files") {
-    GltfBuilder builder = three_squares();
-    builder.json["extensionsRequired"] = {detail::instancing_name};
-    const TemporaryFolder folder;
-    save(load_glb(builder), folder / "out.glb");
-    const Asset back = load(folder / "out.glb");
-    check_near(corners(back), {{1, 0, 0}, {5, 2, 0}, {9, 1, 0}});
-    CHECK(back.source->document["extensionsRequired"] == Json::array({detail::instancing_name}));
 }
 
 TEST_CASE("invalid instances are rejected with the attribute") {

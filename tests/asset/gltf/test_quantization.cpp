@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "asset/gltf/accessor.hpp"
 #include "asset/scene/affine.hpp"
 #include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
@@ -34,9 +35,7 @@ std::vector<Vec3f> tilted_square(float shift = 0) {
 
 GltfBuilder tilted_gltf(float shift = 0) {
     GltfBuilder builder;
-    const auto positions = builder.accessor(tilted_square(shift), f32, "VEC3");
-    const auto indices = builder.accessor(square_corners, u16, "SCALAR");
-    builder.mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+    builder.triangles(tilted_square(shift), square_corners);
     return builder;
 }
 
@@ -60,27 +59,23 @@ void check_world(const GltfBuilder& builder, double scale = 1) {
 }  // namespace
 
 TEST_CASE("quantised positions are 16-bit integers, and the extension is required") {
-    const Json json = json_of(saved(quantized(tilted_gltf())));
-    CHECK(json["extensionsUsed"] == Json({"KHR_mesh_quantization"}));
-    CHECK(json["extensionsRequired"] == Json({"KHR_mesh_quantization"}));
-    const Json& accessor =
-        json["accessors"][json["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()];
-    CHECK(accessor["componentType"] == i16);
-    CHECK_FALSE(accessor.contains("normalized"));
-    CHECK(accessor["max"] == Json({60, 82, 7}));
-    CHECK(accessor["min"] == Json({0, 0, 0}));
-    CHECK(json["nodes"] == Json::array({{{"mesh", 0}, {"scale", {step, step, step}}}}));
+    const WrittenGltf written = write_gltf_of(quantized(tilted_gltf()));
+    CHECK(written.json["extensionsUsed"] == Json({"KHR_mesh_quantization"}));
+    CHECK(written.json["extensionsRequired"] == Json({"KHR_mesh_quantization"}));
+    CHECK(written.positions()["componentType"] == i16);
+    CHECK_FALSE(written.positions().contains("normalized"));
+    CHECK(written.positions()["max"] == Json({60, 82, 7}));
+    CHECK(written.positions()["min"] == Json({0, 0, 0}));
+    CHECK(written.json["nodes"] == Json::array({{{"mesh", 0}, {"scale", {step, step, step}}}}));
     check_world(tilted_gltf());
 }
 
 TEST_CASE("integers start at an offset if the mesh is far from the origin") {
     GltfBuilder builder = tilted_gltf(3000);
-    const Json json = json_of(saved(quantized(builder)));
-    const Json& accessor =
-        json["accessors"][json["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()];
-    CHECK(accessor["componentType"] == u16);
-    CHECK(accessor["min"] == Json({0, 0, 0}));
-    CHECK(json["nodes"][0]["translation"] == Json({3000.0, 0.0, 0.0}));
+    const WrittenGltf written = write_gltf_of(quantized(builder));
+    CHECK(written.positions()["componentType"] == u16);
+    CHECK(written.positions()["min"] == Json({0, 0, 0}));
+    CHECK(written.json["nodes"][0]["translation"] == Json({3000.0, 0.0, 0.0}));
     check_world(builder);
 }
 
@@ -115,7 +110,7 @@ TEST_CASE("the transform of a node, its children, cameras and animations are not
         CHECK(json["nodes"][0]["children"] == Json({1, 2}));
     }
     SECTION("animated transform and morph weights") {
-        builder.json["meshes"][0]["primitives"][0]["targets"] =
+        builder.primitive()["targets"] =
             Json::array({{{"POSITION", builder.accessor(tilted_square(0.5f), f32, "VEC3")}}});
         const auto times = builder.accessor<float>({0, 1}, f32, "SCALAR");
         builder.json["accessors"][times]["min"] = {0};
@@ -128,15 +123,13 @@ TEST_CASE("the transform of a node, its children, cameras and animations are not
                {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}},
                 {{"sampler", 1}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}});
         check_world(builder);
-        const Json json = json_of(saved(quantized(builder)));
-        const Json& channels = json["animations"][0]["channels"];
+        const WrittenGltf written = write_gltf_of(quantized(builder));
+        const Json& channels = written.json["animations"][0]["channels"];
         CHECK(channels[0]["target"]["node"] == 0);
         CHECK(channels[1]["target"]["node"] == 1);
-        CHECK(json["nodes"][1]["scale"] == Json({step, step, step}));
-        const Json& target =
-            json["accessors"][json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"].get<int>()];
-        CHECK(target["componentType"] == i16);
-        const Asset read = rewritten(quantized(builder));
+        CHECK(written.json["nodes"][1]["scale"] == Json({step, step, step}));
+        CHECK(written.accessor(written.primitive()["targets"][0]["POSITION"])["componentType"] == i16);
+        const Asset read = load_glb(written.glb);
         for (std::size_t v = 0; v < 4; ++v)
             for (std::size_t k = 0; k < 3; ++k)
                 CHECK(std::abs(read.parts[0].morph_targets[0].positions[v][k] * step -
@@ -166,15 +159,10 @@ TEST_CASE("instances are scaled each, since their translations must not be") {
 
 TEST_CASE("skins restore the size of their meshes, and are copied for meshes with another grid") {
     GltfBuilder builder = tilted_gltf();
-    const auto joints = builder.accessor<std::array<std::uint8_t, 4>>({{0}, {1}, {0}, {1}}, u8, "VEC4");
-    const auto weights =
-        builder.accessor<Vec4f>({{1, 0, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}}, f32, "VEC4");
-    Json& primitive = builder.json["meshes"][0]["primitives"][0];
-    primitive["attributes"]["JOINTS_0"] = joints;
-    primitive["attributes"]["WEIGHTS_0"] = weights;
-    const auto far = builder.accessor(tilted_square(2000), f32, "VEC3");
-    Json other = primitive;
-    other["attributes"]["POSITION"] = far;
+    builder.attribute<std::array<std::uint8_t, 4>>("JOINTS_0", {{0}, {1}, {0}, {1}}, u8, "VEC4");
+    builder.attribute("WEIGHTS_0", std::vector<Vec4f>(4, {1, 0, 0, 0}), f32, "VEC4");
+    Json other = builder.primitive();
+    other["attributes"]["POSITION"] = builder.accessor(tilted_square(2000), f32, "VEC3");
     builder.mesh(other);
     std::vector<std::array<float, 16>> matrices(2, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     matrices[1] = {0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 1, 0, 3, 4, 5, 1};
@@ -189,27 +177,23 @@ TEST_CASE("skins restore the size of their meshes, and are copied for meshes wit
     builder.json["nodes"][0]["skin"] = 0;
     builder.json["nodes"][1]["skin"] = 0;
     const Asset asset = quantized(builder);
-    const std::string bytes = saved(asset);
-    const Json json = json_of(bytes);
-    REQUIRE(json["skins"].size() == 2);
-    CHECK(json["nodes"].size() == 4);
-    CHECK(json["nodes"][0]["skin"] == 0);
-    CHECK(json["nodes"][1]["skin"] == 1);
-    const Asset read = load_glb(bytes);
+    const WrittenGltf written = write_gltf_of(asset);
+    REQUIRE(written.json["skins"].size() == 2);
+    CHECK(written.json["nodes"].size() == 4);
+    CHECK(written.json["nodes"][0]["skin"] == 0);
+    CHECK(written.json["nodes"][1]["skin"] == 1);
+    const Asset read = load_glb(written.glb);
     for (std::size_t mesh = 0; mesh < 2; ++mesh) {
-        const auto accessor = json["skins"][mesh]["inverseBindMatrices"].get<Index>();
-        const Json& view = json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()];
-        std::uint32_t json_size;
-        std::memcpy(&json_size, bytes.data() + 12, sizeof(json_size));
-        const std::size_t begin = 28 + json_size + view.value("byteOffset", std::size_t{0}) +
-                                  json["accessors"][accessor].value("byteOffset", std::size_t{0});
+        const auto accessor = written.json["skins"][mesh]["inverseBindMatrices"].get<Index>();
+        const std::vector<std::uint8_t> bytes = detail::dense_bytes(*read.source, accessor);
+        std::array<std::array<float, 16>, 2> stored;
+        REQUIRE(bytes.size() == sizeof stored);
+        std::memcpy(stored.data(), bytes.data(), sizeof stored);
         for (std::size_t v = 0; v < 4; ++v) {
             const std::size_t joint = v % 2;
-            std::array<float, 16> stored;
-            std::memcpy(stored.data(), bytes.data() + begin + joint * sizeof(stored), sizeof(stored));
             std::array<double, 16> before, after;
             std::copy(matrices[joint].begin(), matrices[joint].end(), before.begin());
-            std::copy(stored.begin(), stored.end(), after.begin());
+            std::copy(stored[joint].begin(), stored[joint].end(), after.begin());
             const Vec3 expected = detail::transformed_point(before, asset.parts[mesh].positions[v]),
                        found = detail::transformed_point(after, read.parts[mesh].positions[v]);
             for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(expected[k] - found[k]) <= step + 2e-4);
@@ -223,9 +207,7 @@ TEST_CASE("positions that neighbouring meshes share stay equal") {
     for (Vec3f& p : neighbour) p[0] += 0.93f, p[1] += 0.31f, p[2] += 0.11f;
     neighbour[0] = tilted_square()[1];
     neighbour[2] = tilted_square()[3];
-    const auto positions = builder.accessor(neighbour, f32, "VEC3");
-    const auto indices = builder.accessor(square_corners, u16, "SCALAR");
-    builder.mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+    builder.triangles(neighbour, square_corners);
     const Asset read = rewritten(quantized(builder));
     const std::vector<Vec3> world = world_positions(read);
     REQUIRE(world.size() == 8);
@@ -242,7 +224,7 @@ TEST_CASE("meshes whose positions cannot be integers stay floats, with a warning
         reason = "65536 steps";
     }
     SECTION("lines") {
-        Json lines = builder.json["meshes"][0]["primitives"][0];
+        Json lines = builder.primitive();
         lines["mode"] = 1;
         builder.json["meshes"][0]["primitives"].push_back(lines);
         reason = "points or lines";
@@ -281,10 +263,10 @@ TEST_CASE("integers of a file are kept as they are, normalised or not, and at th
     builder.json["nodes"][0]["scale"] = {0.01, 0.01, 0.01};
     const Asset asset = load_glb(builder);
     CHECK(asset.parts[0].position_spacing > 0);
-    const Json json = json_of(saved(asset));
-    CHECK(json["nodes"] == builder.json["nodes"]);
-    CHECK(json["accessors"][json["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()].value(
-              "normalized", false) == builder.json["accessors"][positions].value("normalized", false));
+    const WrittenGltf written = write_gltf_of(asset);
+    CHECK(written.json["nodes"] == builder.json["nodes"]);
+    CHECK(written.positions().value("normalized", false) ==
+          builder.json["accessors"][positions].value("normalized", false));
     CHECK(rewritten(asset).parts[0].positions == asset.parts[0].positions);
 }
 
@@ -304,10 +286,9 @@ TEST_CASE(
         for (const Compression compression : {Compression::none, Compression::meshopt}) {
             part.file_order = order;
             asset.compression = compression;
-            const Json json = json_of(saved(asset));
+            const WrittenGltf written = write_gltf_of(asset);
             const auto type_of = [&](const char* name) {
-                const Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
-                return json["accessors"][attributes[name].get<int>()]["componentType"].get<int>();
+                return written.accessor(written.primitive()["attributes"][name])["componentType"].get<int>();
             };
             CHECK(type_of("NORMAL") == i16);
             CHECK(type_of("TANGENT") == i16);

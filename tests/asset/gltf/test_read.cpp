@@ -27,9 +27,8 @@ template <class T>
 Asset with_attribute(const char* name, const std::vector<T>& values, int component, const char* type,
                      bool normalized = false) {
     GltfBuilder builder = square_gltf();
-    const auto accessor = builder.accessor(values, component, type);
+    const auto accessor = builder.attribute(name, values, component, type);
     if (normalized) builder.json["accessors"][accessor]["normalized"] = true;
-    builder.json["meshes"][0]["primitives"][0]["attributes"][name] = accessor;
     return load_glb(builder);
 }
 
@@ -53,7 +52,7 @@ TEST_CASE("an indexed mesh is read without changes") {
 
 TEST_CASE("meshes with 8-bit, 16-bit, 32-bit and no indices are read") {
     GltfBuilder builder = square_gltf();
-    Json& primitive = builder.json["meshes"][0]["primitives"][0];
+    Json& primitive = builder.primitive();
     primitive["indices"] = builder.accessor(std::vector<std::uint8_t>{3, 2, 1}, u8, "SCALAR");
     CHECK(only_part(load_glb(builder)).triangles == std::vector<Triangle>{{3, 2, 1}});
     primitive["indices"] = builder.accessor(std::vector<std::uint32_t>{1, 3, 2}, u32, "SCALAR");
@@ -79,7 +78,7 @@ TEST_CASE("triangle strips are read with consistent winding") {
 
 TEST_CASE("degenerate triangles of a strip are left out and do not change the winding") {
     GltfBuilder builder = square_gltf();
-    Json& primitive = builder.json["meshes"][0]["primitives"][0];
+    Json& primitive = builder.primitive();
     primitive["mode"] = 5;
     primitive["indices"] = builder.accessor(std::vector<std::uint16_t>{0, 1, 2, 2, 2, 1, 3}, u16, "SCALAR");
     const Asset asset = load_glb(builder);
@@ -180,10 +179,7 @@ TEST_CASE("sparse accessors replace elements of a buffer view or of zeros") {
 
 TEST_CASE("faces with a non-finite position are removed and counted, the position is replaced") {
     GltfBuilder builder;
-    const auto positions = builder.accessor(
-        std::vector<Vec3f>{{7, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, not_a_number, 0}}, f32, "VEC3");
-    const auto indices = builder.accessor(square_corners, u16, "SCALAR");
-    builder.mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+    builder.triangles({{7, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, not_a_number, 0}}, square_corners);
     const Asset asset = load_glb(builder);
     CHECK(only_part(asset).triangles == std::vector<Triangle>{{0, 1, 2}});
     CHECK(only_part(asset).face_material.size() == 1);
@@ -206,38 +202,13 @@ TEST_CASE("non-finite normals, texture coordinates and colours are reset and cou
     CHECK(colors.parts[0].colors[1] == Vec4f{1, 1, 1, 1});
 }
 
-TEST_CASE("unsupported attributes are named in a warning") {
-    const Asset asset = with_attribute("COLOR_1", std::vector<Vec4f>(4, {1, 1, 1, 1}), f32, "VEC4");
-    CHECK(any_contains(asset.warnings, "/meshes/0: the attribute COLOR_1 was left out"));
-}
-
-TEST_CASE("joints, weights and morph targets are read") {
-    GltfBuilder builder = square_gltf();
-    using Four = std::array<std::uint8_t, 4>;
-    Json& primitive = builder.json["meshes"][0]["primitives"][0];
-    primitive["attributes"]["JOINTS_0"] =
-        builder.accessor(std::vector<Four>(4, Four{3, 0, 0, 0}), u8, "VEC4");
-    primitive["attributes"]["WEIGHTS_0"] =
-        builder.accessor(std::vector<Vec4f>(4, Vec4f{1, 0, 0, 0}), f32, "VEC4");
-    primitive["targets"] =
-        Json::array({{{"POSITION", builder.accessor(std::vector<Vec3f>(4, Vec3f{0, 0, 2}), f32, "VEC3")}}});
-    const Asset asset = load_glb(builder);
-    const Part& part = only_part(asset);
-    CHECK(part.joints[2] == std::array<std::uint16_t, 4>{3, 0, 0, 0});
-    CHECK(part.weights[2] == Vec4f{1, 0, 0, 0});
-    REQUIRE(part.morph_targets.size() == 1);
-    CHECK(part.morph_targets[0].positions[3] == Vec3f{0, 0, 2});
-    CHECK(part.morph_targets[0].normals.empty());
-}
-
 TEST_CASE("of several sets of joints the four heaviest stay, with the sum 1, and the rest is reported") {
     // Vertex 0 has six joints; in vertex 1 joint 7 is in both sets; of vertex 2 two of four equal ones stay beside two
     // heavier ones; vertex 3 has no weights.
     using Four = std::array<std::uint8_t, 4>;
     GltfBuilder builder = square_gltf();
-    Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
     const auto add = [&](const char* name, const auto& values, int type) {
-        attributes[name] = builder.accessor(values, type, "VEC4");
+        builder.attribute(name, values, type, "VEC4");
     };
     add("JOINTS_0", std::vector<Four>{{0, 1, 2, 3}, {7, 1, 0, 0}, {9, 8, 7, 6}, {1, 2, 3, 4}}, u8);
     add("JOINTS_1", std::vector<Four>{{4, 5, 0, 0}, {7, 2, 0, 0}, {5, 4, 0, 0}, {5, 6, 7, 8}}, u8);
@@ -394,7 +365,7 @@ TEST_CASE("data URIs of any media type are decoded") {
 
 TEST_CASE("meshes of points and lines are parts without triangles") {
     GltfBuilder builder = square_gltf();
-    builder.json["meshes"][0]["primitives"][0]["mode"] = 0;
+    builder.primitive()["mode"] = 0;
     const Asset asset = load_glb(builder);
     CHECK(only_part(asset).triangles.empty());
     CHECK(asset.warnings.empty());

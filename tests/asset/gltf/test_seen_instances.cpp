@@ -31,25 +31,11 @@ GltfBuilder growing_square(const std::vector<Vec3f>& scales, const std::string& 
 // scales by 7.
 GltfBuilder skinned_square() {
     GltfBuilder builder = square_gltf();
-    const std::vector<std::uint8_t> joints = {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
-    std::vector<float> weights;
-    for (int v = 0; v < 4; ++v) weights.insert(weights.end(), {0.75f, 0.25f, 0, 0});
-    Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
-    const auto add = [&](const auto& values, int type) {
-        const auto view = builder.view(values);
-        return builder.add("accessors",
-                           {{"bufferView", view}, {"componentType", type}, {"type", "VEC4"}, {"count", 4}});
-    };
-    attributes["JOINTS_0"] = add(joints, u8);
-    attributes["WEIGHTS_0"] = add(weights, f32);
-    std::vector<float> matrices(32, 0);
-    for (const std::size_t j : {0u, 16u}) {
-        for (const std::size_t k : {0u, 5u, 10u}) matrices[j + k] = 0.01f;
-        matrices[j + 15] = 1;
-    }
-    const auto view = builder.view(matrices);
-    const auto inverse = builder.add(
-        "accessors", {{"bufferView", view}, {"componentType", f32}, {"type", "MAT4"}, {"count", 2}});
+    builder.attribute("JOINTS_0", std::vector<std::array<std::uint8_t, 4>>(4, {0, 1, 0, 0}), u8, "VEC4");
+    builder.attribute("WEIGHTS_0", std::vector<Vec4f>(4, {0.75f, 0.25f, 0, 0}), f32, "VEC4");
+    const float c = 0.01f;
+    const std::array<float, 16> matrix = {c, 0, 0, 0, 0, c, 0, 0, 0, 0, c, 0, 0, 0, 0, 1};
+    const auto inverse = builder.accessor(std::vector{matrix, matrix}, f32, "MAT4");
     builder.add("skins", {{"joints", {1, 2}}, {"inverseBindMatrices", inverse}});
     builder.json["nodes"][0]["skin"] = 0;
     builder.json["nodes"][0]["scale"] = {7, 7, 7};
@@ -98,7 +84,7 @@ TEST_CASE("a skin without matrices or weights that are in the scene is seen at i
     GltfBuilder builder = skinned_square();
     builder.json["skins"][0].erase("inverseBindMatrices");
     CHECK(scale_of(seen_instances(load_glb(builder))[0], 0) == Approx(std::sqrt(3.0)));
-    Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
+    Json& attributes = builder.primitive()["attributes"];
     attributes.erase("JOINTS_0");
     attributes.erase("WEIGHTS_0");
     CHECK(scale_of(seen_instances(load_glb(builder))[0], 0) == 7);

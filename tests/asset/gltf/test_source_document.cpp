@@ -8,16 +8,13 @@ using namespace faqem::testing;
 TEST_CASE("motion is as exact as the integers of the file, and exact for floats") {
     GltfBuilder builder = square_gltf();
     const auto add = [&](const auto& values, int type, const char* kind, bool normalized) {
-        const auto view = builder.view(values);
-        return builder.add("accessors", {{"bufferView", view},
-                                         {"componentType", type},
-                                         {"type", kind},
-                                         {"count", 4},
-                                         {"normalized", normalized}});
+        const auto accessor = builder.accessor(values, type, kind);
+        builder.json["accessors"][accessor]["normalized"] = normalized;
+        return accessor;
     };
-    const std::vector<std::uint8_t> bytes(16, 1);
-    const std::vector<std::int16_t> shorts(16, 1);
-    Json& primitive = builder.json["meshes"][0]["primitives"][0];
+    const std::vector<std::array<std::uint8_t, 4>> bytes(4, {1, 1, 1, 1});
+    const std::vector<std::array<std::int16_t, 4>> shorts(4, {1, 1, 1, 1});
+    Json& primitive = builder.primitive();
     primitive["attributes"]["JOINTS_0"] = add(bytes, u8, "VEC4", false);
     primitive["attributes"]["WEIGHTS_0"] = add(bytes, u8, "VEC4", true);
     primitive["targets"] = {{{"POSITION", add(shorts, i16, "VEC3", true)}},

@@ -16,7 +16,7 @@ GltfBuilder textured_square() {
     GltfBuilder builder = square_gltf();
     add_texture(builder, 10);
     builder.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
-    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    builder.primitive()["material"] = 0;
     return builder;
 }
 
@@ -28,7 +28,7 @@ TEST_CASE("a document whose materials and images are all in use has no unused ob
     CHECK(unused_objects(builder.json).empty());
     for (std::uint8_t shade = 20; shade < 80; shade += 10) add_texture(builder, shade);
     for (int m = 1; m < 4; ++m) builder.add("materials", {{"normalTexture", {{"index", m}}}});
-    Json& primitive = builder.json["meshes"][0]["primitives"][0];
+    Json& primitive = builder.primitive();
     primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}}};
     builder.json["materials"][0]["extensions"]["MSFT_lod"]["ids"] = {2};
     builder.json["materials"][2]["extensions"]["MSFT_lod"]["ids"] = {3, 0};
@@ -65,7 +65,7 @@ TEST_CASE("what VRM and VRMC extensions name by number keeps its number, also if
     for (int m : {3, 1, 2})
         builder.add("materials", {{"name", std::to_string(m)},
                                   {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", m}}}}}});
-    builder.json["meshes"][0]["primitives"][0]["material"] = 1;
+    builder.primitive()["material"] = 1;
     builder.json["extensions"][name] = {{"meta", {{"texture", 0}}}, {"materials", {2, 1}}};
     builder.json["extensionsUsed"] = {name};
     CHECK(unused_objects(builder.json).empty());
@@ -74,8 +74,7 @@ TEST_CASE("what VRM and VRMC extensions name by number keeps its number, also if
     const auto check = [&](const WrittenGltf& written) {
         CHECK(written.warnings.empty());
         REQUIRE(written.json["textures"].size() >= 4);
-        for (std::size_t t = 0; t < 4; ++t)
-            CHECK(written.json["textures"][t] == builder.json["textures"][t]);
+        for (std::size_t t = 0; t < 4; ++t) CHECK(written.json["textures"][t] == builder.json["textures"][t]);
         CHECK(written.json["extensions"] == builder.json["extensions"]);
         REQUIRE(written.json["materials"].size() >= 3);
         for (std::size_t m = 0; m < 3; ++m)
@@ -105,7 +104,7 @@ TEST_CASE("a warning tells that an extension which names meshes by number may be
     GltfBuilder builder = square_gltf();
     builder.json["extensions"]["VRM"]["mesh"] = 1;
     builder.json["extensionsUsed"] = {"VRM"};
-    builder.mesh(builder.json["meshes"][0]["primitives"][0]);
+    builder.mesh(builder.primitive());
     Asset asset = load_glb(builder);
     CHECK(write_gltf_of(asset).warnings.empty());
     asset.parts[0].triangles.clear();

@@ -65,15 +65,20 @@ def triangles(runs):
 @row("points and lines")
 def points(runs):
     glb = gltf_grid(RED)
+    glb.add("materials", {"name": "unused"})
     attributes = {"POSITION": glb.accessor([(0, 0, 1), (1, 0, 1)])}
-    glb.json["meshes"][0]["primitives"] += [{"attributes": attributes, "mode": mode, "material": 0} for mode in (0, 1)]
+    glb.json["meshes"][0]["primitives"] += [
+        {"attributes": attributes, "mode": mode, "material": glb.add("materials", {"name": "ink"}), "extras": "line",
+         "indices": glb.accessor([1, 0], "I")} for mode in (0, 1)]
     write(runs, glb)
     expect_no_warning(runs)
     for gltf in three(runs):
         modes = [p["mode"] for p in gltf.primitives() if p.get("mode", 4) < 4]
         expect(modes == [0, 1], "kept")
-        expect(all(gltf.accessor(p["attributes"]["POSITION"])[1] == (1, 0, 1) for p in gltf.primitives()[-2:]),
-               "their vertices")
+        for line in gltf.primitives()[-2:]:
+            expect(gltf.accessor(line["attributes"]["POSITION"])[1] == (1, 0, 1), "their vertices")
+            expect(gltf.accessor(line["indices"]) == [(1,), (0,)], "their indices")
+            expect(gltf.json["materials"][line["material"]]["name"] == "ink" and line["extras"] == "line", "the others")
 
 
 @row("`NORMAL`, `TANGENT`")
@@ -116,12 +121,14 @@ def skin(runs):
     glb = textured(PATTERN, JOINTS_0=([(0, 1, 0, 0)] * VERTICES, "B"), WEIGHTS_0=([(0.75, 0.25, 0, 0)] * VERTICES, "f"))
     glb.json["nodes"] += [{"children": [2]}, {"translation": [0, 0, 0]}]
     glb.json["nodes"][0]["skin"] = 0
-    glb.add("skins", {"joints": [1, 2]})
+    matrices = [(1.0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 8, 7, 1) for x in (9, 6)]
+    glb.add("skins", {"joints": [1, 2], "inverseBindMatrices": glb.accessor(matrices)})
     glb.json["scenes"][0]["nodes"].append(1)
     write(runs, glb)
     expect_no_warning(runs)
     for gltf in three(runs):
-        expect(gltf.json["skins"] == [{"joints": [1, 2]}], "the skin")
+        skin, = gltf.json["skins"]
+        expect(skin["joints"] == [1, 2] and gltf.accessor(skin["inverseBindMatrices"]) == matrices, "the skin")
         weights = gltf.attribute("WEIGHTS_0")
         expect(all(abs(w[0] / sum(w) - 0.75) < 0.01 for w in weights), "the weights")
     # Joints 0, 1 and 1 in the first set, 1 and 0 in the second one: joint 1 has three quarters.
@@ -311,10 +318,12 @@ def unused(runs):
     glb = textured(PATTERN)
     glb.add("materials", {"name": "unused"})
     glb.texture(png((1, 2, 3, 255)))
+    glb.accessor([1.0] * 1000)
     glb.add("meshes", dict(glb.json["meshes"][0], name="hidden"))
     write(runs, glb)
     expect_no_warning(runs)
     for gltf in three(runs):
+        expect(all(a["count"] < 1000 for a in gltf.list("accessors")), "accessors are not written")
         expect(len(gltf.list("materials")) == len(gltf.list("images")) == len(gltf.list("textures")) == 1,
                "not written")
         expect(gltf.warns("1 material and 1 image that no mesh uses: left out"), "a warning counts them")

@@ -21,14 +21,19 @@ def scene(runs):
     glb.add("cameras", {"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}})
     glb.json["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 5}]},
                               "KHR_xmp_json_ld": {"packets": [{"dc:title": "t"}]}}
-    glb.json["asset"].update(copyright="c", extras={"x": 1})
-    glb.json["scenes"].append({"name": "empty"})
-    write(runs, glb, ["KHR_lights_punctual", "KHR_xmp_json_ld"])
+    glb.json["asset"].update(copyright="c", extras={"x": 1234567890123456789}, generator="someone")
+    glb.json["scenes"].append({"name": "empty", "extras": 7})
+    glb.json["meshes"][0]["extras"] = {"kept": True}
+    write(runs, glb, ["KHR_lights_punctual", "KHR_xmp_json_ld", "KHR_materials_sheen"])
     expect_no_warning(runs)
     for gltf in three(runs):
         for key in ("nodes", "scenes", "cameras", "extensions"):
             expect(gltf.json[key] == glb.json[key], f"the same {key}")
-        expect(gltf.json["asset"]["copyright"] == "c" and gltf.json["asset"]["extras"] == {"x": 1}, "the copyright")
+        expect(gltf.json["extensionsUsed"] == ["KHR_lights_punctual", "KHR_xmp_json_ld"], "extensions in use")
+        expect(gltf.json["meshes"][0]["extras"] == {"kept": True}, "the extras of the mesh")
+        asset = gltf.json["asset"]
+        expect(asset["copyright"] == "c" and asset["extras"] == {"x": 1234567890123456789}, "the copyright")
+        expect(asset["generator"].startswith("faqem "), "the generator")
 
 
 @row("`animations`")
@@ -36,7 +41,11 @@ def animations(runs):
     glb = textured(PATTERN)
     primitive_of(glb)["targets"] = [{"POSITION": glb.accessor([(0, 0, p[0]) for p in grid()[0]])}]
     times = glb.accessor([0.0, 1.0])
-    samplers = [{"input": times, "output": glb.accessor([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]), "interpolation": "STEP"},
+    moves = glb.accessor([(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)])
+    glb.json["accessors"][moves]["sparse"] = {
+        "count": 1, "indices": {"bufferView": glb.view(b"\1\0\0\0"), "componentType": 5121},
+        "values": {"bufferView": glb.view(bytes.fromhex("0000803f0000000000000000"))}}
+    samplers = [{"input": times, "output": moves, "interpolation": "STEP"},
                 {"input": times, "output": glb.accessor([0.0, 1.0])}]
     channels = [{"sampler": i, "target": {"node": 0, "path": path}}
                 for i, path in enumerate(("translation", "weights"))]
@@ -46,7 +55,9 @@ def animations(runs):
     for gltf in three(runs):
         animation, = gltf.json["animations"]
         expect(animation["channels"] == channels and animation["name"] == "move", "the channels")
-        expect(gltf.accessor(animation["samplers"][0]["output"]) == [(0, 0, 0), (1, 0, 0)], "the values")
+        expect(gltf.accessor(animation["samplers"][0]["output"]) == [(0, 0, 0), (1, 0, 0)], "the values, also sparse ones")
+        expect(animation["samplers"][0]["interpolation"] == "STEP", "the interpolation")
+        expect(gltf.json["accessors"][animation["samplers"][0]["input"]]["min"] == [0], "the least time")
     done = runs.run("lod", "a.glb", "levels.glb", "--levels", "0.5,0.25", "--force", "--quiet")
     expect(done.returncode == 0, done.stderr.decode())
     levels = type(gltf)(runs.read("levels.glb"), {"warnings": []})
