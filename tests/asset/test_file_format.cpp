@@ -168,7 +168,8 @@ TEST_CASE("formats: messages about unknown extensions list the known ones") {
         CHECK(contains(read, std::string(format.extension)));
         CHECK(contains(written, std::string(format.extension)) == (format.encode != nullptr));
     }
-    CHECK(detail::listed_extensions(FormatUse::read, "and") == ".glb, .gltf, .vrm, .obj, .ply, .stl and .off");
+    CHECK(detail::listed_extensions(FormatUse::read, "and") ==
+          ".glb, .gltf, .vrm, .obj, .ply, .stl and .off");
 }
 
 TEST_CASE("formats: a model is encoded as the files that save() writes, with the bytes of its images") {

@@ -24,7 +24,8 @@ Image checkers() {
         for (std::uint32_t x = 0; x < pixels.width; ++x) {
             const std::uint32_t i = x / 8, j = y / 8;
             const bool dark = (i + j) % 2 == 0;
-            for (const std::uint32_t c : {dark ? 40 + 20 * i : 220u, dark ? 40 + 20 * j : 220u, dark ? 90u : 200u, 255u})
+            for (const std::uint32_t c :
+                 {dark ? 40 + 20 * i : 220u, dark ? 40 + 20 * j : 220u, dark ? 90u : 200u, 255u})
                 pixels.rgba.push_back(static_cast<std::uint8_t>(c));
         }
     }
@@ -39,7 +40,8 @@ Part cube_with_seams(Index n) {
     for (int axis = 0; axis < 3; ++axis) {
         for (const double side : {0.0, 1.0}) {
             const auto first = static_cast<Index>(part.positions.size());
-            const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
+            const auto u = static_cast<std::size_t>((axis + 1) % 3),
+                       v = static_cast<std::size_t>((axis + 2) % 3);
             for (Index j = 0; j <= n; ++j) {
                 for (Index i = 0; i <= n; ++i) {
                     Vec3 p = {side, side, side};
@@ -56,8 +58,10 @@ Part cube_with_seams(Index n) {
                 for (Index i = 0; i < n; ++i) {
                     const Index a = first + j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
                     const auto add = [&](Index x, Index y, Index z) {
-                        if (side > 0) part.triangles.push_back({x, y, z});
-                        else part.triangles.push_back({x, z, y});
+                        if (side > 0)
+                            part.triangles.push_back({x, y, z});
+                        else
+                            part.triangles.push_back({x, z, y});
                     };
                     add(a, b, d);
                     add(a, d, c);
@@ -74,7 +78,8 @@ Part nonmanifold_fan(Index pages) {
     part.positions = {{0, 0, 0}, {0, 0, 1}};
     for (Index k = 0; k < pages; ++k) {
         const double angle = 6.283185307179586 * k / pages;
-        part.positions.push_back({std::round(1e6 * std::cos(angle)) / 1e6, std::round(1e6 * std::sin(angle)) / 1e6, 0.5});
+        part.positions.push_back(
+            {std::round(1e6 * std::cos(angle)) / 1e6, std::round(1e6 * std::sin(angle)) / 1e6, 0.5});
         part.triangles.push_back({0, 1, k + 2});
     }
     return part;

@@ -304,10 +304,9 @@ TEST_CASE("readers of a half replaced set exit with 3, and the next run in its f
     fs::rename(folder / "out/a.gltf", folder / "out" / entries[1].temporary_name());
     write(folder / "out/a.gltf", "old");
     write(folder / "out" / faqem::detail::journal_name, faqem::detail::journal_text(entries));
-    for (const char* command :
-         {"info out/a.gltf", "compare out/a.gltf in.glb", "render out/a.gltf a.png",
-          "report in.glb out/a.gltf -o a.html", "simplify out/a.gltf b.glb", "lod out/a.gltf levels",
-          "truncate out/a.history b.glb --faces 4"}) {
+    for (const char* command : {"info out/a.gltf", "compare out/a.gltf in.glb", "render out/a.gltf a.png",
+                                "report in.glb out/a.gltf -o a.html", "simplify out/a.gltf b.glb",
+                                "lod out/a.gltf levels", "truncate out/a.history b.glb --faces 4"}) {
         CAPTURE(command);
         const Outcome outcome = run(folder, command);
         CAPTURE(outcome.err);

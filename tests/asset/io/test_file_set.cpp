@@ -104,9 +104,13 @@ TEST_CASE("a name that occurs twice in a set is an error", "[file_set]") {
     fs::create_symlink("a", folder / "link");
     FileSet set;
     add_texts(set, folder, {{"a", "1"}});
-    CHECK(contains(message_of<WriteError>([&] { add_texts(set, folder, {{"a", "2"}}); }),
+    CHECK(contains(message_of<WriteError>([&] {
+                       add_texts(set, folder, {{"a", "2"}});
+                   }),
                    "name of two files"));
-    CHECK(contains(message_of<WriteError>([&] { add_texts(set, folder, {{"link", "2"}}); }),
+    CHECK(contains(message_of<WriteError>([&] {
+                       add_texts(set, folder, {{"link", "2"}});
+                   }),
                    "name of two files"));
 }
 

@@ -31,8 +31,9 @@ TEST_CASE("leftovers without a lock are removed, other files are kept", "[tempor
     const TemporaryFolder folder;
     put(folder / leftover, "left");
     const std::set<std::string> others = {
-        ".faqem-0123456789abcdef0123456.tmp", ".faqem-0123456789abcdef01234567.tmp2",
-        ".faqem-0123456789ABCDEF01234567.tmp", ".faqem-batch.jsonl", "0123456789abcdef01234567.tmp", "a.glb"};
+        ".faqem-0123456789abcdef0123456.tmp",  ".faqem-0123456789abcdef01234567.tmp2",
+        ".faqem-0123456789ABCDEF01234567.tmp", ".faqem-batch.jsonl",
+        "0123456789abcdef01234567.tmp",        "a.glb"};
     for (const std::string& name : others) put(folder / name, "kept");
     remove_leftovers(folder.path());
     CHECK(file_names(folder) == others);

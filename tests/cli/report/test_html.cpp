@@ -2,7 +2,6 @@
 
 #include "support/catch.hpp"
 
-
 using namespace faqem::cli;
 
 TEST_CASE("escape_html escapes the special characters of HTML") {

@@ -26,9 +26,9 @@ std::set<std::string> names_in(const Folder& folder) {
 /// As run(), but the shell executes `before` first.
 Outcome run_after(const Folder& folder, const std::string& before, const std::string& arguments) {
     const Folder streams;
-    const std::string command = "cd '" + folder.path().string() + "' && " + before +
-                                " && exec '" + tool_path + "' " + arguments + " 2>'" +
-                                (streams / "err").string() + "' >/dev/null";
+    const std::string command = "cd '" + folder.path().string() + "' && " + before + " && exec '" +
+                                tool_path + "' " + arguments + " 2>'" + (streams / "err").string() +
+                                "' >/dev/null";
     const int status = std::system(("sh -c \"" + command + "\"").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read(streams / "err")};
 }
