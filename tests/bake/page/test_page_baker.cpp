@@ -10,9 +10,9 @@ using namespace faqem::test;
 namespace {
 
 // A sphere with a smooth ramp as texture, projected along z: u and v are linear in x and y.
-Asset painted_ball() {
+Asset painted_ball(int level = 3) {
     Asset asset = textured_square(ramp(64));
-    const TriangleMesh ball = icosphere(3);
+    const TriangleMesh ball = icosphere(level);
     Part part;
     part.positions = ball.positions;
     part.triangles = ball.triangles;
@@ -196,24 +196,29 @@ TEST_CASE("colours do not bleed across creases into a strip one texel wide") {
                       decode(simplified.asset.images.at(0))) < 4);
 }
 
-TEST_CASE("automatic uses charts unless they have too few faces") {
-    Asset source = painted_ball();
-    CHECK(bake(source, unchanged(source), of_kind(Bake::automatic, 256)).report.pages.at(0).kind ==
-          Bake::atlas);
+TEST_CASE("automatic uses charts unless very many have too few faces") {
+    Asset source = painted_ball(4);
+    const auto kind = [&] {
+        return bake(source, unchanged(source), of_kind(Bake::automatic, 256)).report.pages.at(0).kind;
+    };
+    CHECK(kind() == Bake::atlas);
+    // Each face has corners of its own.
     Part& part = source.parts[0];
-    Part apart = part;
-    apart.positions.clear();
-    apart.uvs[0].clear();
-    for (Triangle& t : apart.triangles) {
+    const Part joined = part;
+    part.positions.clear();
+    part.uvs[0].clear();
+    for (Triangle& t : part.triangles) {
         for (Index& v : t) {
-            apart.positions.push_back(part.positions[v]);
-            apart.uvs[0].push_back(part.uvs[0][v]);
-            v = static_cast<Index>(apart.positions.size() - 1);
+            part.positions.push_back(joined.positions[v]);
+            part.uvs[0].push_back(joined.uvs[0][v]);
+            v = static_cast<Index>(part.positions.size() - 1);
         }
     }
-    part = apart;
-    CHECK(bake(source, unchanged(source), of_kind(Bake::automatic, 256)).report.pages.at(0).kind ==
-          Bake::per_triangle);
+    REQUIRE(part.triangles.size() == 5120);
+    CHECK(kind() == Bake::per_triangle);
+    part.triangles.resize(4000);
+    part.face_material.resize(4000);
+    CHECK(kind() == Bake::atlas);
 }
 
 TEST_CASE("a page of charts does not depend on the number of threads") {
