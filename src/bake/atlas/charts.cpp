@@ -27,7 +27,11 @@ double bounding_box_diagonal(const Chart& chart) {
     return length(box.high - box.low);
 }
 
-bool is_acceptable(const Parametrization& parametrization, double max_diagonal) {
+// \param page_side  of a square with the texels of all faces
+bool is_acceptable(const Parametrization& parametrization, std::span<const PageTriangle> all,
+                   double page_side) {
+    // The chart of all faces may fill a page, which is square or half as high as wide.
+    const double max_diagonal = (parametrization.chart.faces.size() == all.size() ? 1.6 : 0.9) * page_side;
     return parametrization.outcome == Parametrization::Outcome::valid &&
            parametrization.chart.stretch <= max_stretch &&
            bounding_box_diagonal(parametrization.chart) <= max_diagonal;
@@ -35,7 +39,7 @@ bool is_acceptable(const Parametrization& parametrization, double max_diagonal) 
 
 // Divides one region into charts.
 Charts parametrize_region(std::span<const PageTriangle> all, const std::vector<Index>& region,
-                          double max_diagonal, const RunContext& context) {
+                          double page_side, const RunContext& context) {
     Charts result;
     std::uint64_t work = work_per_region * parametrization_work_per_face * region.size();
     std::vector<std::vector<Index>> waiting = {region};
@@ -49,7 +53,7 @@ Charts parametrize_region(std::span<const PageTriangle> all, const std::vector<I
             continue;
         }
         Parametrization parametrization = parametrize(all, faces, work);
-        if (faces.size() == 1 || is_acceptable(parametrization, max_diagonal)) {
+        if (faces.size() == 1 || is_acceptable(parametrization, all, page_side)) {
             result.charts.push_back(std::move(parametrization.chart));
             continue;
         }
@@ -73,12 +77,12 @@ Charts parametrize_region(std::span<const PageTriangle> all, const std::vector<I
 // smaller perimeter.
 class ChartMerging {
 public:
-    ChartMerging(std::span<const PageTriangle> all, std::vector<Chart> charts, double max_diagonal,
+    ChartMerging(std::span<const PageTriangle> all, std::vector<Chart> charts, double page_side,
                  const RunContext& context)
         : all_(all),
           charts_(std::move(charts)),
           chart_of_face_(all.size()),
-          max_diagonal_(max_diagonal),
+          page_side_(page_side),
           context_(context) {
         for (std::size_t i = 0; i < charts_.size(); ++i) assign_faces(static_cast<Index>(i));
         for (std::size_t i = 0; i < charts_.size(); ++i)
@@ -92,7 +96,7 @@ public:
             queue_.pop();
             if (!is_valid(merge)) continue;
             Parametrization parametrization = merged_parametrization(merge, work);
-            if (!is_acceptable(parametrization, max_diagonal_)) continue;
+            if (!is_acceptable(parametrization, all_, page_side_)) continue;
             charts_[merge.a] = charts_[merge.b] = {};
             charts_.push_back(std::move(parametrization.chart));
             assign_faces(static_cast<Index>(charts_.size() - 1));
@@ -218,7 +222,7 @@ private:
     std::vector<double> perimeters_;  // by chart
     std::priority_queue<MergeCandidate> queue_;
     std::vector<SpeculativeMerge> speculative_merges_;  // attempts made ahead of time
-    double max_diagonal_;
+    double page_side_;
     const engine::RunContext& context_;
 };
 
@@ -228,19 +232,19 @@ Charts make_charts(std::span<const PageTriangle> faces, const RunContext& contex
     const std::vector<std::vector<Index>> regions = cluster_faces(faces, context);
     double texels = 0;
     for (const PageTriangle& face : faces) texels += wanted_texels(face);
-    const double max_diagonal = 0.9 * std::sqrt(texels);
+    const double page_side = std::sqrt(texels);
     std::vector<Charts> by_region(regions.size());
     parallel_blocks(regions.size(), 1, context,
                     [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
                         for (std::size_t i = begin; i < end; ++i)
-                            by_region[i] = parametrize_region(faces, regions[i], max_diagonal, block_context);
+                            by_region[i] = parametrize_region(faces, regions[i], page_side, block_context);
                     });
     Charts result;
     for (Charts& region : by_region) {
         std::move(region.charts.begin(), region.charts.end(), std::back_inserter(result.charts));
         result.faces_over_work_limit += region.faces_over_work_limit;
     }
-    result.charts = ChartMerging(faces, std::move(result.charts), max_diagonal, context).run();
+    result.charts = ChartMerging(faces, std::move(result.charts), page_side, context).run();
     std::sort(result.charts.begin(), result.charts.end(),
               [](const Chart& a, const Chart& b) { return a.faces.front() < b.faces.front(); });
     return result;

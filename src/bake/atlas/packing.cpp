@@ -355,10 +355,11 @@ std::map<double, std::optional<ChartPacking>> attempt_all(const std::vector<doub
 std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t faces, std::uint32_t max_size,
                                      const RunContext& context) {
     std::vector<OrientedChart> shapes;
-    double area = 0;
+    double area = 0, height_of_charts = 0;
     for (const Chart& chart : charts) {
         shapes.push_back(orient(chart));
         area += shapes.back().area;
+        height_of_charts = std::max(height_of_charts, shapes.back().height);
     }
     std::uint32_t width = 4, height = 4;
     std::optional<ChartPacking> best;
@@ -371,7 +372,8 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     for (;; width *= 2) {
         for (const std::uint32_t h : {width / 2, width}) {
             height = h;
-            if (area <= double(width) * height && fits(1)) break;
+            const bool has_room = height_of_charts <= height || height == max_size;
+            if (has_room && area <= double(width) * height && fits(1)) break;
         }
         if (best || width == max_size) break;
     }

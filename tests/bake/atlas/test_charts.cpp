@@ -3,6 +3,7 @@
 #include <random>
 #include <set>
 
+#include "bake/atlas/packing.hpp"
 #include "bake/atlas/parametrization.hpp"
 #include "bake/atlas/segmentation.hpp"
 #include "bake/atlas/triangle_overlap.hpp"
@@ -76,6 +77,16 @@ TEST_CASE("the sides of a cube are at most six charts without distortion") {
     const Charts sides = make_charts(creased, 1);
     check_charts(creased, sides);
     CHECK(sides.charts.size() == 6);
+}
+
+TEST_CASE("a flat square that fills the page is one chart, on a square page") {
+    const Index n = GENERATE(1, 5);
+    const auto faces = test::chart_faces(test::grid(n), 181.0 / n);
+    const Charts charts = make_charts(faces, 1);
+    CHECK(charts.charts.size() == 1);
+    const std::optional<ChartPage> page = pack_charts(charts.charts, faces.size(), 1024, 1);
+    REQUIRE(page);
+    CHECK(page->atlas.width == page->atlas.height);
 }
 
 TEST_CASE("a cylinder is unrolled without distortion") {

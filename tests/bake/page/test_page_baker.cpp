@@ -96,7 +96,7 @@ TEST_CASE("a texel whose first two samples differ is the mean of all four in lin
     }));
     source.materials[0].base_color_texture.filter = Filter::nearest;
     Options options = of_kind(Bake::atlas, 128);
-    options.bake.texel_density = 1.7;
+    options.bake.texel_density = 1.6;
     const SimplifiedAsset baked = bake(source, unchanged(source), options);
     const Pixels page = decode(baked.asset.images.at(0));
     const Part &before = source.parts[0], &after = baked.asset.parts[0];
