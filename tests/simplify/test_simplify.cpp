@@ -245,6 +245,10 @@ TEST_CASE("a mesh with all vertices locked is returned unchanged with the reason
     CHECK(same_bits(result.mesh, mesh));
     CHECK(result.report.stop == StopReason::no_legal_collapse);
     CHECK(refused(result.report, Refusal::locked) >= 120);
+    CHECK(result.report.warnings ==
+          std::vector<std::string>{
+              "the target of 8 faces was not reached: all collapses that are left are refused, "
+              "most of them as 'locked'"});
     CHECK(result.report.collapses == 0);
 }
 

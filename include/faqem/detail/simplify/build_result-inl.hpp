@@ -4,6 +4,7 @@
 #include "faqem/detail/simplify/build_result.hpp"
 #include "faqem/export.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -156,6 +157,14 @@ FAQEM_INLINE void finish_report(const Options& options, const Settings& settings
     if (report.components_deleted > 0) {
         report.warnings.push_back(std::to_string(report.components_deleted) +
                                   " small components were deleted to reach the target");
+    }
+    if (report.stop == StopReason::no_legal_collapse && !options.max_error) {
+        const auto most = std::max_element(report.refusals.begin(), report.refusals.end());
+        const auto refusal = static_cast<Refusal>(most - report.refusals.begin());
+        report.warnings.push_back(
+            "the target of " + std::to_string(report.target_faces) +
+            " faces was not reached: all collapses that are left are refused, most of them as '" +
+            std::string(name(refusal)) + "'");
     }
     if (report.faces_out == 0 && report.faces_in > 0 && report.stop != StopReason::cancelled)
         report.warnings.push_back("the result is empty: all remaining faces are degenerate");
