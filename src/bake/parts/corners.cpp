@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+#include <utility>
 
 #include "asset/scene/part_arrays.hpp"
 
@@ -34,21 +36,59 @@ int compare(const CornerValues& corners, std::uint64_t a, std::uint64_t b) {
     return result;
 }
 
-// By corner: the first corner of its vertex that agrees with it in all values.
+// Numbers the fans of faces at a vertex, by corner, if all are closed: every edge there has two faces of opposite
+// direction. Otherwise all corners have the same number.
+std::vector<std::size_t> closed_fans(const TriangleMesh& mesh, std::span<const std::uint64_t> corners) {
+    const std::size_t count = corners.size();
+    const std::vector<std::size_t> one_fan(count, 0);
+    constexpr std::size_t min_faces = 3;  // of a closed fan
+    if (count < 2 * min_faces) return one_fan;
+    const auto other_vertex = [&](std::size_t i, std::size_t step) {
+        return mesh.triangles[corners[i] / 3][(corners[i] % 3 + step) % 3];
+    };
+    std::vector<std::pair<Index, std::size_t>> by_first(count);  // the face that begins with a vertex
+    for (std::size_t i = 0; i < count; ++i) by_first[i] = {other_vertex(i, 1), i};
+    std::sort(by_first.begin(), by_first.end());
+    std::vector<std::size_t> next(count), fans(count, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Index last = other_vertex(i, 2);
+        const auto found =
+            std::lower_bound(by_first.begin(), by_first.end(), std::pair(last, std::size_t{0}));
+        if (found == by_first.end() || found->first != last) return one_fan;
+        next[i] = found->second;
+    }
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (fans[i] != count) continue;
+        std::size_t at = i;
+        for (; fans[at] == count; at = next[at]) fans[at] = number;
+        if (at != i) return one_fan;
+        ++number;
+    }
+    return fans;
+}
+
+// By corner: the first corner of its vertex and fan that agrees with it in all values.
 std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const CornerValues& values) {
     const VertexCorners at = vertex_corners(mesh);
     std::vector<std::uint64_t> result(3 * mesh.triangles.size());
-    std::vector<std::uint64_t> sorted;
+    std::vector<std::size_t> sorted;  // indices into the corners of a vertex
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const auto corners = at.at(v);
-        sorted.assign(corners.begin(), corners.end());
-        std::sort(sorted.begin(), sorted.end(), [&](std::uint64_t a, std::uint64_t b) {
-            const int c = compare(values, a, b);
+        const std::vector<std::size_t> fans = closed_fans(mesh, corners);
+        const auto differ = [&](std::size_t a, std::size_t b) {
+            if (fans[a] != fans[b]) return fans[a] < fans[b] ? -1 : 1;
+            return compare(values, corners[a], corners[b]);
+        };
+        sorted.resize(corners.size());
+        std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+        std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
+            const int c = differ(a, b);
             return c ? c < 0 : a < b;
         });
         for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
-            if (compare(values, sorted[first], sorted[i]) != 0) first = i;
-            result[sorted[i]] = sorted[first];
+            if (differ(sorted[first], sorted[i]) != 0) first = i;
+            result[corners[sorted[i]]] = corners[sorted[first]];
         }
     }
     return result;

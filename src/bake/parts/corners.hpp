@@ -75,8 +75,9 @@ struct WeldedPart {
     std::vector<std::uint64_t> corner;  ///< by vertex of `part`: its first corner in the simplified mesh
 };
 
-/// Makes one output vertex of all corners of a simplified vertex that agree in all values. Output vertices
-/// are in the order of their first use. Part::name and Part::source are those of the source part.
+/// Makes one output vertex of all corners of a simplified vertex that agree in all values. Where several closed fans of
+/// faces meet at a vertex, each gets its own, so that the surface is a manifold. Output vertices are in the order of their
+/// first use. Part::name and Part::source are those of the source part.
 /// Complexity: O(corners log valence).
 WeldedPart weld_corners(const BakePart& part, const CornerValues& values);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "faqem/error.hpp"
@@ -338,4 +339,20 @@ TEST_CASE("vertex colours without normals are split where those of the source ar
     const Part split = bake(asset, unchanged_welded(asset), options).asset.parts[0];
     CHECK(split.positions.size() == 12);
     for (const Vec4f& color : split.colors) CHECK((color[0] == 0 || color[0] == 1));
+}
+
+TEST_CASE("each of several closed fans of faces at a vertex gets a vertex of its own, open ones share it") {
+    Options options = of_kind(Bake::none);
+    options.bake.normals = Normals::none;
+    // Two tetrahedra that touch at vertex 0.
+    Asset asset;
+    asset.parts.resize(1);
+    Part& part = asset.parts[0];
+    part.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+    part.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}};
+    const Asset apart = bake(asset, unchanged(asset), options).asset;
+    CHECK(apart.parts[0].positions.size() == 8);
+    CHECK(std::count(apart.parts[0].positions.begin(), apart.parts[0].positions.end(), Vec3{0, 0, 0}) == 2);
+    part.triangles.erase(part.triangles.begin());
+    CHECK(bake(asset, unchanged(asset), options).asset.parts[0].positions.size() == 7);
 }
