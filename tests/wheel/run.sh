@@ -55,6 +55,9 @@ types() {
     in_root "$work/build" "mkdir typed; cp faqem/tests/wheel/typed.py typed; cd typed; ../env/bin/mypy --strict typed.py"
     in_root "$work/build" "env/bin/python faqem/tests/python/run_page.py faqem/docs/python.md --print > typed/page.py"
     in_root "$work/build" "cd typed; ../env/bin/mypy --strict page.py"
+    # A wrong keyword: at most 4,500 bytes, which list all options twice, not once for each kind of argument.
+    in_root "$work/build" "cd typed; echo 'import faqem; faqem.simplify([[0.0]], [[0]], rato=1)' >wrong.py &&
+                           test \$(../env/bin/mypy wrong.py | wc -c) -le 4500"
 }
 
 # In a folder with the installed wheel, README.md, tests and try.py.

@@ -27,9 +27,11 @@ print(points.dtype, faces.dtype, collapses.remaining, mapping.dtype)
 
 small = faqem.simplify(trimesh.load_mesh("statue.glb"), faces=100, texture_size=512)
 print(small.metadata["faqem"], len(small.faces))
+scene: trimesh.Scene = faqem.simplify(trimesh.Scene(), faces=100)
 
 model = faqem.load("statue.glb")
-faqem.simplify("statue.glb", faces=1e5).to_glb()
+of_file: faqem.SimplifiedModel = faqem.simplify("statue.glb", faces=1e5)
+of_model: faqem.SimplifiedModel = faqem.simplify(model)
 faqem.simplify(vertices, triangles, ratio="10%")
 result = faqem.simplify(model, faces=20_000, texture_size=2048, image_format="webp")
 faqem.save(result, "simplified.glb", overwrite=True)
@@ -41,3 +43,5 @@ print(faqem.History.load("history").truncate(100).vertices.shape, faqem.__versio
 faqem.simplify(vertices, triangles, rato=0.5)  # type: ignore[call-overload]
 faqem.simplify(vertices, triangles, preset="bes")  # type: ignore[call-overload]
 faqem.simplify(model, texture_size="large")  # type: ignore[call-overload]
+faqem.simplify(trimesh.Scene(), texture_size="large")  # type: ignore[call-overload]
+faqem.simplify(vertices)  # type: ignore[call-overload]

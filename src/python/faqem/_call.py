@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import textwrap
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from numpy.typing import ArrayLike
 
@@ -17,28 +17,25 @@ from ._trimesh import is_trimesh, simplify_trimesh
 from .errors import InputError
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack
+    from typing import Protocol, Union
+
+    from typing_extensions import TypeVar, Unpack
 
     from ._types import ModelOptions, SimplifyOptions
 
+    class _Exportable(Protocol):
+        """Trimesh and Scene of trimesh."""
 
-class _Exportable(Protocol):
-    """Trimesh and Scene of trimesh."""
+        metadata: Any
 
-    metadata: Any
+        def export(self, *arguments: Any, **options: Any) -> Any: ...
 
-    def export(self, *arguments: Any, **options: Any) -> Any: ...
-
-
-Exportable = TypeVar("Exportable", bound=_Exportable)
-
-
-@overload
-def simplify(points: Model | Path, **options: Unpack[ModelOptions]) -> SimplifiedModel: ...
+    # With a default, models and files need no overload of their own: type checkers list all options for each.
+    Result = TypeVar("Result", bound=Union[_Exportable, SimplifiedModel], default=SimplifiedModel)
 
 
 @overload
-def simplify(points: Exportable, **options: Unpack[ModelOptions]) -> Exportable: ...
+def simplify(points: Model | Path | Result, **options: Unpack[ModelOptions]) -> Result: ...
 
 
 @overload
