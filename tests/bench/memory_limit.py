@@ -7,7 +7,8 @@ For each file, limits of 500 MB, 1 GB and 2 GB are tried: the exit code, the pea
 limit, and the seconds are printed. The exit code of this script is 1 if a peak exceeds 1.2 times the limit or the
 command ends with anything but a result (0) or an error for bad input or memory (3, 4, 11). Without files, it makes
 glTF files with many numbers, accessors and meshes that are used many times, a PNG whose text expands, an image of many
-pixels, and triangles that share one edge.
+pixels, and triangles that share one edge; and malicious ones, which are refused: nested brackets, a count of 2^62, nodes
+in a circle, and images without the pixels that their headers claim.
 """
 
 import base64
@@ -66,14 +67,14 @@ def document(quads):
     }
 
 
-def png(width, height, texts=()):
-    """Returns a black grey-scale PNG with compressed texts."""
+def png(width, height, texts=(), rows=None):
+    """Returns a black grey-scale PNG with compressed texts, and only the given number of rows."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     compressor = zlib.compressobj(9)
     row = bytes(width + 1)
-    data = b"".join(compressor.compress(row) for _ in range(height)) + compressor.flush()
+    data = b"".join(compressor.compress(row) for _ in range(height if rows is None else rows)) + compressor.flush()
     header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
     text_chunks = b"".join(chunk(b"zTXt", text) for text in texts)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + text_chunks + chunk(b"IDAT", data) + chunk(b"IEND", b"")
@@ -113,8 +114,18 @@ def write_files(folder):
     text = b"Comment\0\0" + zlib.compress(bytes(1 << 30), 9)
     files["text of a PNG"] = textured(png(4, 4, [text] * 3))
     files["image of 16384 x 16384 pixels"] = textured(png(16384, 16384))
+    for side in (16384, 100_000):
+        files[f"image of {side} without pixels"] = textured(png(side, side, rows=0))
+    count = document(10)
+    count["accessors"][0]["count"] = 2**62
+    files["count of 2^62"] = count
+    circle = document(10)
+    circle["nodes"] = [{"children": [1]}, {"children": [2]}, {"children": [0], "mesh": 0}]
+    files["nodes in a circle"] = circle
     for name, content in files.items():
         (folder / (name.replace(" ", "_") + ".gltf")).write_text(json.dumps(content))
+    nested = json.dumps(document(10))[:-1] + ', "extras": ' + "[" * 20_000 + "]" * 20_000 + "}"
+    (folder / "nested_brackets.gltf").write_text(nested)
     fan = folder / "triangles_at_one_edge.obj"
     with fan.open("w") as out:
         out.write("v 0 0 0\nv 0 0 1\n")
