@@ -204,36 +204,6 @@ TEST_CASE("cancelled levels of an asset have the stop reason cancelled") {
     }
 }
 
-TEST_CASE("progress of the levels of an asset never decreases within a phase") {
-    Asset asset;
-    asset.parts = {rolling_sheet(30, 0.2, 0), rolling_sheet(30, 0.05, 2)};
-    const std::vector<std::vector<Level>> chains = {
-        {ratio(0.3)}, wanted_levels, {ratio(0.5), of_diagonal(0.1), faces(20)}};
-    for (const LevelTextures textures : {LevelTextures::each, LevelTextures::shared}) {
-        for (const std::vector<Level>& chain : chains) {
-            Options options;
-            options.bake.texture_size = 64;
-            Phase phase = Phase::simplify;
-            double last = 0;
-            bool is_called = false;
-            options.progress = [&](Phase now, double done) {
-                is_called = true;
-                CHECK(static_cast<int>(now) >= static_cast<int>(phase));
-                if (now != phase) last = 0;
-                phase = now;
-                CHECK(done >= last);
-                CHECK(done <= 1);
-                last = done;
-                return Continue::yes;
-            };
-            CHECK(simplify_levels(asset, chain, options, textures).size() == chain.size());
-            CHECK(is_called);
-            CHECK(phase == Phase::bake);
-            CHECK(last == Approx(1));
-        }
-    }
-}
-
 TEST_CASE("invalid levels of an asset are rejected") {
     Asset asset;
     asset.parts = {rolling_sheet(4, 0.2, 0)};

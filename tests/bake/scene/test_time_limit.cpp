@@ -170,20 +170,6 @@ TEST_CASE("a correspondence that cannot be completed in time is an error") {
     CHECK_THROWS_AS(bake(source, parts, options), TimeLimitError);
 }
 
-TEST_CASE("a large time limit does not change a simplified asset") {
-    const Asset source = wavy(16);
-    Options options{.target = ratio(0.2)};
-    const SimplifiedAsset without = simplify(source, options);
-    options.max_seconds = 1e8;
-    const SimplifiedAsset with = simplify(source, options);
-    CHECK(with.report.warnings == without.report.warnings);
-    CHECK(with.asset.parts[0].positions == without.asset.parts[0].positions);
-    CHECK(with.asset.parts[0].uvs == without.asset.parts[0].uvs);
-    REQUIRE(with.asset.images.size() == without.asset.images.size());
-    for (std::size_t i = 0; i < with.asset.images.size(); ++i)
-        CHECK(with.asset.images[i].encoded == without.asset.images[i].encoded);
-}
-
 TEST_CASE("a scene, its hidden surface and a search within an error end at the time limit") {
     Asset source = wavy(12);
     source.parts.push_back(source.parts[0]);
