@@ -67,47 +67,6 @@ TEST_CASE("simplify --prune measures components at the largest scale of their me
     CHECK(report_of(folder, "both.gltf out.glb --prune 0.12")["components_pruned"] == 1);
 }
 
-TEST_CASE("simplify --prune accepts only positive finite sizes") {
-    const Folder folder;
-    faqem::save(sheet_with_small_component(), folder / "in.glb");
-    for (const char* bad : {"0", "-1", "nan", "inf", "x", "%", "0%", "''"}) {
-        CAPTURE(bad);
-        CHECK(run(folder, std::string("simplify in.glb out.glb --prune=") + bad).code == 2);
-        CHECK(!fs::exists(folder / "out.glb"));
-    }
-}
-
-TEST_CASE("simplify --keep-groups preserves boundaries between materials") {
-    const Folder folder;
-    faqem::Asset asset = sheet(30, 0);
-    asset.materials.push_back(asset.materials[0]);
-    asset.materials[1].base_color = {0, 1, 0, 1};
-    // Stripes along y.
-    for (std::size_t f = 0; f < asset.parts[0].triangles.size(); ++f)
-        asset.parts[0].face_material[f] = f / 2 % 30 / 10 == 1;
-    for (const char* file : {"in.glb", "in.obj"}) {
-        CAPTURE(file);
-        faqem::save(asset, folder / file);
-        const nlohmann::json kept =
-            report_of(folder, std::string(file) + " kept.obj --ratio 0.02 --keep-groups");
-        CHECK(kept["refusals"]["group"] > 0);
-        CHECK(kept["stop_reason"] == "reached_target");
-        const faqem::Asset simplified = faqem::load(folder / "kept.obj");
-        std::size_t on_boundary = 0;
-        for (std::size_t f = 0; f < simplified.parts[0].triangles.size(); ++f) {
-            bool inside = false, outside = false;
-            for (const faqem::Index v : simplified.parts[0].triangles[f]) {
-                const double x = std::abs(simplified.parts[0].positions[v][0]);
-                inside |= x < 1.0 / 3 - 1e-5;
-                outside |= x > 1.0 / 3 + 1e-5;
-                on_boundary += std::abs(x - 1.0 / 3) <= 1e-5;
-            }
-            CHECK(!(inside && outside));
-        }
-        CHECK(on_boundary > 0);
-    }
-}
-
 TEST_CASE("a target that --keep-groups prevents exits with 5 with --strict-target") {
     const Folder folder;
     faqem::Asset asset = sheet(6, 0.2);

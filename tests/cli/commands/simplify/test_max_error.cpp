@@ -89,14 +89,9 @@ TEST_CASE("a face count that exceeds --max-error exits with 6 and writes no mode
     }
 }
 
-TEST_CASE("simplify --max-error accepts only positive finite numbers and a missed target has precedence") {
+TEST_CASE("a missed target has precedence over a missed --max-error") {
     const Folder folder;
     faqem::save(sheet(6, 0.2), folder / "in.glb");
-    for (const char* bad : {"0", "-1", "nan", "inf", "x", "%", "1e999", "0%", "1%%", "''"}) {
-        CAPTURE(bad);
-        CHECK(run(folder, std::string("simplify in.glb out.glb --max-error=") + bad).code == 2);
-        CHECK(!fs::exists(folder / "out.glb"));
-    }
     CHECK(run(folder, "simplify in.glb out.glb --faces 4 --lock-boundary --strict-target --max-error 1e-9")
               .code == 5);
     // Without a target, --strict-target has no effect.

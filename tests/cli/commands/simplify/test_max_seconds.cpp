@@ -53,17 +53,6 @@ TEST_CASE("simplify exits with 12 if there is no result that the other options a
     CHECK(run(folder, "simplify in.glb out.glb --max-bytes 1GB" + no_time).code == 0);
 }
 
-TEST_CASE("the value of --max-seconds must be positive, and lod does not have the option") {
-    const Folder folder;
-    faqem::save(sheet(4, 0.2), folder / "in.glb");
-    for (const std::string bad : {"0", "-1", "nan", "inf", "1s"}) {
-        const Outcome outcome = run(folder, "simplify in.glb out.glb --max-seconds " + bad);
-        CHECK(outcome.code == 2);
-        CHECK(outcome.err.find("--max-seconds") != std::string::npos);
-    }
-    CHECK(run(folder, "lod in.glb levels --ratios 0.5 --max-seconds 1").code == 2);
-}
-
 TEST_CASE("the time limit of batch holds for each model") {
     const Folder folder;
     fs::create_directories(folder / "in");

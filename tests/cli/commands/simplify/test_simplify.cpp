@@ -101,36 +101,6 @@ TEST_CASE("simplify --bake auto adapts to the output format and to sources witho
     CHECK_FALSE(faqem::load(folder / "coloured.ply").parts[0].colors.empty());
 }
 
-TEST_CASE("simplify accepts every documented value of its options") {
-    const Folder folder;
-    faqem::save(sheet(12), folder / "in.glb");
-    const auto accepts = [&](const std::string& arguments) {
-        CAPTURE(arguments);
-        const Outcome outcome =
-            run(folder, "simplify in.glb out.glb --force --quiet --texture-size 64 " + arguments);
-        CHECK(outcome.code == 0);
-        CHECK(outcome.out.empty());
-        CHECK(outcome.err.empty());
-    };
-    // Without images, a run takes a tenth of the time.
-    for (const std::string arguments :
-         {"--ratio 0.5", "--ratio 50%", "--preset qem", "--preset paper", "--preset stmw", "--preset fast",
-          "--preset balanced", "--preset best", "--link", "--lock-boundary", "--weld 0.001", "--threads 1",
-          "--w-area 1 --w-boundary 2 --w-normal 0.5 --w-uv 10 --w-plane-area 0"})
-        accepts(arguments + " --bake none");
-    for (const std::string arguments :
-         {"--bake vertex", "--bake keep", "--bake none", "--bake per-triangle", "--normal-map auto",
-          "--normal-map on", "--normal-map off", "--normals transfer", "--normals smooth",
-          "--normals smooth:30", "--normals flat", "--normals auto", "--normals none", "--image-format png",
-          "--image-format jpeg", "--image-format jpeg:50", "--image-format source",
-          "--correspondence map.bin"})
-        accepts(arguments);
-    run(folder, "simplify in.glb none.glb --bake none --quiet");
-    CHECK(faqem::load(folder / "none.glb").images.empty());
-    run(folder, "simplify in.glb vertex.glb --bake vertex --quiet");
-    CHECK(!faqem::load(folder / "vertex.glb").parts.at(0).colors.empty());
-}
-
 TEST_CASE("baking options determine maps and image format and the report describes the pages") {
     const Folder folder;
     faqem::save(sheet(12), folder / "in.glb");
@@ -152,29 +122,6 @@ TEST_CASE("baking options determine maps and image format and the report describ
     CHECK(pages[0]["samples"]["history"] > 0);
     const std::size_t texels = pages[0]["width"].get<std::size_t>() * pages[0]["height"].get<std::size_t>();
     CHECK(fs::file_size(folder / "map.bin") == 24 + 20 * texels);
-}
-
-TEST_CASE("simplify writes every output format") {
-    const Folder folder;
-    faqem::save(sheet(12), folder / "in.glb");
-    for (const char* ending : {"gltf", "obj", "ply", "stl", "GLB"}) {
-        const std::string out = std::string("as_") + ending + "." + ending;
-        CAPTURE(out);
-        CHECK(run(folder, "simplify in.glb " + out + " --ratio 0.5 --texture-size 64 --quiet").code == 0);
-        CHECK(face_count(faqem::load(folder / out)) > 0);
-    }
-}
-
-TEST_CASE("simplify writes the same bytes for any number of threads") {
-    const Folder folder;
-    faqem::save(sheet(24), folder / "in.glb");
-    for (const char* threads : {"1", "2", "5"}) {
-        run(folder, std::string("simplify in.glb ") + threads + ".glb --texture-size 128 --quiet --threads " +
-                        threads);
-    }
-    CHECK(!read(folder / "1.glb").empty());
-    CHECK(read(folder / "1.glb") == read(folder / "2.glb"));
-    CHECK(read(folder / "1.glb") == read(folder / "5.glb"));
 }
 
 TEST_CASE("a missed target is an error only with --strict-target, and then no model is written") {
@@ -246,20 +193,4 @@ TEST_CASE("SIGTERM and SIGINT end simplify with 8 and no temporary files") {
         CHECK(!fs::exists(folder / "out.glb"));
         CHECK(files_in(folder) == 1);
     }
-}
-
-TEST_CASE("simplify writes WebP images to glTF only") {
-    const Folder folder;
-    faqem::save(sheet(20), folder / "in.glb");
-    REQUIRE(run(folder, "simplify in.glb colored.glb --faces 400 --bake atlas --texture-size 64").code == 0);
-    const Outcome webp =
-        run(folder, "simplify colored.glb out.glb --faces 100 --image-format webp --bake atlas --quiet");
-    CHECK(webp.code == 0);
-    const faqem::Asset asset = faqem::load(folder / "out.glb");
-    REQUIRE_FALSE(asset.images.empty());
-    for (const faqem::Image& image : asset.images) CHECK(image.mime_type == "image/webp");
-    const Outcome obj = run(folder, "simplify colored.glb out.obj --faces 100 --image-format webp");
-    CHECK(obj.code == 2);
-    CHECK(obj.err.find("WebP images: ") != std::string::npos);
-    CHECK_FALSE(fs::exists(folder / "out.obj"));
 }
