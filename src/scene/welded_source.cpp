@@ -28,7 +28,7 @@ WeldedSource::WeldedSource(const Asset& given, const Options& options) : source_
     const Stopwatch watch;
     for (std::size_t p = 0; p < given.parts.size(); ++p) {
         const Part& part = asset().parts[p];
-        const RoundingWeld found = find_rounding_weld(part.positions, part.triangles);
+        const RoundingWeld found = find_rounding_weld(part.positions, part.triangles, given.precision);
         for (const std::string& message : found.messages)
             warnings_.push_back(part_title(given, p) + ": " + message);
         if (found.representative.empty()) continue;

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "asset/scene/affine.hpp"
-#include "asset/scene/coordinate_precision.hpp"
 #include "asset/scene/flatten.hpp"
 
 namespace faqem::detail {
@@ -21,6 +21,9 @@ using Type = StoredPrecision::Type;
 
 constexpr std::uint32_t enough_digits = 6;
 constexpr std::uint32_t exact_digits = 15;  // of decimals that doubles tell apart
+constexpr double units_of_rounding = 10;    // in the last place of a float or double
+constexpr double decimals_of_rounding = 2;  // units in the last decimal place
+constexpr std::size_t sampled_vertices = 16384;
 
 double to_float(double x) {
     return std::abs(x) <= std::numeric_limits<float>::max() ? double{static_cast<float>(x)} : x;
@@ -46,6 +49,37 @@ double to_decimal(double x, std::uint32_t digits, std::uint32_t decimals) {
     return result + 0.0;  // no -0
 }
 
+// A unit in the last place of a decimal number of at most so many significant digits and decimals.
+double decimal_unit(double x, std::uint32_t digits, std::uint32_t decimals) {
+    const double first_place = x == 0 ? -400 : std::floor(std::log10(std::abs(x)));
+    const double last_place =
+        std::max(-static_cast<double>(decimals), first_place + 1 - static_cast<double>(digits));
+    return std::pow(10, last_place);
+}
+
+// Whether a float has the digits of the number.
+bool is_printed_float(double x) {
+    if (!(std::abs(x) <= std::numeric_limits<float>::max())) return false;
+    std::array<char, 32> text;
+    constexpr std::chars_format format = std::chars_format::scientific;
+    char* const end = std::to_chars(text.data(), text.data() + text.size(), std::abs(x), format).ptr;
+    const std::string number(text.data(), end);
+    const int decimals = std::max(0, static_cast<int>(number.find('e')) - 2);
+    const double closest = to_float(std::abs(x));
+    char* const stop = std::to_chars(text.data(), text.data() + text.size(), closest, format, decimals).ptr;
+    return std::string_view(text.data(), stop) == number;
+}
+
+// Whether the coordinates are floats, as numbers or as text. If there are many, text is told from some of them.
+bool are_floats(const std::vector<Vec3>& positions) {
+    if (is_float_representable(positions)) return true;
+    const std::size_t stride = (positions.size() - 1) / sampled_vertices + 1;
+    for (std::size_t v = 0; v < positions.size(); v += stride)
+        for (const double x : positions[v])
+            if (!is_printed_float(x)) return false;
+    return true;
+}
+
 // Rounds a number, and moves it by so many steps of the rounding.
 using Rounding = std::function<double(double x, int steps)>;
 
@@ -60,10 +94,7 @@ Rounding decimal_rounding(std::uint32_t digits, std::uint32_t decimals) {
     return [=](double x, int steps) {
         const double rounded = to_decimal(x, digits, decimals);
         if (steps == 0) return rounded;
-        const double first_place = rounded == 0 ? -400 : std::floor(std::log10(std::abs(rounded)));
-        const double last_place =
-            std::max(-static_cast<double>(decimals), first_place + 1 - static_cast<double>(digits));
-        return to_decimal(rounded + steps * std::pow(10, last_place), digits, decimals);
+        return to_decimal(rounded + steps * decimal_unit(rounded, digits, decimals), digits, decimals);
     };
 }
 
@@ -136,6 +167,20 @@ bool is_in_place(const Asset& asset) {
 
 }  // namespace
 
+CoordinateRounding::CoordinateRounding(const std::vector<Vec3>& positions, const StoredPrecision& stored)
+    : relative_(units_of_rounding * (are_floats(positions) ? double{std::numeric_limits<float>::epsilon()}
+                                                           : std::numeric_limits<double>::epsilon())) {
+    const bool is_rounded_text =
+        stored.type == Type::decimal && stored.digits >= enough_digits && stored.digits <= exact_digits;
+    if (is_rounded_text) text_ = stored;
+}
+
+double CoordinateRounding::tolerance(double magnitude) const {
+    const double rounding = relative_ * magnitude;
+    if (!text_) return rounding;
+    return std::max(rounding, decimals_of_rounding * decimal_unit(magnitude, text_->digits, text_->decimals));
+}
+
 bool suits_floats(const std::vector<Vec3>& positions, const StoredPrecision& stored) {
     if (positions.empty()) return true;
     Vec3 low = positions[0], high = low;
@@ -151,7 +196,7 @@ bool suits_floats(const std::vector<Vec3>& positions, const StoredPrecision& sto
         largest = std::max({largest, -low[k], high[k]});
     }
     if (!(largest * double{std::numeric_limits<float>::epsilon()} <= 1e-6 * size)) return false;
-    return stored.type != Type::decimal || CoordinatePrecision(positions).is_float();
+    return stored.type != Type::decimal || are_floats(positions);
 }
 
 StoredPrecision result_precision(const Asset& source, ModelFormat format) {

@@ -1,13 +1,32 @@
 #pragma once
 /// \file
-/// Rounds the positions of results to what their files store.
+/// How exactly files store positions, and rounding of the positions of results to that.
 
+#include <optional>
 #include <vector>
 
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
+
+/// The rounding of the coordinates of a file.
+class CoordinateRounding {
+public:
+    /// \param positions  finite
+    /// Complexity: O(n)
+    CoordinateRounding(const std::vector<Vec3>& positions, const StoredPrecision& stored);
+
+    /// The largest difference of two coordinates that is taken for rounding: ten units in the last place of a float, or
+    /// of a double if the coordinates are no floats, relative to the magnitude. In text of 6 to 15 digits, two in the
+    /// last decimal place if that is more; with fewer, numbers are exact.
+    /// \param magnitude  of the largest coordinates that take part in the rounding, >= 0
+    double tolerance(double magnitude) const;
+
+private:
+    double relative_;
+    std::optional<StoredPrecision> text_;
+};
 
 /// Whether floats resolve positions: their steps at the largest coordinate are at most a millionth of the bounding box,
 /// and, if the positions were text, they are what programs print for floats. Complexity: O(n)

@@ -8,9 +8,9 @@
 #include <numeric>
 #include <utility>
 
-#include "asset/scene/coordinate_precision.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/point_grid.hpp"
+#include "asset/scene/position_rounding.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 
 namespace faqem::detail {
@@ -96,9 +96,9 @@ struct Tolerances {
     std::vector<double> weld, near;
 
     Tolerances(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
-               const std::vector<Index>& representative, const std::vector<VertexPair>& edges)
+               const std::vector<Index>& representative, const std::vector<VertexPair>& edges,
+               const CoordinateRounding& stored)
         : weld(positions.size(), 0), near(positions.size(), 0) {
-        const CoordinatePrecision precision(positions);
         const std::vector<double> length = edge_lengths(positions, triangles, representative);
         double most = 0;
         Vec3 low = positions[edges.front().a], high = low;
@@ -111,12 +111,12 @@ struct Tolerances {
                 }
             }
         }
-        const double most_rounding = precision.tolerance(most);
+        const double most_rounding = stored.tolerance(most);
         const double float_rounding =
             near_factor * double{std::numeric_limits<float>::epsilon()} * max_norm_distance(low, high);
         const auto add = [&](Index v) {
             if (weld[v] > 0) return;
-            const double own = precision.tolerance(largest_coordinate(positions[v]));
+            const double own = stored.tolerance(largest_coordinate(positions[v]));
             const double rounding =
                 std::min(most_rounding, std::max(own, share_of_length_at_distance * length[v]));
             weld[v] = std::min(rounding, share_of_length * length[v]);
@@ -228,12 +228,13 @@ std::uint64_t count_near_edges(const std::vector<Vec3>& positions, const std::ve
 
 }  // namespace
 
-RoundingWeld find_rounding_weld(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
+RoundingWeld find_rounding_weld(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                                const StoredPrecision& stored) {
     RoundingWeld result;
     std::vector<Index> representative = engine::weld_exact(positions);
     std::vector<VertexPair> edges = boundary_edges(triangles, representative);
     if (edges.empty()) return result;
-    const Tolerances tolerances(positions, triangles, representative, edges);
+    const Tolerances tolerances(positions, triangles, representative, edges, {positions, stored});
     const std::vector<Index> welded = BoundaryWelder(positions, triangles, representative, tolerances.weld)();
     for (Index v = 0; v < welded.size(); ++v)
         if (welded[v] != v) ++result.welded;
@@ -258,7 +259,7 @@ std::vector<std::string> weld_rounded_positions(Asset& asset) {
     std::vector<std::string> warnings;
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         Part& part = asset.parts[p];
-        const RoundingWeld found = find_rounding_weld(part.positions, part.triangles);
+        const RoundingWeld found = find_rounding_weld(part.positions, part.triangles, asset.precision);
         found.apply(part.positions);
         for (const std::string& message : found.messages)
             warnings.push_back(part_title(asset, p) + ": " + message);

@@ -33,7 +33,7 @@ struct RoundingWeld {
 /// the same third vertex, after welding of equal positions: a face and its back side do not close each other.
 ///
 /// Two vertices are welded if no coordinate differs by more than the smaller one of their tolerances:
-/// * CoordinatePrecision::tolerance() of the largest coordinate of the vertex or, if this is larger, of the largest one
+/// * CoordinateRounding::tolerance() of the largest coordinate of the vertex or, if this is larger, of the largest one
 ///   of the mesh, but for the latter at most 1/64 of the length of the edges at the vertex;
 /// * at most 1/4 of that length: the second longest edge of a face, and the shortest of these around the vertex.
 ///
@@ -44,9 +44,11 @@ struct RoundingWeld {
 ///
 /// \param positions  finite
 /// \param triangles  indices in range
+/// \param stored     Asset::precision
 /// Complexity: O(n) expected
 FAQEM_EXPORT RoundingWeld find_rounding_weld(const std::vector<Vec3>& positions,
-                                             const std::vector<Triangle>& triangles);
+                                             const std::vector<Triangle>& triangles,
+                                             const StoredPrecision& stored = {});
 
 /// Moves the vertices of all parts to those that find_rounding_weld() finds.
 /// \param asset  its parts must have valid indices and finite positions

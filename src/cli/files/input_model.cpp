@@ -59,7 +59,7 @@ void check_strictness(const Asset& asset, const std::filesystem::path& file, Str
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const std::string where = file.string() + ": " + detail::part_title(asset, p);
         const Part& part = asset.parts[p];
-        const auto rounded = detail::find_rounding_weld(part.positions, part.triangles);
+        const auto rounded = detail::find_rounding_weld(part.positions, part.triangles, asset.precision);
         if (!rounded.messages.empty())
             throw InputError(where, "", "rejected by --strict: " + rounded.messages.front());
         require_nonzero_area(part, where);

@@ -1,6 +1,7 @@
 #include "asset/scene/position_rounding.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "asset/formats/obj.hpp"
 #include "asset/formats/off.hpp"
@@ -119,4 +120,28 @@ TEST_CASE("results have the precision of the source as far as the format has it"
     CHECK(type(square_at(1, 1, text), ModelFormat::glb) == Type::unknown);
     CHECK(detail::loses_digits_as_floats(text, {{5121946, 0, 0}, {5121966, 20, 0}}));
     CHECK(!detail::loses_digits_as_floats(text, {{0, 0, 0}, {20, 20, 0}}));
+}
+
+TEST_CASE("the rounding of coordinates follows from their type and the digits of text") {
+    constexpr double unit = std::numeric_limits<float>::epsilon();  // in the last place of 1
+    const auto is = [](double value) { return Approx(value).epsilon(1e-9).margin(0); };
+    const auto tolerance = [](const std::vector<Vec3>& positions, const StoredPrecision& stored, double of) {
+        return detail::CoordinateRounding(positions, stored).tolerance(of);
+    };
+    // Binary floats, decimals with few digits, and what programs print for floats.
+    CHECK(tolerance({{1, 0.5, -3}, {double{0.1f}, 0, 0}}, {Type::float32}, 4) == is(40 * unit));
+    CHECK(tolerance({{0.1, 0.25, 1.5}}, {Type::decimal, 3, 2}, 4) == is(40 * unit));
+    CHECK(tolerance({{0.33333334, 0.1, 1.2345678}}, {Type::decimal, 8, 8}, 4) == is(40 * unit));
+    // Six decimal places, printed from floats and from doubles.
+    CHECK(tolerance({{100.123459, 0.1, 1.234568}}, {Type::decimal, 9, 6}, 100) == is(1000 * unit));
+    CHECK(tolerance({{4649776.123456, 0.1, 0.5}}, {Type::decimal, 13, 6}, 4649776) == is(2e-6));
+    // Six significant digits.
+    const std::vector<Vec3> six = {{1.23457, 123.457, 0.00123457}, {123457, 0, 7}};
+    CHECK(tolerance(six, {Type::decimal, 6, 8}, 123) == is(2e-3));
+    CHECK(tolerance(six, {Type::decimal, 6, 8}, 0.00123) == is(2e-8));
+    // Doubles.
+    const std::vector<Vec3> thirds = {{1.0 / 3, 2.0 / 3, 1e300}};
+    CHECK(tolerance(thirds, {Type::float64}, 4) == is(40 * std::numeric_limits<double>::epsilon()));
+    CHECK(tolerance(thirds, {Type::decimal, 17, 16}, 4) == is(40 * std::numeric_limits<double>::epsilon()));
+    CHECK(tolerance({{0, 0, 0}}, {}, 0) == 0);
 }

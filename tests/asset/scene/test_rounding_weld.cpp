@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "asset/scene/coordinate_precision.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 #include "support/torn_meshes.hpp"
@@ -129,25 +128,4 @@ TEST_CASE("faces with a back side of their own are open") {
     const std::vector<Triangle> front = torn.triangles;
     for (const Triangle& t : front) torn.triangles.push_back({t[2], t[1], t[0]});
     CHECK(find_rounding_weld(torn.positions, torn.triangles).welded > 0);
-}
-
-TEST_CASE("the precision of coordinates is told from their values") {
-    const auto tolerance = [](const std::vector<Vec3>& positions, double magnitude) {
-        return CoordinatePrecision(positions).tolerance(magnitude);
-    };
-    const auto is = [](double value) { return Approx(value).epsilon(1e-9).margin(0); };
-    // Binary floats, decimals with few digits, and what programs print for floats.
-    CHECK(tolerance({{1, 0.5, -3}, {double(0.1f), 0, 0}}, 4) == is(40 * unit));
-    CHECK(tolerance({{0.1, 0.25, 1.5}, {-3.75, 0, 7}}, 4) == is(40 * unit));
-    CHECK(tolerance({{0.33333334, 0.1, 1e-9}, {1.2345678, 0, 7}}, 4) == is(40 * unit));
-    CHECK(tolerance({{1, 2, 3}}, 4) == is(40 * unit));
-    // Six decimal places, printed from floats and from doubles.
-    CHECK(tolerance({{100.123459, 0.1, 0.5}, {1.234568, 0, 7}}, 100) == is(1000 * unit));
-    CHECK(tolerance({{4649776.123456, 0.1, 0.5}, {1.234568, 0, 7}}, 4649776) == is(2e-6));
-    // Six significant digits.
-    CHECK(tolerance({{1.23457, 123.457, 0.00123457}, {123457, 0, 7}}, 123) == is(2e-3));
-    CHECK(tolerance({{1.23457, 123.457, 0.00123457}, {123457, 0, 7}}, 0.00123) == is(2e-8));
-    // Doubles.
-    CHECK(tolerance({{1.0 / 3, 2.0 / 3, 1e300}}, 4) == is(40 * std::numeric_limits<double>::epsilon()));
-    CHECK(tolerance({{0, 0, 0}}, 0) == 0);
 }
