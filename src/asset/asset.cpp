@@ -3,7 +3,7 @@
 #include "asset/file_format.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/pose.hpp"
-#include "asset/io/recovery.hpp"
+#include "asset/io/set_folder.hpp"
 #include "asset/model_files.hpp"
 #include "asset/scene/rest_pose.hpp"
 #include "faqem/error.hpp"

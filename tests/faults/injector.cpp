@@ -169,9 +169,9 @@ int unlinkat(int folder, const char* path, int flags) noexcept {
     return NEXT(unlinkat)(folder, path, flags);
 }
 
-int ftruncate(int file, off_t size) noexcept {
-    DISTURBED(ftruncate);
-    return NEXT(ftruncate)(file, size);
+int mkdirat(int folder, const char* path, mode_t mode) noexcept {
+    DISTURBED(mkdirat);
+    return NEXT(mkdirat)(folder, path, mode);
 }
 
 int fchmod(int file, mode_t mode) noexcept {
@@ -182,11 +182,6 @@ int fchmod(int file, mode_t mode) noexcept {
 int flock(int file, int operation) noexcept {
     DISTURBED(flock);
     return NEXT(flock)(file, operation);
-}
-
-ssize_t pread(int file, void* bytes, size_t size, off_t start) {
-    DISTURBED(pread);
-    return NEXT(pread)(file, bytes, size, start);
 }
 
 }  // extern "C"

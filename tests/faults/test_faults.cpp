@@ -5,6 +5,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -60,8 +61,8 @@ struct FaultyRun {
 
 Files files_of(const fs::path& folder) {
     Files files;
-    for (const auto& entry : fs::directory_iterator(folder))
-        files[entry.path().filename()] = read(entry.path());
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        files[entry.path().lexically_relative(folder)] = entry.is_directory() ? "" : read(entry.path());
     return files;
 }
 
@@ -87,7 +88,7 @@ Files comparable(const Files& files) {
     return all;
 }
 
-/// Without journals, temporary files and backups.
+/// Without temporary files and set folders.
 Files visible(Files files) {
     std::erase_if(files, [](const auto& file) { return file.first.starts_with("."); });
     return files;
@@ -133,22 +134,26 @@ public:
         return true;
     }
 
-    /// The old set, half replaced by a run that was killed.
-    Files half_replaced_set() {
+    /// Moves the old set, half replaced by a run that was killed, to `half`.
+    void make_half_replaced_set() {
         for (int call = 1;; ++call) {
             set_files(old_files_);
             REQUIRE(spawn(scenario_.command, "0.5", {"kill", call}).code == -SIGKILL);
-            const Files all = files_of(folder_ / "out"), after = visible(all);
-            if (after != old_files_ && comparable(after) != comparable(new_files_)) return all;
+            const Files after = visible(files_of(folder_ / "out"));
+            if (after == old_files_ || comparable(after) == comparable(new_files_)) continue;
+            return fs::rename(folder_ / "out", folder_ / "half");
         }
     }
 
     /// Lets a run that finds a half replaced set and writes another file fail or end at a call: the set is
     /// old or new, or it is still not readable and the next run completes it. Returns whether the call was
     /// reached.
-    bool check_recovery(const Files& half_replaced, const Fault& fault) {
+    bool check_recovery(const Fault& fault) {
         CAPTURE(scenario_.name, fault.kind, fault.call);
-        set_files(half_replaced);
+        fs::remove_all(folder_ / "out");
+        // With the times and links of the files.
+        const std::string copy = "cp -a " + (folder_ / "half").string() + " " + (folder_ / "out").string();
+        REQUIRE(std::system(copy.c_str()) == 0);
         const FaultyRun run = spawn({"simplify", "in.glb", "out/other.glb", "--ratio"}, "0.5", fault);
         if (!run.reached()) return false;
         fs::remove(folder_ / "out/other.glb");
@@ -291,19 +296,14 @@ TEST_CASE("readers of a half replaced set exit with 3, and the next run in its f
     fs::create_directory(folder / "out");
     // The set of a process that died after it had renamed the image.
     REQUIRE(run(folder, "simplify in.glb out/a.gltf --bake keep --quiet --history out/a.history").code == 0);
-    const std::string image = read(folder / "out/a_0.png"), gltf = read(folder / "out/a.gltf");
-    const auto stamp = [](const std::string& text) {
-        faqem::detail::ContentHash hash;
-        hash.add(faqem::testing::bytes_of(text));
-        return faqem::detail::ContentStamp{text.size(), hash.value()};
-    };
-    const faqem::detail::JournalEntry entries[] = {
-        {std::string(24, 'a'), "a_0.png", stamp(image), stamp("old")},
-        {std::string(24, 'b'), "a.gltf", stamp(gltf), stamp("old")},
-        {std::string(24, 'c'), "a.history", stamp(read(folder / "out/a.history")), std::nullopt}};
-    fs::rename(folder / "out/a.gltf", folder / "out" / entries[1].temporary_name());
+    const std::string gltf = read(folder / "out/a.gltf");
+    const fs::path set = folder / "out/.faqem-set";
+    fs::create_directories(set / "new");
+    fs::create_directories(set / "old/a.history");
+    fs::rename(folder / "out/a.gltf", set / "new/a.gltf");
     write(folder / "out/a.gltf", "old");
-    write(folder / "out" / faqem::detail::journal_name, faqem::detail::journal_text(entries));
+    fs::last_write_time(folder / "out/a.gltf", fs::file_time_type::clock::now() - std::chrono::hours(1));
+    fs::create_hard_link(folder / "out/a.gltf", set / "old/a.gltf");
     for (const char* command : {"info out/a.gltf", "compare out/a.gltf in.glb", "render out/a.gltf a.png",
                                 "report in.glb out/a.gltf -o a.html", "simplify out/a.gltf b.glb",
                                 "lod out/a.gltf levels", "truncate out/a.history b.glb --faces 4"}) {
@@ -323,10 +323,10 @@ TEST_CASE("a run that recovers a half replaced set may fail or be killed, too") 
     if (!can_inject) return;
     for (const std::size_t i : {0u, 3u}) {
         FaultTest test(scenarios()[i]);
-        const Files half_replaced = test.half_replaced_set();
+        test.make_half_replaced_set();
         for (const char* kind : {"kill", "error"}) {
             int call = 1;
-            while (test.check_recovery(half_replaced, {kind, call})) ++call;
+            while (test.check_recovery({kind, call})) ++call;
             CHECK(call > 10);
         }
     }

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "asset/io/locked_file.hpp"
-#include "asset/io/recovery.hpp"
+#include "asset/io/set_folder.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "asset/io/recovery.hpp"
+#include "asset/io/set_folder.hpp"
 #include "asset/io/write_all.hpp"
 #include "faqem/error.hpp"
 
@@ -36,9 +36,7 @@ PendingFile write_temporary_file(const FileContent& content, Overwrite overwrite
     if (!write_all(file, content.bytes)) fail_write(content.file, "write", errno);
     if (exists && ::fchmod(file, mode) != 0) fail_write(content.file, "set the permissions", errno);
     if (::fsync(file) != 0) fail_write(content.file, "write to the disk", errno);
-    ContentHash hash;
-    hash.add(content.bytes);
-    return {folder, target.filename(), std::move(temporary), {content.bytes.size(), hash.value()}, overwrite};
+    return {folder, target.filename(), std::move(temporary), overwrite};
 }
 
 WriteCheck write_check = nullptr;

@@ -29,11 +29,9 @@ struct FileContent {
 /// A set of files that is replaced all or nothing.
 ///
 /// add() writes temporary files. commit() renames them while signals are held. If an error occurs in between,
-/// the old files, which have been kept as links (or copies where the file system has no links), are restored.
-/// In each folder a journal (JournalEntry) is written before the first file is renamed, and removed after the
-/// last one, so that after the end of the process or a loss of power the next run that writes to the folder
-/// completes or restores the set (recover_folder()). A single file needs no journal: it is renamed
-/// atomically.
+/// the old files are restored. In each folder the new files are collected in a hidden folder before the first one is
+/// renamed (set_folder_name), so that after the end of the process or a loss of power the next run that writes to the
+/// folder completes the set (recover_folder()). A single file needs none: it is renamed atomically.
 ///
 /// Files of different folders are replaced together unless the process is killed or the power lost: then the
 /// files of one folder may be the new ones, and those of another the old ones.
@@ -44,7 +42,7 @@ public:
     FileSet& operator=(const FileSet&) = delete;
 
     /// Writes files under temporary names and syncs them. A new file gets the mode 0666 minus the umask; a
-    /// replaced file keeps its mode. Symbolic links are followed. First completes or restores what an
+    /// replaced file keeps its mode. Symbolic links are followed. First completes or removes what an
     /// interrupted run left in the folders of the files.
     /// \param files      paths and contents, borrowed
     /// \param overwrite  Overwrite::no: an existing file is an error, also if it is created before commit()
@@ -56,7 +54,7 @@ public:
     /// should be added after them. The set is empty afterwards.
     /// \param completed  called after the last file was renamed, while signals are still held; may be null
     /// \throws WriteError  no file is replaced. In the rare case that restoring fails, too, the message says
-    ///                     so, and the next run that writes to the folder restores the files
+    ///                     so, and the next run that writes to the folder completes the set
     void commit(void (*completed)() noexcept = nullptr);
 
 private:

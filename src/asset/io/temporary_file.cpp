@@ -96,10 +96,6 @@ TemporaryFile::~TemporaryFile() {
     unregister();
 }
 
-std::string TemporaryFile::id() const {
-    return fs::path(name_.get()).filename().string().substr(temporary_prefix.size(), temporary_digits);
-}
-
 void TemporaryFile::unregister() {
     if (!slot_) return;
     char* own = name_.get();
@@ -121,13 +117,13 @@ void remove_leftovers(const fs::path& folder) noexcept try {
 } catch (const std::exception&) {  // the folder cannot be listed: its leftovers are harmless
 }
 
-bool rename_if_absent(int folder, const char* from, const char* to) {
+bool rename_if_absent(int from_folder, const char* from, int to_folder, const char* to) {
 #ifdef RENAME_NOREPLACE
-    if (::renameat2(folder, from, folder, to, RENAME_NOREPLACE) == 0) return true;
+    if (::renameat2(from_folder, from, to_folder, to, RENAME_NOREPLACE) == 0) return true;
     if (errno != EINVAL && errno != ENOSYS) return false;
 #endif
     // Fallback: linkat() fails if the target exists; after success the other name is no longer needed.
-    return ::linkat(folder, from, folder, to, 0) == 0 && ::unlinkat(folder, from, 0) == 0;
+    return ::linkat(from_folder, from, to_folder, to, 0) == 0 && ::unlinkat(from_folder, from, 0) == 0;
 }
 
 bool remove_temporary_files() noexcept {

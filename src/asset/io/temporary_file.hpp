@@ -31,8 +31,6 @@ public:
 
     /// Absolute path.
     const char* name() const { return name_.get(); }
-    /// The digits of the name.
-    std::string id() const;
     /// Open for writing. Closing it ends the lock.
     int file() const { return file_.get(); }
     /// Whether remove_temporary_files() has removed the file.
@@ -56,10 +54,9 @@ bool is_temporary_name(std::string_view name);
 /// Complexity: lists the folder once.
 FAQEM_EXPORT void remove_leftovers(const std::filesystem::path& folder) noexcept;
 
-/// Renames a file of a folder unless the new name exists. Returns false and sets errno on failure; then the
-/// file may have both names.
-/// \param folder  descriptor of the folder, or AT_FDCWD
-bool rename_if_absent(int folder, const char* from, const char* to);
+/// Renames a file unless the new name exists. Returns false and sets errno on failure; then the file may have both names.
+/// The folders are descriptors, or AT_FDCWD.
+bool rename_if_absent(int from_folder, const char* from, int to_folder, const char* to);
 
 /// Removes the temporary files of all writes in progress. Async-signal-safe: intended for the handler of
 /// SIGINT and SIGTERM, which ends the process afterwards.

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "asset/file_format.hpp"
+#include "asset/io/set_folder.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -33,7 +34,9 @@ void find_models(const fs::path& folder, const fs::path& out_folder, std::vector
     std::error_code error;
     for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
         std::string problem = link_problem(*it);
-        if (problem.empty() && it->is_directory() && fs::equivalent(it->path(), out_folder, error)) {
+        if (problem.empty() && it->is_directory() &&
+            (fs::equivalent(it->path(), out_folder, error) ||
+             it->path().filename() == detail::set_folder_name)) {
             it.disable_recursion_pending();
             continue;
         }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "asset/file_format.hpp"
-#include "asset/io/recovery.hpp"
+#include "asset/io/set_folder.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"

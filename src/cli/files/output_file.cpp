@@ -15,7 +15,7 @@
 
 #include "asset/file_format.hpp"
 #include "asset/io/file_names.hpp"
-#include "asset/io/recovery.hpp"
+#include "asset/io/set_folder.hpp"
 #include "asset/io/temporary_file.hpp"
 #include "cli/files/protected_files.hpp"
 #include "cli/process/interrupt.hpp"
