@@ -55,8 +55,10 @@ faqem_status faqem_simplify_levels(const faqem_mesh* mesh, const faqem_options* 
         const capi::MeshArrays arrays(*mesh);
         std::vector<std::unique_ptr<faqem_result>> objects;
         for (SimplifiedLevel& level :
-             simplify_levels(arrays.view, wanted, capi::options_or_defaults(options)))
+             simplify_levels(arrays.view, wanted, capi::options_or_defaults(options))) {
+            if (objects.empty()) capi::warn_of_asset_options(options, level.result.report);
             objects.push_back(std::make_unique<faqem_result>(std::move(level.result), level.error));
+        }
         for (std::size_t i = 0; i < level_count; ++i) results[i] = objects.at(i).release();
     });
 }

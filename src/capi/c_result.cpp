@@ -1,6 +1,10 @@
 #include "capi/c_result.hpp"
 
+#include <algorithm>
 #include <limits>
+
+#include "faqem/detail/options/appearance_rows.hpp"
+#include "faqem/detail/options/option_table.hpp"
 
 namespace faqem::capi {
 
@@ -23,6 +27,14 @@ faqem_report to_c_report(const Report& report) {
     numbers.stop = static_cast<faqem_stop>(report.stop);
     numbers.within_max_error = !report.max_error || report.max_error->within() ? 1 : 0;
     return numbers;
+}
+
+void warn_of_asset_options(const faqem_options* options, Report& report) {
+    if (!options) return;
+    for (const detail::OptionRow& row : detail::appearance_rows)
+        if (std::count(options->named.begin(), options->named.end(), row.name) > 0)
+            report.warnings.push_back(detail::member_spelling(row) +
+                                      " has no effect: it is for models, not for arrays");
 }
 
 }  // namespace faqem::capi

@@ -38,6 +38,9 @@ struct ReportWithJson {
 /// Converts a report to that of the C API.
 faqem_report to_c_report(const Report& report);
 
+/// Adds a warning for each option that was set by name and is for assets: arrays ignore it.
+void warn_of_asset_options(const faqem_options* options, Report& report);
+
 /// Returns the options, or the defaults if `options` is null.
 inline Options options_or_defaults(const faqem_options* options) {
     return options ? options->options : Options{};

@@ -1,3 +1,4 @@
+#include <utility>
 #include <vector>
 
 #include "capi/c_mesh.hpp"
@@ -29,7 +30,9 @@ faqem_status faqem_simplify(const faqem_mesh* mesh, const faqem_options* options
         capi::require_argument(mesh, "mesh");
         capi::require_argument(result, "result");
         const capi::MeshArrays arrays(*mesh);
-        *result = new faqem_result(simplify(arrays.view, capi::options_or_defaults(options)));
+        SimplifyResult made = simplify(arrays.view, capi::options_or_defaults(options));
+        capi::warn_of_asset_options(options, made.report);
+        *result = new faqem_result(std::move(made));
     });
 }
 

@@ -74,7 +74,10 @@ class Models(unittest.TestCase):
     def test_an_option_without_effect_gives_a_warning(self):
         model = faqem.Model.from_arrays(*flat_grid(4))
         for result, count in ((faqem.simplify(model, bake="keep", texture_size=64), 1),
-                              (faqem.simplify(model, bake="keep", texture_size=None), 0)):
+                              (faqem.simplify(model, bake="keep", texture_size=None), 0),
+                              (faqem.simplify(*flat_grid(4), texture_size=64, bake="keep", threads=1), 2),
+                              (faqem.simplify(*flat_grid(4), preset="fast"), 0),
+                              (faqem.simplify_levels(*flat_grid(4), [0.5, 0.2], max_bytes=9)[0], 1)):
             idle = [warning for warning in result.report["warnings"] if "has no effect" in warning]
             self.assertEqual(len(idle), count, idle)
 
