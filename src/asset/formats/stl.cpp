@@ -1,7 +1,5 @@
 #include "asset/formats/stl.hpp"
 
-#include "asset/scene/messages.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,10 +9,11 @@
 #include <string_view>
 #include <utility>
 
-#include "asset/formats/stl_binary.hpp"
+#include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
 #include "asset/io/little_endian.hpp"
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "asset/scene/position_rounding.hpp"
 #include "asset/scene/repair.hpp"
@@ -145,6 +144,104 @@ bool looks_like_text(std::span<const std::uint8_t> bytes) {
     return std::find(start.begin(), start.end(), 0) == start.end();
 }
 
+constexpr std::size_t label_bytes = 80;  // of the header of a binary file, before the count
+constexpr std::size_t header_bytes = 84, facet_bytes = 50;
+
+/// The content of a binary STL file.
+struct BinaryStl {
+    std::span<const std::uint8_t> bytes;  ///< the file, borrowed
+    std::size_t facets = 0;
+    std::vector<Vec4f> colors;  ///< by facet, linear; empty: the file has none
+
+    std::array<Vec3, 3> corners(std::size_t facet) const {
+        std::size_t at = header_bytes + facet * facet_bytes + 12;
+        std::array<Vec3, 3> result;
+        for (Vec3& p : result)
+            for (double& x : p) {
+                x = std::bit_cast<float>(u32_at(bytes, at));
+                at += 4;
+            }
+        return result;
+    }
+
+    std::uint32_t attribute(std::size_t facet) const {
+        const std::size_t at = header_bytes + facet * facet_bytes + facet_bytes - 2;
+        return bytes[at] | std::uint32_t{bytes[at + 1]} << 8;
+    }
+};
+
+constexpr std::uint32_t highest_bit = 0x8000;
+
+float linear(double display) { return static_cast<float>(linear_from_srgb(display)); }
+
+/// The colour in the 15 lower bits, with red in the lowest ones or, reversed, in the highest ones.
+Vec4f color_of(std::uint32_t bits, bool is_reversed) {
+    const auto channel = [&](unsigned k) { return linear((bits >> (5 * k) & 31) / 31.0); };
+    const Vec4f color = {channel(0), channel(1), channel(2), 1};
+    return is_reversed ? Vec4f{color[2], color[1], color[0], 1} : color;
+}
+
+/// Reads the attributes of facets as colours, 5 bits each for red, green and blue, which are sRGB. Magics: if the header
+/// contains `COLOR=`, followed by RGBA as bytes, red has the lowest bits, and facets with the highest bit set have the
+/// colour of the header. VisCAM and SolidView: otherwise, if a facet has the highest bit set; these have a colour, with
+/// blue in the lowest bits, and the others are white.
+void read_colors(BinaryStl& stl, std::vector<std::string>& warnings) {
+    constexpr std::string_view keyword = "COLOR=";
+    const std::string_view label(reinterpret_cast<const char*>(stl.bytes.data()), label_bytes);
+    const std::size_t at = label.find(keyword);
+    const std::size_t first = at + keyword.size();
+    const bool is_magics = at != std::string_view::npos && first + 4 <= label.size();
+    std::size_t marked = 0, used = 0;
+    for (std::size_t f = 0; f < stl.facets; ++f) {
+        marked += (stl.attribute(f) & highest_bit) != 0;
+        used += stl.attribute(f) != 0;
+    }
+    if (!is_magics && marked == 0) {
+        if (used)
+            warnings.push_back("attributes of " + pluralized(used, "facet") +
+                               " ignored: they are no colours");
+        return;
+    }
+    Vec4f other = {1, 1, 1, 1};
+    for (std::size_t k = 0; k < 4 && is_magics; ++k) {
+        const double value = stl.bytes[first + k] / 255.0;
+        other[k] = k < 3 ? linear(value) : static_cast<float>(value);
+    }
+    stl.colors.reserve(stl.facets);
+    for (std::size_t f = 0; f < stl.facets; ++f) {
+        const bool is_marked = (stl.attribute(f) & highest_bit) != 0;
+        stl.colors.push_back(is_marked != is_magics ? color_of(stl.attribute(f), !is_magics) : other);
+    }
+}
+
+/// Reads as many facets as the header says. If these are none, or more than there is room for, all whole facets of the file
+/// are read, unless a coordinate is not finite, so that the file is hardly STL.
+BinaryStl read_binary_stl(std::span<const std::uint8_t> bytes, const std::string& file,
+                          std::vector<std::string>& warnings) {
+    if (bytes.size() < header_bytes)
+        throw InputError(file, "header", "is neither ASCII STL nor long enough for binary STL");
+    const std::uint64_t stated = u32_at(bytes, label_bytes);
+    const std::uint64_t room = (bytes.size() - header_bytes) / facet_bytes;
+    const bool is_count_right = stated <= room && (stated > 0 || room == 0);
+    BinaryStl stl{bytes, static_cast<std::size_t>(is_count_right ? stated : room), {}};
+    if (!is_count_right) {
+        const std::string difference = "the header states " + pluralized(stated, "facet") +
+                                       ", the file has room for " + std::to_string(room);
+        if (room == 0) throw InputError(file, "header", difference);
+        for (std::size_t f = 0; f < stl.facets; ++f)
+            for (const Vec3& p : stl.corners(f))
+                if (!is_finite(p))
+                    throw InputError(file, "header",
+                                     difference + ", and facet " + std::to_string(f) +
+                                         " is not finite: is this an STL file?");
+        warnings.push_back(difference + ", which are read");
+    }
+    const std::uint64_t rest = bytes.size() - header_bytes - facet_bytes * stl.facets;
+    if (rest) warnings.push_back(pluralized(rest, "byte") + " after the last facet ignored");
+    read_colors(stl, warnings);
+    return stl;
+}
+
 void put_facet(std::vector<std::uint8_t>& bytes, const std::array<Vec3, 3>& p) {
     Vec3 n;
     for (int k = 0; k < 3; ++k) {
@@ -165,8 +262,8 @@ void put_facet(std::vector<std::uint8_t>& bytes, const std::array<Vec3, 3>& p) {
 Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
     Asset asset;
     const bool has_binary_size =
-        bytes.size() >= stl_header_bytes &&
-        bytes.size() == stl_header_bytes + facet_bytes * std::uint64_t{u32_at(bytes, 80)};
+        bytes.size() >= header_bytes &&
+        bytes.size() == header_bytes + facet_bytes * std::uint64_t{u32_at(bytes, label_bytes)};
     Part part;
     if (has_binary_size || !looks_like_text(bytes)) {
         asset.precision.type = StoredPrecision::Type::float32;
@@ -202,8 +299,8 @@ EncodedModel encode_stl(const Asset& asset, const std::filesystem::path& file) {
     if (!flat.colors.empty()) losses.push_back("STL cannot hold colours");
     if (!asset.materials.empty()) losses.push_back("STL cannot hold materials");
 
-    std::vector<std::uint8_t> bytes(80, ' ');
-    bytes.reserve(stl_header_bytes + facet_bytes * flat.triangles.size());
+    std::vector<std::uint8_t> bytes(label_bytes, ' ');
+    bytes.reserve(header_bytes + facet_bytes * flat.triangles.size());
     put_u32(bytes, static_cast<std::uint32_t>(flat.triangles.size()));
     for (const Triangle& t : flat.triangles)
         put_facet(bytes, {flat.positions[t[0]], flat.positions[t[1]], flat.positions[t[2]]});

@@ -16,15 +16,17 @@ namespace faqem::detail {
 /// Reads an STL file as one part.
 ///
 /// The file is binary if its size is 84 + 50 n bytes, where n is the facet count at byte 80, or if there is a
-/// zero among the first 512 bytes; otherwise it is read as ASCII. See read_binary_stl() for wrong counts and
-/// colours of facets, which become vertex colours. Corners at equal positions share a vertex (-0 equals 0) if
+/// zero among the first 512 bytes; otherwise it is read as ASCII. If a count is 0, or more than there is room for, all
+/// whole facets are read, with a warning. Colours of facets in the attributes of Magics, VisCAM and SolidView become vertex
+/// colours; other attributes are ignored with a warning, and bytes after the last facet, too. Corners at equal positions share a vertex (-0 equals 0) if
 /// they have the same colour; vertices are in the order of their first use. Facet normals are ignored, since
 /// they follow from the positions. The solids of an ASCII file become objects of the part. Text after the last
 /// solid is ignored with a warning.
 /// \param file  path of the file
 /// \return an asset with one part, and warnings
 /// \throws ReadError   if the file cannot be read
-/// \throws InputError  with the line, if an ASCII file is invalid; if there are no faces
+/// \throws InputError  with the line, if an ASCII file is invalid; if a binary file is too short for a facet, or its count is
+///     wrong and a coordinate not finite; if there are no faces
 Asset read_stl(const std::filesystem::path& file);
 
 /// Same as above, for the bytes of a file in memory.

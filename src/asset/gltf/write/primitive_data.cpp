@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "asset/gltf/write/gpu_order.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "faqem/error.hpp"
+
+#ifdef FAQEM_WITH_MESHOPT
+#include <meshoptimizer.h>
+#endif
 
 namespace faqem::detail {
 namespace {
@@ -25,6 +29,26 @@ bool make_unit(std::array<float, N>& v) {
     if (!(std::abs(length - 1) <= unit_tolerance))
         for (std::size_t i = 0; i < 3; ++i) v[i] = static_cast<float>(d[i] / length);
     return true;
+}
+
+/// Sorts triangles so that those that share vertices follow each other, for the small cache of graphics hardware, then
+/// vertices in the order of their first use. Without meshoptimizer nothing is changed.
+///
+/// Of the orders of meshoptimizer, meshopt_optimizeVertexCache has the fewest cache misses with a FIFO of 12 to 32 entries.
+/// Its scores are sums of constants, so the result does not depend on the machine.
+/// \param vertices  any values, each used by a corner; permuted
+/// \param corners   indices into `vertices`, three per triangle; the order within a triangle stays
+void order_for_gpu([[maybe_unused]] std::vector<Index>& vertices,
+                   [[maybe_unused]] std::vector<Index>& corners) {
+#ifdef FAQEM_WITH_MESHOPT
+    const std::size_t count = vertices.size();
+    meshopt_optimizeVertexCache(corners.data(), corners.data(), corners.size(), count);
+    std::vector<Index> moved(count), ordered(count);
+    meshopt_optimizeVertexFetchRemap(moved.data(), corners.data(), corners.size(), count);
+    for (Index& corner : corners) corner = moved[corner];
+    for (std::size_t i = 0; i < count; ++i) ordered[moved[i]] = vertices[i];
+    vertices = std::move(ordered);
+#endif
 }
 
 void gather_positions(const Part& part, const Vec3& origin, PrimitiveData& data) {
