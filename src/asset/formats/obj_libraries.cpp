@@ -1,6 +1,7 @@
 #include "asset/formats/obj_libraries.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -14,6 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Returns the only library in the folder of a model, unless that has the name of another OBJ file there.
+std::optional<std::string> renamed_library(const fs::path& model, FileFinder& finder) {
+    const std::vector<std::string> all = finder.files_with_extension(library_file_name(""));
+    if (all.size() != 1) return std::nullopt;
+    const fs::path own = model.filename();
+    for (const std::string& other : finder.files_with_extension(lower_case_extension(own)))
+        if (fs::path(other) != own && fs::path(other).stem() == fs::path(all[0]).stem()) return std::nullopt;
+    return all[0];
+}
+
 /// Reads the libraries of one model.
 class LibraryReader {
 public:
@@ -26,7 +37,7 @@ public:
         FoundFile found;
         std::vector<std::uint8_t> text;
         try {
-            found = find(name);
+            found = find_library(name, model_, finder_);
             if (!files_.insert(found.file).second) return;
             text = read_file(found.file);
         } catch (const InputError& error) {
@@ -45,18 +56,6 @@ public:
     std::map<std::string, MtlMaterial> finish() { return std::move(materials_); }
 
 private:
-    FoundFile find(const std::string& name) {
-        try {
-            return finder_.find(name);
-        } catch (const InputError&) {
-            const std::optional<std::string> other = renamed_library(model_, finder_);
-            if (!other) throw;
-            FoundFile found = finder_.find(*other);
-            found.is_as_named = false;
-            return found;
-        }
-    }
-
     const fs::path& model_;
     FileFinder& finder_;
     std::vector<std::string>& warnings_;
@@ -82,13 +81,16 @@ std::vector<std::string> library_names(const std::string& statement, const fs::p
     }
 }
 
-std::optional<std::string> renamed_library(const fs::path& model, FileFinder& finder) {
-    const std::vector<std::string> all = finder.files_with_extension(library_file_name(""));
-    if (all.size() != 1) return std::nullopt;
-    const fs::path own = model.filename();
-    for (const std::string& other : finder.files_with_extension(lower_case_extension(own)))
-        if (fs::path(other) != own && fs::path(other).stem() == fs::path(all[0]).stem()) return std::nullopt;
-    return all[0];
+FoundFile find_library(const std::string& name, const fs::path& model, FileFinder& finder) {
+    try {
+        return finder.find(name);
+    } catch (const InputError&) {
+        const std::optional<std::string> other = renamed_library(model, finder);
+        if (!other) throw;
+        FoundFile found = finder.find(*other);
+        found.is_as_named = false;
+        return found;
+    }
 }
 
 std::map<std::string, MtlMaterial> read_libraries(const std::vector<std::string>& statements,

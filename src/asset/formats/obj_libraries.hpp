@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +18,11 @@ namespace faqem::detail {
 /// \param folder     folder of the OBJ file
 std::vector<std::string> library_names(const std::string& statement, const std::filesystem::path& folder);
 
-/// Returns the library that stands in for one that an OBJ file names and that is missing: the only one in its
-/// folder, unless that has the name of another OBJ file there.
+/// Finds a library that an OBJ file names. If it is missing, the only library in the folder stands in for it, unless that
+/// has the name of another OBJ file there.
 /// \param model  path of the OBJ file
-std::optional<std::string> renamed_library(const std::filesystem::path& model, FileFinder& finder);
+/// \throws InputError  there is none: the error of FileFinder::find()
+FoundFile find_library(const std::string& name, const std::filesystem::path& model, FileFinder& finder);
 
 /// Reads all material libraries. If a name is defined repeatedly, the last definition is used. A library that is
 /// missing, or found under another name, is a warning.

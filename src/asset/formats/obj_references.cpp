@@ -8,7 +8,7 @@
 #include "asset/formats/obj.hpp"
 #include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/obj_tiles.hpp"
-#include "asset/io/file_finder.hpp"
+#include "asset/io/reference_list.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
@@ -63,18 +63,18 @@ void for_each_block(const fs::path& file, const Visit& visit) {
 /// Collects the libraries and textures of one model.
 class LibraryReferences {
 public:
-    LibraryReferences(const fs::path& model, ReferenceList& files)
-        : model_(model), files_(files), finder_(files.folder()) {}
+    LibraryReferences(const fs::path& model, ReferenceList& files) : model_(model), files_(files) {}
 
     /// Adds a library and its textures, which are relative to its folder.
     void add(const std::string& name) {
         if (!names_.insert(name).second) return;
         files_.add(name, ReferenceSyntax::file_name, Readable::yes);
         try {
-            const fs::path library = find(name);
+            const fs::path library = find_library(name, model_, files_.finder()).file;
             files_.add_found(library);
             if (!libraries_.insert(library).second) return;
-            const fs::path root = fs::canonical(files_.folder().empty() ? "." : files_.folder());
+            const fs::path& folder = files_.finder().folder();
+            const fs::path root = fs::canonical(folder.empty() ? "." : folder);
             const fs::path subfolder = library.parent_path().lexically_relative(root);
             const std::vector<std::uint8_t> text = read_file(library);
             for (const std::string& statement : texture_statements(text, library.string()))
@@ -85,35 +85,16 @@ public:
     }
 
 private:
-    fs::path find(const std::string& name) {
-        try {
-            return finder_.find(name).file;
-        } catch (const InputError&) {
-            const std::optional<std::string> other = renamed_library(model_, finder_);
-            if (!other) throw;
-            return finder_.find(*other).file;
-        }
-    }
-
     void add_texture(const std::string& name, const fs::path& subfolder) {
         for (std::uint32_t tile = first_tile; tile <= last_tile; ++tile) {
             const std::string file = tile_file_name(name, tile);
-            add_image(file, subfolder);
+            files_.add(file, ReferenceSyntax::file_name, Readable::yes, subfolder);
             if (file == name) break;  // it has no tiles
-        }
-    }
-
-    void add_image(const std::string& name, const fs::path& subfolder) {
-        files_.add(name, ReferenceSyntax::file_name, Readable::yes, subfolder);
-        try {
-            files_.add_found(finder_.find(name, subfolder).file);
-        } catch (const InputError&) {  // there is none
         }
     }
 
     const fs::path& model_;
     ReferenceList& files_;
-    FileFinder finder_;
     std::set<std::string> names_;
     std::set<fs::path> libraries_;
 };
@@ -133,7 +114,7 @@ void list_obj_references(const fs::path& model, ReferenceList& files) {
             if (key == "mtllib") {
                 const std::string statement = in.rest_of_line();
                 const auto add = [&](const std::string& name) { libraries.add(name); };
-                for (const std::string& name : library_names(statement, files.folder())) add(name);
+                for (const std::string& name : library_names(statement, files.finder().folder())) add(name);
                 for_each_possible_name(statement, add);
             } else if (std::find(others.begin(), others.end(), key) != others.end()) {
                 for_each_possible_name(in.rest_of_line(), [&](const std::string& name) {

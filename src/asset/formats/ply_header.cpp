@@ -117,18 +117,12 @@ void list_ply_references(const std::filesystem::path& model, ReferenceList& file
     std::ifstream in(model, std::ios::binary);
     in.read(reinterpret_cast<char*>(header.data()), static_cast<std::streamsize>(header.size()));
     header.resize(static_cast<std::size_t>(in.gcount()));
-    FileFinder finder(files.folder());
     for (TextScanner text(header, model.string(), Continuation::no); text.skip_to_content();
          text.next_line()) {
         const std::string_view key = text.word();
         if (key == "end_header") break;
         if ((key != "comment" && key != "obj_info") || !text.accept_word("TextureFile")) continue;
-        const std::string name = text.rest_of_line();
-        files.add(name, ReferenceSyntax::file_name, Readable::yes);
-        try {
-            files.add_found(finder.find(name).file);
-        } catch (const InputError&) {  // there is none
-        }
+        files.add(text.rest_of_line(), ReferenceSyntax::file_name, Readable::yes);
     }
 }
 

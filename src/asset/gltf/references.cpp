@@ -2,8 +2,7 @@
 
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/json_scan.hpp"
-#include "asset/io/file_finder.hpp"
-#include "faqem/error.hpp"
+#include "asset/io/reference_list.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -11,7 +10,7 @@ namespace {
 /// Finds the URIs of a glTF document, also of large, damaged and unsupported ones.
 class UriScan : public JsonScan {
 public:
-    explicit UriScan(ReferenceList& files) : files_(files), finder_(files.folder()) {}
+    explicit UriScan(ReferenceList& files) : files_(files) {}
 
 protected:
     bool on_key(const std::string& name) override {
@@ -23,10 +22,6 @@ protected:
         if (!is_uri_key() || value.starts_with("data:")) return true;
         const bool is_read = depth() == 3 && (key_at(1) == "buffers" || key_at(1) == "images");
         files_.add(value, ReferenceSyntax::uri, is_read ? Readable::yes : Readable::no);
-        try {
-            if (is_read) files_.add_found(finder_.find(value, {}, ReferenceSyntax::uri).file);
-        } catch (const InputError&) {  // there is none
-        }
         // load() takes the text after a ? or # as part of the name, other programs as a query or fragment.
         const std::size_t end = value.find_first_of("?#");
         if (end != std::string::npos) files_.add(value.substr(0, end), ReferenceSyntax::uri, Readable::no);
@@ -38,7 +33,6 @@ private:
     bool is_uri_key() const { return key_.ends_with("uri") || key_.ends_with("Uri"); }
 
     ReferenceList& files_;
-    FileFinder finder_;
     std::string key_;  // the last one
 };
 

@@ -10,6 +10,16 @@ namespace fs = std::filesystem;
 
 void ReferenceList::add(const std::string& reference, ReferenceSyntax syntax, Readable readable,
                         const fs::path& subfolder) {
+    add_named(reference, syntax, readable, subfolder);
+    if (readable == Readable::no) return;
+    try {
+        add_found(finder_.find(reference, subfolder, syntax).file);
+    } catch (const InputError&) {  // there is none
+    }
+}
+
+void ReferenceList::add_named(const std::string& reference, ReferenceSyntax syntax, Readable readable,
+                              const fs::path& subfolder) {
     fs::path file;
     std::error_code error;
     if (which_ == References::all) {

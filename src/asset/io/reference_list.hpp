@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "asset/io/file.hpp"
+#include "asset/io/file_finder.hpp"
 
 namespace faqem::detail {
 
@@ -28,12 +28,13 @@ enum class Readable { no, yes };
 class ReferenceList {
 public:
     ReferenceList(const std::filesystem::path& model, References which)
-        : folder_(model.parent_path()), which_(which) {}
+        : folder_(model.parent_path()), finder_(folder_), which_(which) {}
 
-    /// Folder of the model.
-    const std::filesystem::path& folder() const { return folder_; }
+    /// Finds files that references of the model mean.
+    FileFinder& finder() { return finder_; }
 
-    /// Adds the file that a reference names if it exists, and if it is one of those that are wanted.
+    /// Adds the file that a reference names if it exists, and if it is one of those that are wanted; and, if it may be
+    /// read, the one that FileFinder finds.
     /// \param subfolder  of the file with the reference, relative to the folder of the model
     void add(const std::string& reference, ReferenceSyntax syntax, Readable readable,
              const std::filesystem::path& subfolder = {});
@@ -45,7 +46,11 @@ public:
     std::vector<std::filesystem::path> finish() { return std::move(files_); }
 
 private:
+    void add_named(const std::string& reference, ReferenceSyntax syntax, Readable readable,
+                   const std::filesystem::path& subfolder);
+
     std::filesystem::path folder_;
+    FileFinder finder_;
     References which_;
     std::vector<std::filesystem::path> files_;
     std::set<std::filesystem::path> known_, canonical_;
