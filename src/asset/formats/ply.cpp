@@ -61,6 +61,32 @@ VertexProperty vertex_property(const PlyProperty& property) {
     return skipped;
 }
 
+/// The properties of an element that have a meaning, and their values in a row.
+struct PlySlots {
+    std::vector<VertexProperty> of;  // by property
+    PlyRow scale = {};               // of colours to [0, 1]; 0: no such property
+    PlyRow row = {};
+
+    explicit PlySlots(const PlyElement& element) {
+        for (const PlyProperty& p : element.properties) {
+            of.push_back(vertex_property(p));
+            scale[of.back()] = is_integer_type(p.type) ? 1 / ply_type_range(p.type).high : 1;
+        }
+    }
+
+    bool has(std::initializer_list<VertexProperty> all) const {
+        return std::all_of(all.begin(), all.end(), [&](VertexProperty slot) { return scale[slot] > 0; });
+    }
+
+    /// Reads a property, unless it has no meaning.
+    template <class Data>
+    bool take(std::size_t i, const PlyElement& element, Data& data) {
+        if (of[i] == skipped) return false;
+        row[of[i]] = data.value(element.properties[i].type);
+        return true;
+    }
+};
+
 /// Reads the elements of a PLY file.
 /// \tparam Data  PlyAsciiData or PlyBinaryData
 template <class Data>
@@ -114,14 +140,17 @@ private:
                              "the file is too short for " + pluralized(element.count, "row"));
     }
 
-    /// Calls row() for each row of an element. Adds the name and index of the row to error messages.
-    template <class Row>
-    void for_each_row(const PlyElement& element, Row&& row) {
+    /// Calls take(p) for each property of each row of an element, which reads it or returns false if it is to be skipped,
+    /// and row() at its end. Adds the name and index of the row to error messages.
+    template <class Take, class Row>
+    void for_each_row(const PlyElement& element, Take&& take, Row&& row) {
         if (element.properties.empty()) return;
         std::uint64_t i = 0;
         try {
             for (; i < element.count; ++i) {
                 data_.begin_row();
+                for (std::size_t p = 0; p < element.properties.size(); ++p)
+                    if (!take(p)) skip(element.properties[p]);
                 row();
                 data_.end_row();
             }
@@ -143,9 +172,6 @@ private:
         for (std::uint64_t n = property.is_list ? list_size(property) : 1; n > 0; --n)
             data_.value(property.type);
     }
-    void skip(const std::vector<PlyProperty>& properties) {
-        for (const PlyProperty& p : properties) skip(p);
-    }
 
     void add_not_understood(const PlyElement& element, const PlyProperty& property) {
         content_.not_understood.push_back("property '" + property.name + "' of " + element.name);
@@ -153,43 +179,30 @@ private:
 
     void read_other(const PlyElement& element) {
         content_.not_understood.push_back("element '" + element.name + "'");
-        for_each_row(element, [&] { skip(element.properties); });
+        for_each_row(
+            element, [](std::size_t) { return false; }, [] {});
     }
 
     void read_vertices(const PlyElement& element) {
-        std::vector<VertexProperty> slots;
-        PlyRow scale = {};  // of colours to [0, 1]; 0: no such property
-        for (const PlyProperty& p : element.properties) {
-            slots.push_back(vertex_property(p));
-            scale[slots.back()] = is_integer_type(p.type) ? 1 / ply_type_range(p.type).high : 1;
-        }
-        const auto has = [&](std::initializer_list<VertexProperty> all) {
-            return std::all_of(all.begin(), all.end(), [&](VertexProperty slot) { return scale[slot] > 0; });
-        };
-        if (!has({x, y, z})) throw InputError(file_, "element vertex", "must have the properties x, y and z");
+        PlySlots slots(element);
+        if (!slots.has({x, y, z}))
+            throw InputError(file_, "element vertex", "must have the properties x, y and z");
         part_.positions.resize(element.count);
-        if (has({nx, ny, nz})) part_.normals.resize(element.count);
-        if (has({red, green, blue})) part_.colors.resize(element.count);
-        if (has({s, t})) part_.uvs.emplace_back(element.count);
-        for (std::size_t i = 0; i < slots.size(); ++i) {
-            const bool is_used = slots[i] <= z       ? true
-                                 : slots[i] <= nz    ? !part_.normals.empty()
-                                 : slots[i] <= alpha ? !part_.colors.empty()
-                                                     : slots[i] <= t && !part_.uvs.empty();
+        if (slots.has({nx, ny, nz})) part_.normals.resize(element.count);
+        if (slots.has({red, green, blue})) part_.colors.resize(element.count);
+        if (slots.has({s, t})) part_.uvs.emplace_back(element.count);
+        for (std::size_t i = 0; i < slots.of.size(); ++i) {
+            const VertexProperty slot = slots.of[i];
+            const bool is_used = slot <= z       ? true
+                                 : slot <= nz    ? !part_.normals.empty()
+                                 : slot <= alpha ? !part_.colors.empty()
+                                                 : slot <= t && !part_.uvs.empty();
             if (!is_used) add_not_understood(element, element.properties[i]);
         }
-
-        PlyRow row = {};
         std::size_t vertex = 0;
-        for_each_row(element, [&] {
-            for (std::size_t i = 0; i < slots.size(); ++i) {
-                if (slots[i] == skipped)
-                    skip(element.properties[i]);
-                else
-                    row[slots[i]] = data_.value(element.properties[i].type);
-            }
-            store_vertex(vertex++, row, scale);
-        });
+        for_each_row(
+            element, [&](std::size_t i) { return slots.take(i, element, data_); },
+            [&] { store_vertex(vertex++, slots.row, slots.scale); });
     }
 
     void store_vertex(std::size_t v, const PlyRow& row, const PlyRow& scale) {
@@ -239,16 +252,11 @@ private:
                 add_not_understood(element, p);
         }
         std::vector<double> list;
-        for_each_row(element, [&] {
-            for (std::size_t i = 0; i < element.properties.size(); ++i) {
-                if (i != indices) {
-                    skip(element.properties[i]);
-                    continue;
-                }
-                read_list(element.properties[i], list);
-                add_strip(list);
-            }
-        });
+        const auto take = [&](std::size_t i) {
+            if (i == indices) read_list(element.properties[i], list);
+            return i == indices;
+        };
+        for_each_row(element, take, [&] { add_strip(list); });
     }
 
     void read_faces(const PlyElement& element) {
@@ -261,36 +269,29 @@ private:
             return static_cast<std::size_t>(found - properties.begin());
         };
         const std::size_t uvs = find("texcoord", true), texture = find("texnumber", false);
-        std::vector<VertexProperty> slots;
-        PlyRow row = {}, scale = {};
-        for (const PlyProperty& p : properties) {
-            const VertexProperty slot = vertex_property(p);
-            slots.push_back(slot >= red && slot <= alpha ? slot : skipped);
-            scale[slots.back()] = is_integer_type(p.type) ? 1 / ply_type_range(p.type).high : 1;
-        }
-        const bool has_colors = scale[red] > 0 && scale[green] > 0 && scale[blue] > 0;
+        PlySlots slots(element);
+        for (VertexProperty& slot : slots.of)
+            if (slot < red || slot > alpha) slot = skipped;
+        const bool has_colors = slots.has({red, green, blue});
         for (std::size_t i = 0; i < properties.size(); ++i)
-            if (i != indices && i != uvs && i != texture && (slots[i] == skipped || !has_colors))
+            if (i != indices && i != uvs && i != texture && (slots.of[i] == skipped || !has_colors))
                 add_not_understood(element, properties[i]);
         std::vector<double> list, coordinates;
         double number = 0;
-        for_each_row(element, [&] {
-            for (std::size_t i = 0; i < properties.size(); ++i) {
-                if (i == indices)
-                    read_list(properties[i], list);
-                else if (i == uvs)
-                    read_list(properties[i], coordinates);
-                else if (i == texture)
-                    number = data_.value(properties[i].type);
-                else if (slots[i] != skipped)
-                    row[slots[i]] = data_.value(properties[i].type);
-                else
-                    skip(properties[i]);
-            }
+        const auto take = [&](std::size_t i) {
+            if (i == indices || i == uvs)
+                read_list(properties[i], i == indices ? list : coordinates);
+            else if (i == texture)
+                number = data_.value(properties[i].type);
+            else
+                return slots.take(i, element, data_);
+            return true;
+        };
+        for_each_row(element, take, [&] {
             add_face(list);
             if (uvs < properties.size()) add_coordinates(coordinates, list.size());
             if (texture < properties.size()) faces_.textures.push_back(number);
-            if (has_colors) faces_.colors.push_back(color(row, scale));
+            if (has_colors) faces_.colors.push_back(color(slots.row, slots.scale));
         });
     }
 
