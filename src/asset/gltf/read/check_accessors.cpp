@@ -8,37 +8,28 @@ namespace {
 
 constexpr std::uint64_t max_stride = 252;
 
-void check_buffers(const GltfChecker& checker) {
-    const Json& buffers = member(checker.document, "buffers");
-    for (std::uint64_t i = 0; i < buffers.size(); ++i) {
-        const std::string where = child_path("/buffers", i);
-        if (checker.required_number(buffers[i], where, "byteLength") == 0)
-            checker.fail(child_path(where, "byteLength"), "is 0");
-        const Json& uri = member(buffers[i], "uri");
-        if (!uri.is_null() && !uri.is_string()) checker.fail(child_path(where, "uri"), "is not a string");
-    }
+void check_buffer(const GltfChecker& checker, const Json& buffer, const std::string& where) {
+    if (checker.required_number(buffer, where, "byteLength") == 0)
+        checker.fail(child_path(where, "byteLength"), "is 0");
+    const Json& uri = member(buffer, "uri");
+    if (!uri.is_null() && !uri.is_string()) checker.fail(child_path(where, "uri"), "is not a string");
 }
 
-void check_views(const GltfChecker& checker) {
-    const Json& views = member(checker.document, "bufferViews");
-    for (std::uint64_t i = 0; i < views.size(); ++i) {
-        const std::string where = child_path("/bufferViews", i);
-        const std::uint64_t buffer = checker.required_reference(views[i], where, "buffer", "buffers");
-        const std::uint64_t offset = checker.number(views[i], where, "byteOffset").value_or(0);
-        const std::uint64_t length = checker.required_number(views[i], where, "byteLength");
-        const std::uint64_t size =
-            member(checker.document, "buffers")[buffer]["byteLength"].get<std::uint64_t>();
-        if (length == 0) checker.fail(child_path(where, "byteLength"), "is 0");
-        if (offset > size || length > size - offset)
-            checker.fail(where, "needs " + bytes_text(length) + " at offset " + std::to_string(offset) +
-                                    ", buffer " + std::to_string(buffer) + " has " + std::to_string(size));
-        if (is_fallback_buffer(member(checker.document, "buffers")[buffer]))
-            check_meshopt(checker, views[i], where);
-        const auto stride = checker.number(views[i], where, "byteStride");
-        if (stride && (*stride < 4 || *stride > max_stride || *stride % 4 != 0))
-            checker.fail(child_path(where, "byteStride"),
-                         "is " + std::to_string(*stride) + ", not a multiple of 4 between 4 and 252");
-    }
+void check_view(const GltfChecker& checker, const Json& view, const std::string& where) {
+    const std::uint64_t buffer = checker.required_reference(view, where, "buffer", "buffers");
+    const std::uint64_t offset = checker.number(view, where, "byteOffset").value_or(0);
+    const std::uint64_t length = checker.required_number(view, where, "byteLength");
+    const Json& buffer_json = member(checker.document, "buffers")[buffer];
+    const auto size = buffer_json["byteLength"].get<std::uint64_t>();
+    if (length == 0) checker.fail(child_path(where, "byteLength"), "is 0");
+    if (offset > size || length > size - offset)
+        checker.fail(where, "needs " + bytes_text(length) + " at offset " + std::to_string(offset) +
+                                ", buffer " + std::to_string(buffer) + " has " + std::to_string(size));
+    if (is_fallback_buffer(buffer_json)) check_meshopt(checker, view, where);
+    const auto stride = checker.number(view, where, "byteStride");
+    if (stride && (*stride < 4 || *stride > max_stride || *stride % 4 != 0))
+        checker.fail(child_path(where, "byteStride"),
+                     "is " + std::to_string(*stride) + ", not a multiple of 4 between 4 and 252");
 }
 
 /// Checks that `count` elements of `size` bytes with a distance of `stride` bytes fit into a view.
@@ -124,8 +115,8 @@ void check_accessor(const GltfChecker& checker, const Json& accessor, const std:
 }  // namespace
 
 void check_accessors(const GltfChecker& checker) {
-    check_buffers(checker);
-    check_views(checker);
+    checker.for_each_object("buffers", check_buffer);
+    checker.for_each_object("bufferViews", check_view);
     const Json& accessors = member(checker.document, "accessors");
     const std::uint64_t file_bytes = declared_buffer_size(checker.document);
     const std::uint64_t max_draco_elements =

@@ -60,17 +60,14 @@ void check_extension_list(const GltfChecker& checker, const char* key) {
 }
 
 void check_required_extensions(const GltfChecker& checker) {
-    const Json& required = member(checker.document, "extensionsRequired");
-    for (std::uint64_t i = 0; i < required.size(); ++i) {
-        const auto name = required[i].get<std::string>();
-        const std::string where = child_path("/extensionsRequired", i);
+    checker.for_each(checker.document, "", "extensionsRequired", [&](const Json& value, const auto& where) {
+        const auto name = value.get<std::string>();
         if (name == draco_name || name == meshopt_name) {
             if (!can_decode(name)) checker.fail_unsupported(where, missing_decoder_message(name));
-            continue;
-        }
-        if (!is_supported(name))
+        } else if (!is_supported(name)) {
             checker.fail_unsupported(where, "the extension " + name + " is not supported");
-    }
+        }
+    });
 }
 
 /// Checks that every `extensions` outside of extras is an object of objects, which the writer relies on. The
@@ -89,15 +86,13 @@ void check_extensions(const GltfChecker& checker, const Json& value, const std::
 void check_image_lights(const GltfChecker& checker) {
     const std::string where = "/extensions/EXT_lights_image_based";
     const Json& extension = member(member(checker.document, "extensions"), "EXT_lights_image_based");
-    const Json& lights = checker.array(extension, where, "lights");
-    for (std::uint64_t i = 0; i < lights.size(); ++i) {
-        const std::string at = child_path(where + "/lights", i);
-        for (const Json& mip : checker.array(lights[i], at, "specularImages")) {
+    checker.for_each(extension, where, "lights", [&](const Json& light, const std::string& at) {
+        for (const Json& mip : checker.array(light, at, "specularImages")) {
             if (!mip.is_array())
                 checker.fail(at + "/specularImages", "contains an element that is not an array");
             for (const Json& image : mip) checker.checked_index(image, at + "/specularImages", "images");
         }
-    }
+    });
 }
 
 }  // namespace
@@ -116,11 +111,10 @@ void check_document(const GltfChecker& checker) {
     check_extension_list(checker, "extensionsUsed");
     check_extension_list(checker, "extensionsRequired");
     check_required_extensions(checker);
-    for (const char* key : top_level_arrays) {
-        const Json& array = checker.array(checker.document, "", key);
-        for (std::uint64_t i = 0; i < array.size(); ++i)
-            if (!array[i].is_object()) checker.fail(child_path(child_path("", key), i), "is not an object");
-    }
+    for (const char* key : top_level_arrays)
+        checker.for_each(checker.document, "", key, [&](const Json& value, const std::string& where) {
+            if (!value.is_object()) checker.fail(where, "is not an object");
+        });
     check_extensions(checker, checker.document, "");
     check_image_lights(checker);
     const Json& tile = member(member(checker.document, "extensions"), center_name);

@@ -72,9 +72,9 @@ void check_indices(const GltfChecker& checker, const Json& primitive, const std:
 void check_variants(const GltfChecker& checker, const Json& primitive, const std::string& where) {
     const Json& variants = member(member(primitive, "extensions"), "KHR_materials_variants");
     const std::string at = where + "/extensions/KHR_materials_variants";
-    const Json& mappings = checker.array(variants, at, "mappings");
-    for (std::uint64_t i = 0; i < mappings.size(); ++i)
-        checker.required_reference(mappings[i], child_path(at + "/mappings", i), "material", "materials");
+    checker.for_each(variants, at, "mappings", [&](const Json& mapping, const std::string& path) {
+        checker.required_reference(mapping, path, "material", "materials");
+    });
 }
 
 void check_primitive(const GltfChecker& checker, const Json& primitive, const std::string& where) {
@@ -88,12 +88,10 @@ void check_primitive(const GltfChecker& checker, const Json& primitive, const st
     const std::uint64_t count =
         check_attributes(checker, attributes, child_path(where, "attributes"), 0, false);
     check_indices(checker, primitive, where);
-    const Json& targets = checker.array(primitive, where, "targets");
-    for (std::uint64_t i = 0; i < targets.size(); ++i) {
-        const std::string at = child_path(child_path(where, "targets"), i);
-        if (!targets[i].is_object()) checker.fail(at, "is not an object");
-        check_attributes(checker, targets[i], at, count, true);
-    }
+    checker.for_each(primitive, where, "targets", [&](const Json& target, const std::string& at) {
+        if (!target.is_object()) checker.fail(at, "is not an object");
+        check_attributes(checker, target, at, count, true);
+    });
     check_variants(checker, primitive, where);
 
     // If Draco is optional, the accessors may have uncompressed data too.
@@ -153,19 +151,13 @@ void check_image(const GltfChecker& checker, const Json& image, const std::strin
 }  // namespace
 
 void check_meshes_and_materials(const GltfChecker& checker) {
-    const Json& document = checker.document;
-    const auto each = [&](const char* key, auto check) {
-        const Json& array = member(document, key);
-        for (std::uint64_t i = 0; i < array.size(); ++i)
-            check(checker, array[i], child_path(child_path("", key), i));
-    };
-    each("images", check_image);
-    each("textures", check_texture);
-    each("materials", check_material);
-    each("meshes", [](const GltfChecker& c, const Json& mesh, const std::string& where) {
-        const Json& primitives = c.array(mesh, where, "primitives");
-        for (std::uint64_t i = 0; i < primitives.size(); ++i)
-            check_primitive(c, primitives[i], child_path(child_path(where, "primitives"), i));
+    checker.for_each_object("images", check_image);
+    checker.for_each_object("textures", check_texture);
+    checker.for_each_object("materials", check_material);
+    checker.for_each(checker.document, "", "meshes", [&](const Json& mesh, const std::string& where) {
+        checker.for_each(mesh, where, "primitives", [&](const Json& primitive, const std::string& at) {
+            check_primitive(checker, primitive, at);
+        });
     });
 }
 

@@ -55,16 +55,15 @@ void check_node(const GltfChecker& checker, const Json& node, const std::string&
     checker.check_levels(node, where, "nodes");
 }
 
-void check_instance_counts(const GltfChecker& checker, const Json& nodes) {
+void check_instance_counts(const GltfChecker& checker) {
     std::uint64_t instances = 0;
-    for (std::uint64_t i = 0; i < nodes.size(); ++i) {
-        const std::uint64_t own = checked_instance_count(checker, nodes[i], child_path("/nodes", i));
+    checker.for_each(checker.document, "", "nodes", [&](const Json& node, const std::string& where) {
+        const std::uint64_t own = checked_instance_count(checker, node, where);
         if (own > 1 && own > max_instances - std::min(instances, max_instances))
             checker.fail_unsupported(
-                child_path("/nodes", i),
-                "the file has more than " + std::to_string(max_instances) + " instances");
+                where, "the file has more than " + std::to_string(max_instances) + " instances");
         instances += own;
-    }
+    });
 }
 
 /// Parent of each node; the number of nodes if it has none.
@@ -73,15 +72,13 @@ std::vector<std::uint64_t> checked_parents(const GltfChecker& checker, const Jso
     std::vector<std::uint64_t> parents(count, count);
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::string where = child_path("/nodes", i);
-        const Json& children = checker.array(nodes[i], where, "children");
-        for (std::uint64_t k = 0; k < children.size(); ++k) {
-            const std::uint64_t child =
-                checker.checked_index(children[k], child_path(child_path(where, "children"), k), "nodes");
+        checker.for_each(nodes[i], where, "children", [&](const Json& value, const std::string& at) {
+            const std::uint64_t child = checker.checked_index(value, at, "nodes");
             if (parents[child] != count)
                 checker.fail(child_path("/nodes", child),
                              "has two parents: /nodes/" + std::to_string(parents[child]) + " and " + where);
             parents[child] = i;
-        }
+        });
     }
     return parents;
 }
@@ -109,63 +106,52 @@ void check_scenes(const GltfChecker& checker, const std::vector<std::uint64_t>& 
     checker.reference(checker.document, "", "scene", "scenes");
     for (std::uint64_t i = 0; i < scenes.size(); ++i) {
         const std::string where = child_path("/scenes", i);
-        const Json& nodes = checker.array(scenes[i], where, "nodes");
-        for (std::uint64_t k = 0; k < nodes.size(); ++k) {
-            const std::string at = child_path(child_path(where, "nodes"), k);
-            const std::uint64_t node = checker.checked_index(nodes[k], at, "nodes");
+        checker.for_each(scenes[i], where, "nodes", [&](const Json& value, const std::string& at) {
+            const std::uint64_t node = checker.checked_index(value, at, "nodes");
             if (parents[node] != parents.size())
                 checker.fail(at, "refers to /nodes/" + std::to_string(node) + ", which has a parent");
             if (listed_in[node] == i)
                 checker.fail(at, "refers to /nodes/" + std::to_string(node) + " a second time");
             listed_in[node] = i;
-        }
+        });
     }
 }
 
-void check_skins(const GltfChecker& checker) {
-    const Json& skins = member(checker.document, "skins");
-    for (std::uint64_t i = 0; i < skins.size(); ++i) {
-        const std::string where = child_path("/skins", i);
-        checker.reference(skins[i], where, "skeleton", "nodes");
-        checker.reference(skins[i], where, "inverseBindMatrices", "accessors");
-        const Json& joints = checker.array(skins[i], where, "joints");
-        for (std::uint64_t k = 0; k < joints.size(); ++k)
-            checker.checked_index(joints[k], child_path(child_path(where, "joints"), k), "nodes");
-    }
+void check_skin(const GltfChecker& checker, const Json& skin, const std::string& where) {
+    checker.reference(skin, where, "skeleton", "nodes");
+    checker.reference(skin, where, "inverseBindMatrices", "accessors");
+    checker.for_each(skin, where, "joints", [&](const Json& joint, const std::string& at) {
+        checker.checked_index(joint, at, "nodes");
+    });
 }
 
 void check_animation(const GltfChecker& checker, const Json& animation, const std::string& where) {
-    const Json& samplers = checker.array(animation, where, "samplers");
-    for (std::uint64_t i = 0; i < samplers.size(); ++i) {
-        const std::string at = child_path(child_path(where, "samplers"), i);
-        checker.required_reference(samplers[i], at, "input", "accessors");
-        checker.required_reference(samplers[i], at, "output", "accessors");
-    }
-    const Json& channels = checker.array(animation, where, "channels");
-    for (std::uint64_t i = 0; i < channels.size(); ++i) {
-        const std::string at = child_path(child_path(where, "channels"), i);
-        if (checker.required_number(channels[i], at, "sampler") >= samplers.size())
+    const Json& samplers = member(animation, "samplers");
+    checker.for_each(animation, where, "samplers", [&](const Json& sampler, const std::string& at) {
+        checker.required_reference(sampler, at, "input", "accessors");
+        checker.required_reference(sampler, at, "output", "accessors");
+    });
+    checker.for_each(animation, where, "channels", [&](const Json& channel, const std::string& at) {
+        if (checker.required_number(channel, at, "sampler") >= samplers.size())
             checker.fail(child_path(at, "sampler"), "is out of range: the animation has " +
                                                         std::to_string(samplers.size()) + " samplers");
-        const Json& target = checker.object(channels[i], at, "target");
+        const Json& target = checker.object(channel, at, "target");
         if (target.is_null()) checker.fail(at, "has no target");
         checker.reference(target, child_path(at, "target"), "node", "nodes");
-    }
+    });
 }
 
 }  // namespace
 
 void check_scene(const GltfChecker& checker) {
     const Json& nodes = member(checker.document, "nodes");
-    for (std::uint64_t i = 0; i < nodes.size(); ++i) check_node(checker, nodes[i], child_path("/nodes", i));
-    check_instance_counts(checker, nodes);
+    checker.for_each_object("nodes", check_node);
+    check_instance_counts(checker);
     const std::vector<std::uint64_t> parents = checked_parents(checker, nodes);
     check_no_cycle(checker, parents);
     check_scenes(checker, parents);
-    check_skins(checker);
-    const Json& animations = member(checker.document, "animations");
-    for (std::uint64_t i = 0; i < animations.size(); ++i)
-        check_animation(checker, animations[i], child_path("/animations", i));
+    checker.for_each_object("skins", check_skin);
+    checker.for_each_object("animations", check_animation);
 }
 
 }  // namespace faqem::detail

@@ -77,9 +77,8 @@ void GltfChecker::check_number_array(const Json& parent, const std::string& wher
 
 void GltfChecker::check_levels(const Json& parent, const std::string& where, const char* array_name) const {
     const std::string at = where + "/extensions/" + lod_name;
-    const Json& ids = array(member(object(parent, where, "extensions"), lod_name), at, "ids");
-    for (std::uint64_t i = 0; i < ids.size(); ++i)
-        checked_index(ids[i], child_path(at + "/ids", i), array_name);
+    for_each(member(object(parent, where, "extensions"), lod_name), at, "ids",
+             [&](const Json& id, const std::string& path) { checked_index(id, path, array_name); });
 }
 
 void validate_gltf(const Json& document, const std::string& file) {

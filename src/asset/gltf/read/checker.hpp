@@ -44,6 +44,19 @@ struct GltfChecker {
     const Json& array(const Json& object, const std::string& where, const char* key) const;
     /// The object under `key`; null if the key is absent.
     const Json& object(const Json& parent, const std::string& where, const char* key) const;
+    /// Calls visit(value, where) for the values of the array under `key`, if it is present.
+    template <class Visit>
+    void for_each(const Json& parent, const std::string& where, const char* key, Visit&& visit) const {
+        const Json& values = array(parent, where, key);
+        const std::string path = child_path(where, key);
+        for (std::uint64_t i = 0; i < values.size(); ++i) visit(values[i], child_path(path, i));
+    }
+    /// Calls check(checker, object, where) for the objects of a top-level array.
+    template <class Check>
+    void for_each_object(const char* array_name, Check&& check) const {
+        for_each(document, "", array_name,
+                 [&](const Json& value, const std::string& where) { check(*this, value, where); });
+    }
     /// Checks that the coarser levels of a node or material (MSFT_lod) are indices into the top-level array `array`.
     void check_levels(const Json& object, const std::string& where, const char* array) const;
     /// Checks that the value under `key`, if present, is an array of exactly `size` numbers.
