@@ -30,6 +30,8 @@ Json accessor_description(ComponentType component, const char* type, std::size_t
     return {{"componentType", static_cast<std::uint32_t>(component)}, {"type", type}, {"count", count}};
 }
 
+constexpr std::array vector_types = {"SCALAR", "VEC2", "VEC3", "VEC4"};  // by the number of components - 1
+
 /// Adds min and max. They are written exactly, since readers compare them with the floats.
 template <class T>
 void add_bounds(Json& description, const std::vector<std::array<T, 3>>& values) {
@@ -57,6 +59,29 @@ Index add_vertices(GltfWriter& writer, Json description, const std::vector<T>& v
     writer.draco->push_back({{}, std::move(description), {bytes.begin(), bytes.end()}});
     return static_cast<Index>(writer.draco->size() - 1);
 }
+
+/// Writes vectors as normalised integers.
+/// \param integer  gives the integer, as a double, for a component
+template <class T, class Integer, std::size_t N>
+Index add_normalized(GltfWriter& writer, ComponentType type, const std::vector<std::array<float, N>>& values,
+                     Integer&& integer, AccessorUse use = AccessorUse::vertices) {
+    std::vector<std::array<T, N>> integers(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (std::size_t c = 0; c < N; ++c)
+            integers[i][c] = static_cast<T>(std::lround(integer(values[i][c])));
+    Json description = accessor_description(type, vector_types[N - 1], integers.size());
+    description["normalized"] = true;
+    return add_vertices(writer, std::move(description), integers, use);
+}
+
+template <std::size_t N>
+Index add_float_vertices(GltfWriter& writer, const std::vector<std::array<float, N>>& values,
+                         AccessorUse use = AccessorUse::vertices) {
+    return add_vertices(writer, accessor_description(ComponentType::f32, vector_types[N - 1], values.size()),
+                        values, use);
+}
+
+constexpr double unit_16 = 65535;  // 1 as a normalised integer
 
 /// Writes integer vectors with bounds.
 template <class T, class Value>
@@ -95,51 +120,32 @@ Index add_positions(GltfWriter& writer, const std::vector<Vec3f>& values, const 
     }
 }
 
-/// Writes unit vectors as normalised 16-bit integers. Compression may round those of new vertices further.
-template <std::size_t N>
-Index add_short_directions(GltfWriter& writer, const std::vector<std::array<float, N>>& values, bool is_new) {
-    std::vector<std::array<std::int16_t, N>> integers(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        for (std::size_t c = 0; c < N; ++c)
-            integers[i][c] =
-                static_cast<std::int16_t>(std::lround(std::clamp(values[i][c], -1.0f, 1.0f) * 32767.0));
-    Json description = accessor_description(ComponentType::i16, N == 3 ? "VEC3" : "VEC4", integers.size());
-    description["normalized"] = true;
-    writer.needs_quantization = true;
-    return add_vertices(writer, std::move(description), integers,
-                        is_new ? AccessorUse::short_directions : AccessorUse::vertices);
-}
-
-/// Writes unit vectors, as integers with Asset::normal_bits.
+/// Writes unit vectors, as 16-bit integers with Asset::normal_bits. Compression may round those of new vertices further.
 template <std::size_t N>
 Index add_directions(GltfWriter& writer, const std::vector<std::array<float, N>>& values, bool is_new) {
-    if (writer.asset.normal_bits > 0 && !writer.draco) return add_short_directions(writer, values, is_new);
-    return add_vertices(writer,
-                        accessor_description(ComponentType::f32, N == 3 ? "VEC3" : "VEC4", values.size()),
-                        values, is_new ? AccessorUse::directions : AccessorUse::vertices);
+    if (writer.asset.normal_bits == 0 || writer.draco)
+        return add_float_vertices(writer, values, is_new ? AccessorUse::directions : AccessorUse::vertices);
+    writer.needs_quantization = true;
+    return add_normalized<std::int16_t>(
+        writer, ComponentType::i16, values, [](float x) { return std::clamp(x, -1.0f, 1.0f) * 32767.0; },
+        is_new ? AccessorUse::short_directions : AccessorUse::vertices);
 }
 
 /// Writes texture coordinates. With Asset::uv_bits they are normalised integers if all are from 0 to 1. Where
 /// compression rounds floats, these are smaller; vertices that are not new stay exact there.
 Index add_uvs(GltfWriter& writer, const std::vector<Vec2f>& values, bool is_new) {
-    constexpr double unit = 65535;
     const bool is_compressed = writer.asset.compression == Compression::meshopt;
     const bool fits = std::all_of(values.begin(), values.end(), [&](const Vec2f& uv) {
         return std::all_of(uv.begin(), uv.end(), [&](float x) {
             return x >= 0 && x <= 1 &&
-                   (!is_compressed || static_cast<float>(std::round(x * unit) / unit) == x);
+                   (!is_compressed || static_cast<float>(std::round(x * unit_16) / unit_16) == x);
         });
     });
     if (writer.asset.uv_bits == 0 || (is_compressed && is_new) || !fits || writer.draco)
-        return add_vertices(writer, accessor_description(ComponentType::f32, "VEC2", values.size()), values,
-                            is_new ? AccessorUse::texture_coordinates : AccessorUse::vertices);
-    std::vector<std::array<std::uint16_t, 2>> integers(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        for (std::size_t c = 0; c < 2; ++c)
-            integers[i][c] = static_cast<std::uint16_t>(std::lround(values[i][c] * unit));
-    Json description = accessor_description(ComponentType::u16, "VEC2", integers.size());
-    description["normalized"] = true;
-    return add_vertices(writer, std::move(description), integers);
+        return add_float_vertices(writer, values,
+                                  is_new ? AccessorUse::texture_coordinates : AccessorUse::vertices);
+    return add_normalized<std::uint16_t>(writer, ComponentType::u16, values,
+                                         [](float x) { return x * unit_16; });
 }
 
 /// Writes colours as normalised 16-bit integers, since 8 bits are too few for linear colours; as floats if a
@@ -148,15 +154,9 @@ Index add_colors(GltfWriter& writer, const std::vector<Vec4f>& colors) {
     const bool in_range = std::all_of(colors.begin(), colors.end(), [](const Vec4f& color) {
         return std::all_of(color.begin(), color.end(), [](float x) { return x >= 0 && x <= 1; });
     });
-    if (!in_range)
-        return add_vertices(writer, accessor_description(ComponentType::f32, "VEC4", colors.size()), colors);
-    std::vector<std::array<std::uint16_t, 4>> integers(colors.size());
-    for (std::size_t i = 0; i < colors.size(); ++i)
-        for (std::size_t c = 0; c < 4; ++c)
-            integers[i][c] = static_cast<std::uint16_t>(std::lround(colors[i][c] * 65535.0));
-    Json description = accessor_description(ComponentType::u16, "VEC4", integers.size());
-    description["normalized"] = true;
-    return add_vertices(writer, std::move(description), integers);
+    if (!in_range) return add_float_vertices(writer, colors);
+    return add_normalized<std::uint16_t>(writer, ComponentType::u16, colors,
+                                         [](float x) { return x * unit_16; });
 }
 
 Index add_joints(GltfWriter& writer, const std::vector<std::array<std::uint16_t, 4>>& joints) {
@@ -242,9 +242,8 @@ Index add_integers(GltfWriter& writer, const CustomAttribute& attribute, const P
 
 Index add_custom(GltfWriter& writer, const CustomAttribute& attribute, const PrimitiveData& data) {
     const auto component = static_cast<ComponentType>(attribute.component_type);
-    constexpr std::array<const char*, 4> types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     Json description =
-        accessor_description(component, types.at(attribute.components - 1), data.vertices.size());
+        accessor_description(component, vector_types.at(attribute.components - 1), data.vertices.size());
     if (attribute.normalized) description["normalized"] = true;
     switch (component) {
         case ComponentType::i8:
@@ -268,7 +267,6 @@ Index add_custom(GltfWriter& writer, const CustomAttribute& attribute, const Pri
 }
 
 Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData& data, const MeshGrid& grid) {
-    const std::size_t count = data.vertices.size();
     // Vertices and triangles that are not those of the source may be changed by compression.
     const bool is_new = part.file_order == FileOrder::for_gpu;
     Json json = {{"POSITION", add_positions(writer, data.positions, grid)}};
@@ -280,8 +278,7 @@ Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData&
     if (!data.colors.empty()) json["COLOR_0"] = add_colors(writer, data.colors);
     if (!data.joints.empty()) {
         json["JOINTS_0"] = add_joints(writer, data.joints);
-        json["WEIGHTS_0"] =
-            add_vertices(writer, accessor_description(ComponentType::f32, "VEC4", count), data.weights);
+        json["WEIGHTS_0"] = add_float_vertices(writer, data.weights);
     }
     for (const CustomAttribute& attribute : part.custom_attributes)
         json[attribute.name] = add_custom(writer, attribute, data);
