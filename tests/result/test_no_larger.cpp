@@ -106,7 +106,7 @@ TEST_CASE("images get smaller until the result fits, and no smaller than that") 
 
 TEST_CASE("where new images would lose more than the UVs of the source, these are kept") {
     // Resampled noise needs more bytes than the noise itself.
-    faqem::Asset asset = sheet(6, 0.2);
+    faqem::Asset asset = sheet(6, 0.1);
     faqem::Pixels noise{64, 64, {}, false};
     std::uint32_t state = 1;
     for (int i = 0; i < 64 * 64; ++i) {
