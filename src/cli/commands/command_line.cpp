@@ -5,6 +5,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/options/bound_options.hpp"
+#include "cli/options/profile.hpp"
 
 namespace faqem::cli {
 
@@ -35,6 +36,7 @@ void exclude_mutually(std::vector<OptionInfo>& options) {
 }  // namespace
 
 void complete_options(CommandTree& tree) {
+    tree.add_profiles = add_profile_values;
     for (CommandInfo& command : tree.commands) {
         const std::vector<OptionInfo> help = help_options();
         command.options.insert(command.options.begin(), help.begin(), help.end());

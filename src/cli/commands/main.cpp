@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "cli/commands/command_line.hpp"
-#include "cli/options/profile.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/shell/parser.hpp"
 #include "cli/shell/suggestion.hpp"
@@ -49,15 +48,12 @@ std::vector<std::string> without_short_form(const CommandTree& tree, std::vector
 int parse_and_run(int argc, char** argv) {
     CLI::App app;
     Action action;
-    CommandTree tree = command_tree();
+    const CommandTree tree = command_tree();
     add_to_parser(app, tree, action);
     const std::vector<std::string> words = without_short_form(tree, {argv + std::min(argc, 1), argv + argc});
     try {
-        std::vector<std::string> all = expand_profile(tree, words);
-        const auto added = std::mismatch(words.begin(), words.end(), all.begin(), all.end()).second;
-        tree.profile_words.assign(added, added + static_cast<std::ptrdiff_t>(all.size() - words.size()));
-        std::reverse(all.begin(), all.end());  // CLI11 expects the words in reverse order
-        app.parse(std::move(all));
+        std::vector<std::string> reversed(words.rbegin(), words.rend());  // as CLI11 expects them
+        app.parse(std::move(reversed));
     } catch (const CLI::ParseError& error) {
         if (app.exit(error) == 0) return exit_ok;
         const std::string suggested = suggestion(tree, words);

@@ -24,7 +24,7 @@ std::span<const BuiltinProfile> builtin_profiles();
 /// The profile with a name. \throws OptionError  there is none; the message lists all
 const BuiltinProfile& builtin_profile(std::string_view name);
 
-/// The option --profile. It has no effect itself: expand_profile() adds the options of the profile before parsing.
+/// The option --profile. It has no effect itself: add_profile_values() adds the values of the profile.
 OptionInfo builtin_profile_option();
 
 /// The content of a file for --config with the options of a profile.

@@ -1,8 +1,9 @@
 #include "cli/options/profile.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <set>
+#include <sstream>
+#include <utility>
 
 #include "asset/io/file.hpp"
 #include "cli/files/protected_files.hpp"
@@ -20,16 +21,6 @@ constexpr const char* version_key = "faqem-profile";
 constexpr int profile_version = 1;
 constexpr std::uint64_t max_file_size = 1'000'000;
 
-/// Returns the value of an option with a long name on the command line; empty if the option is the last word;
-/// nothing if it is not given.
-std::optional<std::string> value_of(const std::string& option, const std::vector<std::string>& words) {
-    for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
-        if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);
-        if (words[i] == option) return i + 1 < words.size() ? words[i + 1] : std::string();
-    }
-    return std::nullopt;
-}
-
 /// Parses a profile. Rejects duplicate keys, of which nlohmann::json would silently keep the last.
 Json parse_profile(const std::string& file) {
     const std::vector<std::uint8_t> bytes = detail::read_file(file, max_file_size);
@@ -46,12 +37,6 @@ Json parse_profile(const std::string& file) {
     } catch (const Json::exception& error) {
         throw InputError(file, "", std::string("is not valid JSON: ") + error.what());
     }
-}
-
-/// Tests whether a command has --config.
-bool reads_profiles(const CommandInfo& command) {
-    return std::any_of(command.options.begin(), command.options.end(),
-                       [](const OptionInfo& option) { return option.names.back() == "--config"; });
 }
 
 /// The key of an option in profiles: its name without dashes; empty if profiles do not have it.
@@ -91,43 +76,28 @@ std::string text_of(const Json& value, const std::string& where) {
     throw OptionError(where + ": must be a number or a string");
 }
 
-/// Converts an entry of a profile to words of the command line; none for a flag that is false.
-std::vector<std::string> to_words(const OptionInfo& option, const Json& value, const std::string& where) {
-    const std::string& name = option.names.back();
+/// Converts an entry of a profile to the words of a value; none for a flag that is false.
+std::vector<std::string> words_of(const OptionInfo& option, const Json& value, const std::string& where) {
     if (option.kind == detail::OptionKind::flag) {
-        if (value.is_boolean()) return value.get<bool>() ? std::vector{name} : std::vector<std::string>();
+        if (value.is_boolean()) return std::vector<std::string>(value.get<bool>() ? 1 : 0, "true");
         throw OptionError(where + ": must be true or false");
     }
-    if (!value.is_array()) return {name + "=" + text_of(value, where)};
-    std::string list;
-    for (const Json& one : value) list.append(list.empty() ? "" : ",").append(text_of(one, where));
-    return {name + "=" + list};
-}
-
-/// Tests whether a word has the short name of an option, which letters of flags may precede: `-fr.2`.
-bool has_letter(const CommandInfo& command, const OptionInfo& option, const std::string& word) {
-    for (std::size_t i = 1; word.starts_with('-') && i < word.size(); ++i) {
-        const auto found = std::find_if(
-            command.options.begin(), command.options.end(),
-            [name = std::string("-") + word[i]](const OptionInfo& one) { return one.names.front() == name; });
-        if (found == command.options.end()) return false;
-        if (&*found == &option) return true;
-        if (found->kind != detail::OptionKind::flag) return false;
+    if (option.kind != detail::OptionKind::list) return {text_of(value, where)};
+    std::vector<std::string> words;
+    for (const Json& one : value.is_array() ? value : Json::array({value})) {
+        std::istringstream texts(text_of(one, where));
+        for (std::string text; std::getline(texts, text, ',');) words.push_back(text);
     }
-    return false;
+    return words;
 }
 
-bool is_overridden(const CommandInfo& command, const OptionInfo& option,
-                   const std::vector<std::string>& words) {
-    const auto end = std::find(words.begin(), words.end(), "--");
-    return std::any_of(command.options.begin(), command.options.end(), [&](const OptionInfo& other) {
-        const std::string& name = other.names.back();
-        if (&other != &option && !std::binary_search(option.excludes.begin(), option.excludes.end(), name))
-            return false;
-        return value_of(name, words) || std::any_of(words.begin(), end, [&](const std::string& word) {
-                   return has_letter(command, other, word);
-               });
+/// The value by which an entry of a profile for an option is overridden; null if there is none.
+const ParsedValue* overriding(const std::vector<ParsedValue>& values, const OptionInfo& option) {
+    const auto found = std::find_if(values.begin(), values.end(), [&](const ParsedValue& value) {
+        return value.option == &option ||
+               std::binary_search(option.excludes.begin(), option.excludes.end(), value.option->names.back());
     });
+    return found == values.end() ? nullptr : &*found;
 }
 
 void check_version(const Json& profile, const std::string& file) {
@@ -138,36 +108,31 @@ void check_version(const Json& profile, const std::string& file) {
                           " is not supported, only version 1");
 }
 
-// Inserts options before `--`, because words after it are not options.
-void insert_options(std::vector<std::string>& words, const std::vector<std::string>& added) {
-    words.insert(std::find(words.begin(), words.end(), "--"), added.begin(), added.end());
-}
-
 void add_profile_file(const CommandTree& tree, const CommandInfo& command, const std::string& file,
-                      std::vector<std::string>& words) {
+                      std::vector<ParsedValue>& values) {
     protect_input(file);
     const Json profile = parse_profile(file);
     check_version(profile, file);
-    std::vector<std::string> added;
-    for (const auto& [key, value] : profile.items()) {
+    std::vector<ParsedValue> added;
+    for (const auto& [key, entry] : profile.items()) {
         if (key == version_key) continue;
         const OptionInfo* option = find_option(command, key);
         if (!option) throw_unknown_key(tree, command, file, key);
-        const std::vector<std::string> more = to_words(*option, value, file + ": " + key);
-        if (!is_overridden(command, *option, words)) added.insert(added.end(), more.begin(), more.end());
+        ParsedValue value{option, words_of(*option, entry, file + ": " + key), false};
+        if (value.words.empty() || overriding(values, *option)) continue;
+        if (const ParsedValue* other = overriding(added, *option))
+            throw OptionError(file + ": " + key + ": cannot be used with " + profile_key(*other->option));
+        added.push_back(std::move(value));
     }
-    insert_options(words, added);
+    values.insert(values.end(), added.begin(), added.end());
 }
 
 void add_builtin_profile(const CommandInfo& command, const BuiltinProfile& profile,
-                         std::vector<std::string>& words) {
-    std::vector<std::string> added;
+                         std::vector<ParsedValue>& values) {
     for (const auto& [key, value] : profile.options) {
         const OptionInfo* option = find_option(command, std::string(key));
-        if (option && !is_overridden(command, *option, words))
-            added.push_back(option->names.back() + "=" + std::string(value));
+        if (option && !overriding(values, *option)) values.push_back({option, {std::string(value)}, false});
     }
-    insert_options(words, added);
 }
 
 }  // namespace
@@ -179,15 +144,16 @@ OptionInfo profile_option() {
     return info;
 }
 
-std::vector<std::string> expand_profile(const CommandTree& tree, std::vector<std::string> words) {
-    const auto command = std::find_if(tree.commands.begin(), tree.commands.end(), [&](const CommandInfo& c) {
-        return !words.empty() && c.name == words[0];
-    });
-    if (command == tree.commands.end() || !reads_profiles(*command)) return words;
-    const std::optional<std::string> file = value_of("--config", words), name = value_of("--profile", words);
-    if (file && !file->empty()) add_profile_file(tree, *command, *file, words);
-    if (name && !name->empty()) add_builtin_profile(*command, builtin_profile(*name), words);
-    return words;
+void add_profile_values(const CommandTree& tree, const CommandInfo& command,
+                        std::vector<ParsedValue>& values) {
+    const auto word_of = [&](const std::string& name) {
+        for (const ParsedValue& value : values)
+            if (value.option->names.back() == name) return value.words.back();
+        return std::string();
+    };
+    const std::string file = word_of("--config"), name = word_of("--profile");
+    if (!file.empty()) add_profile_file(tree, command, file, values);
+    if (!name.empty()) add_builtin_profile(command, builtin_profile(name), values);
 }
 
 }  // namespace faqem::cli

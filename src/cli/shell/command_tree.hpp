@@ -51,12 +51,21 @@ struct CommandInfo {
     Action run = {};
 };
 
+/// A value of an option on a command line or in a profile.
+struct ParsedValue {
+    const OptionInfo* option;
+    std::vector<std::string> words;  ///< empty: a flag that is false
+    bool is_typed;
+};
+
 struct CommandTree {
     std::string description = {};
     std::string exit_codes = {};           ///< paragraph that lists the exit codes
     std::vector<OptionInfo> options = {};  ///< options of `faqem` without a subcommand
     std::vector<CommandInfo> commands = {};
-    std::vector<std::string> profile_words = {};  ///< of the command line that is parsed: those not typed
+    /// Adds the values of profiles to those that were typed. Empty: there are no profiles.
+    std::function<void(const CommandTree& tree, const CommandInfo& command, std::vector<ParsedValue>& values)>
+        add_profiles = {};
 };
 
 }  // namespace faqem::cli

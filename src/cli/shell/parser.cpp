@@ -25,17 +25,18 @@ CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
     return option;
 }
 
-void read_values(const ParsedOption& parsed, const CommandTree& tree) {
-    const auto& [info, option] = parsed;
-    // CLI11 would say that --output is missing.
-    if (option->count() == 0 && info->is_positional) throw CLI::RequiredError(info->value_name);
-    if (option->count() == 0) return;
-    const bool is_flag = info->kind == detail::OptionKind::flag;
-    if (is_flag && CLI::detail::to_flag_value(option->results().back()) <= 0) return;  // --quiet=false
-    const bool is_typed = std::none_of(
-        tree.profile_words.begin(), tree.profile_words.end(),
-        [&](const std::string& word) { return word.substr(0, word.find('=')) == info->names.back(); });
-    info->read(option->results(), is_typed);
+// The typed values. \throws CLI::RequiredError  a positional argument is missing
+std::vector<ParsedValue> typed_values(const std::vector<ParsedOption>& options) {
+    std::vector<ParsedValue> result;
+    for (const auto& [info, option] : options) {
+        // CLI11 would say that --output is missing.
+        if (option->count() == 0 && info->is_positional) throw CLI::RequiredError(info->value_name);
+        if (option->count() == 0) continue;
+        const bool is_false = info->kind == detail::OptionKind::flag &&
+                              CLI::detail::to_flag_value(option->results().back()) <= 0;  // --quiet=false
+        result.push_back({info, is_false ? std::vector<std::string>() : option->results(), true});
+    }
+    return result;
 }
 
 void add_command(CLI::App& app, const CommandTree& tree, const CommandInfo& info, Action& action) {
@@ -50,7 +51,10 @@ void add_command(CLI::App& app, const CommandTree& tree, const CommandInfo& info
         for (const std::string& other : option->excludes) parsed->excludes(command.get_option(other));
     }
     command.final_callback([options, &tree, &info, &action] {
-        for (const ParsedOption& option : options) read_values(option, tree);
+        std::vector<ParsedValue> values = typed_values(options);
+        if (tree.add_profiles) tree.add_profiles(tree, info, values);
+        for (const ParsedValue& value : values)
+            if (!value.words.empty()) value.option->read(value.words, value.is_typed);
         action = info.run;
     });
 }

@@ -105,9 +105,7 @@ struct ExtendedTable {
         Action action;
         add_to_parser(app, tree, action);
         given.clear();
-        std::vector<std::string> reversed = expand_profile(tree, words);
-        std::reverse(reversed.begin(), reversed.end());
-        app.parse(reversed);
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
         action();
     }
 };
