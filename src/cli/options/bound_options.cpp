@@ -3,31 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "cli/files/output_file.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
 
-namespace {
-
 using detail::OptionKind;
-
-template <class Number>
-OptionInfo bound_number(const std::string& name, const std::string& value_name, Number& value,
-                        const detail::OptionRange& range, const std::string& description) {
-    OptionInfo info{CLI::detail::split(name, ','), value_name, description};
-    info.kind = std::is_integral_v<Number> ? OptionKind::integer : OptionKind::number;
-    info.range = range;
-    info.read = [&value, name = info.names.back(), range, kind = info.kind](
-                    const std::vector<std::string>& values, bool) {
-        value =
-            static_cast<Number>(*detail::parse_option_number(values.back(), kind, range, "", name).number);
-    };
-    return info;
-}
-
-}  // namespace
 
 OptionInfo flag_option(const std::string& names, bool& value, const std::string& description) {
     OptionInfo info{CLI::detail::split(names, ','), "", description, OptionKind::flag};
@@ -49,28 +32,21 @@ OptionInfo text_option(const std::string& names, const std::string& value_name, 
     return info;
 }
 
-OptionInfo number_option(const std::string& name, const std::string& value_name, double& value,
-                         const detail::OptionRange& range, const std::string& description) {
-    return bound_number(name, value_name, value, range, description);
-}
-OptionInfo number_option(const std::string& name, const std::string& value_name, std::uint32_t& value,
-                         const detail::OptionRange& range, const std::string& description) {
-    return bound_number(name, value_name, value, range, description);
-}
-OptionInfo number_option(const std::string& name, const std::string& value_name, std::uint64_t& value,
-                         const detail::OptionRange& range, const std::string& description) {
-    return bound_number(name, value_name, value, range, description);
+OptionInfo numeric_option(const std::string& names, const std::string& value_name, OptionKind kind,
+                          const detail::OptionRange& range, const std::string& description,
+                          std::function<void(double)> set) {
+    OptionInfo info{CLI::detail::split(names, ','), value_name, description, kind, range};
+    info.read = [set = std::move(set), name = info.names.back(), range, kind](
+                    const std::vector<std::string>& values, bool) {
+        const std::string unit = kind == OptionKind::size ? "bytes" : "";
+        set(*detail::parse_option_number(values.back(), kind, range, unit, name).number);
+    };
+    return info;
 }
 
 OptionInfo size_option(const std::string& name, std::uint64_t& bytes, const std::string& description) {
-    OptionInfo info{{name}, "SIZE", description, OptionKind::size};
-    info.read = [&bytes, name](const std::vector<std::string>& values, bool) {
-        const detail::OptionRange above_zero_bytes = {.max = 0x1p63, .excludes_min = true};
-        bytes = static_cast<std::uint64_t>(
-            *detail::parse_option_number(values.back(), OptionKind::size, above_zero_bytes, "bytes", name)
-                 .number);
-    };
-    return info;
+    return numeric_option(name, "SIZE", OptionKind::size, {.max = 0x1p63, .excludes_min = true}, description,
+                          [&bytes](double number) { bytes = static_cast<std::uint64_t>(number); });
 }
 
 OptionInfo list_option(const std::string& name, std::vector<std::string>& words,

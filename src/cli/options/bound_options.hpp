@@ -4,7 +4,9 @@
 /// several commands share.
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "cli/shell/command_tree.hpp"
@@ -25,14 +27,20 @@ OptionInfo flag_option(const std::string& names, bool& value, const std::string&
 OptionInfo text_option(const std::string& names, const std::string& value_name, std::string& value,
                        const std::string& description);
 
-/// A number in a range.
-OptionInfo number_option(const std::string& name, const std::string& value_name, double& value,
-                         const detail::OptionRange& range, const std::string& description);
-/// As above, an integer. \pre range.max can be represented by the type
-OptionInfo number_option(const std::string& name, const std::string& value_name, std::uint32_t& value,
-                         const detail::OptionRange& range, const std::string& description);
-OptionInfo number_option(const std::string& name, const std::string& value_name, std::uint64_t& value,
-                         const detail::OptionRange& range, const std::string& description);
+/// A number of a kind in a range, which `set` receives.
+/// \param names  one name, or two with a comma between
+OptionInfo numeric_option(const std::string& names, const std::string& value_name, detail::OptionKind kind,
+                          const detail::OptionRange& range, const std::string& description,
+                          std::function<void(double)> set);
+
+/// A number, or an integer if the variable is one. \pre range.max can be represented by the type
+template <class Number>
+OptionInfo number_option(const std::string& names, const std::string& value_name, Number& value,
+                         const detail::OptionRange& range, const std::string& description) {
+    const auto kind = std::is_integral_v<Number> ? detail::OptionKind::integer : detail::OptionKind::number;
+    return numeric_option(names, value_name, kind, range, description,
+                          [&value](double number) { value = static_cast<Number>(number); });
+}
 
 /// A number of bytes above 0: `1000`, `2MB` (10^6 bytes each) or `2MiB` (2^20).
 OptionInfo size_option(const std::string& name, std::uint64_t& bytes, const std::string& description);
