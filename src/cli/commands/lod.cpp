@@ -310,7 +310,7 @@ int run(LodArguments arguments) {
     Options options = make_options(arguments.options);
     std::vector<Level> levels;
     for (const std::string& text : arguments.levels)
-        levels.push_back(parse_lod_level(text, arguments.view_settings));
+        levels.push_back(parse_level(text, arguments.view_settings));
     check_shared_textures(arguments, options);
     const Outputs outputs(arguments);
     check_max_bytes(arguments, outputs, options);

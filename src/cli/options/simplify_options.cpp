@@ -79,20 +79,4 @@ Options make_options(const GivenOptions& given, detail::OptionTable table) {
     return options;
 }
 
-Level parse_level(const std::string& text) {
-    const auto parse = [](std::string_view number, OptionKind kind) {
-        return detail::parse_option_number(number, kind, {.excludes_min = true}, "", "--levels");
-    };
-    constexpr std::string_view distance = "error:";
-    if (text.starts_with(distance)) {
-        const detail::OptionValue length = parse(text.substr(distance.size()), OptionKind::length);
-        return Length{*length.number, length.unit};
-    }
-    const double value = *parse(text, OptionKind::share).number;
-    if (value <= 1) return ratio(value);
-    if (!(!text.ends_with('%') && value < 1e15 && value == std::floor(value)))
-        throw OptionError("--levels: '" + text + "' is neither a ratio in (0, 1] nor a number of faces");
-    return faces(static_cast<std::uint64_t>(value));
-}
-
 }  // namespace faqem::cli

@@ -8,7 +8,6 @@
 
 #include "cli/files/input_model.hpp"
 #include "cli/shell/command_tree.hpp"
-#include "faqem/levels.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::cli {
@@ -42,11 +41,6 @@ std::vector<OptionInfo> strict_options(bool& strict, bool& strict_target);
 
 /// Names of the options that were typed.
 std::vector<std::string_view> typed_names(const GivenOptions& given);
-
-/// Parses one level: `0.5` or `50%` (ratio of faces), `5000` (number of faces), `error:0.01` (distance in model units)
-/// or `error:0.1%` (distance relative to the diagonal).
-/// \throws OptionError  the text has another form
-Level parse_level(const std::string& text);
 
 /// Converts and validates options. \throws OptionError  a value is unknown or out of range
 Options make_options(const GivenOptions& given, detail::OptionTable table = detail::option_table());

@@ -226,7 +226,7 @@ TEST_CASE("a level pixels:N@D is the error that covers N pixels at distance D") 
     using namespace faqem::cli;
     const ViewSettings view_settings{1, 90, 1000};  // 2 units cover 1000 pixels at distance 1
     const auto error = [&](const char* text) {
-        const faqem::Level level = parse_lod_level(text, view_settings);
+        const faqem::Level level = parse_level(text, view_settings);
         REQUIRE(std::holds_alternative<faqem::MaxError>(level));
         CHECK(std::get<faqem::MaxError>(level).unit == faqem::Length::Unit::model);
         return std::get<faqem::MaxError>(level).value;
@@ -234,11 +234,11 @@ TEST_CASE("a level pixels:N@D is the error that covers N pixels at distance D") 
     CHECK(error("pixels:1@1") == Approx(0.002));
     CHECK(error("pixels:2@50") == Approx(0.2));
     CHECK(switch_distance(error("pixels:1@50"), view_settings) == Approx(50));
-    CHECK(std::holds_alternative<faqem::Target>(parse_lod_level("0.5", view_settings)));
+    CHECK(std::holds_alternative<faqem::Target>(parse_level("0.5", view_settings)));
     for (const char* wrong : {"pixels:", "pixels:1", "pixels:1@", "pixels:@5", "pixels:0@5", "pixels:1@-5",
                               "pixels:nan@5", "pixels:1@inf", "pixels:1@5x"}) {
         CAPTURE(wrong);
-        CHECK_THROWS_AS(parse_lod_level(wrong, view_settings), faqem::OptionError);
+        CHECK_THROWS_AS(parse_level(wrong, view_settings), faqem::OptionError);
     }
 }
 
