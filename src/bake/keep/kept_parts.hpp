@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parts that keep their vertices or UVs keep their materials, and the images of these.
+/// Parts that keep their vertices or UVs, and their materials and images.
 
 #include <cstdint>
 #include <span>
@@ -11,6 +11,13 @@
 #include "faqem/bake.hpp"
 
 namespace faqem::detail {
+
+/// By part of the source: whether it is kept as it is (BakeOptions::untouched). Such a part has as many faces
+/// as its target allows, apart from duplicates and faces without area, and no vertex has moved.
+/// \param simplified  matches the source
+/// Complexity: O(faces).
+std::vector<std::uint8_t> find_untouched_parts(const Asset& source, const SimplifiedParts& simplified,
+                                               const BakeOptions& bake);
 
 /// Replaces the empty parts that baking leaves for BakePart::is_kept, by those of the source or by those that keep their
 /// UVs. Adds their materials, those of their variants, and images, and reports untouched parts.

@@ -17,7 +17,6 @@
 #include "bake/keep/kept_images.hpp"
 #include "bake/keep/kept_parts.hpp"
 #include "bake/keep/kept_uvs.hpp"
-#include "bake/keep/untouched_parts.hpp"
 #include "bake/parts/map_parts.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/bake_job.hpp"
