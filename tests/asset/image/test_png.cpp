@@ -115,6 +115,8 @@ int color_type(const Image& image) { return image.encoded.at(25); }
 /// Checks that decoding gives the encoded pixels again. Returns the PNG.
 Image checked_png(const Pixels& pixels) {
     const Image image = encode_png(pixels, "x");
+    CHECK(image.name == "x");
+    CHECK(image.mime_type == "image/png");
     const Pixels back = decode(image);
     CHECK(back.width == pixels.width);
     CHECK(back.height == pixels.height);
@@ -136,18 +138,6 @@ Pixels drawn(std::uint32_t width, std::uint32_t height,
 
 }  // namespace
 
-TEST_CASE("PNG encoding is lossless, also for colours with zero alpha") {
-    Pixels pixels{2, 2, {255, 0, 1, 0, 2, 3, 4, 5, 250, 128, 7, 128, 9, 10, 11, 255}, true};
-    const Image image = encode_png(pixels, "name");
-    CHECK(image.name == "name");
-    CHECK(image.mime_type == "image/png");
-    const Pixels back = decode(image);
-    CHECK(back.width == 2);
-    CHECK(back.height == 2);
-    CHECK(back.has_alpha);
-    CHECK(back.rgba == pixels.rgba);
-}
-
 TEST_CASE("PNG encoding keeps all 8-bit values with and without alpha") {
     Pixels pixels{256, 1, {}, true};
     for (int i = 0; i < 256; ++i)
@@ -158,16 +148,6 @@ TEST_CASE("PNG encoding keeps all 8-bit values with and without alpha") {
     const Pixels back = decode(encode_png(pixels, ""));
     CHECK(back.rgba == pixels.rgba);
     CHECK_FALSE(back.has_alpha);
-}
-
-TEST_CASE("PNG encoding is deterministic and writes no metadata") {
-    const Pixels pixels{1, 1, {1, 2, 3, 255}, false};
-    const Image image = encode_png(pixels, "");
-    const std::string bytes(image.encoded.begin(), image.encoded.end());
-    for (const char* type : {"tIME", "tEXt", "iTXt", "zTXt", "gAMA"}) CHECK_FALSE(contains(bytes, type));
-    CHECK(bytes.substr(12, 4) == "IHDR");
-    CHECK(bytes[25] == 2);  // RGB
-    CHECK(encode_png(pixels, "").encoded == image.encoded);
 }
 
 TEST_CASE("PNG of all colour types and depths, interlaced or not, are decoded to 8-bit RGBA") {
@@ -197,12 +177,13 @@ TEST_CASE("a transparent colour of a PNG is compared with all bits") {
           Bytes{1, 2, 3, 0, 1, 2, 4, 255});
 }
 
-TEST_CASE("metadata of a PNG is skipped, whatever its size") {
+TEST_CASE("metadata of a PNG is skipped, whatever its size, and gamma") {
     const std::string pixels = bytes_of_hex("0064c8fa80");
     const std::string text = png_chunk("zTXt", std::string("a\0\0", 3) + zlib_stored(std::string(1000, 'x')));
     const std::string metadata = text + png_chunk("tEXt", "a") + png_chunk("iTXt", "b") +
                                  png_chunk("iCCP", "c") + png_chunk("eXIf", std::string(9'000'000, 'M')) +
-                                 png_chunk("prVt", std::string(9'000'000, 'p'));
+                                 png_chunk("prVt", std::string(9'000'000, 'p')) +
+                                 png_chunk("gAMA", big_endian(100000));
     CHECK(decode(image_x(png_file(1, 1, 8, 6, pixels, metadata))).rgba == Bytes{0x64, 0xc8, 0xfa, 0x80});
     const std::string cut = png_file(1, 1, 8, 6, pixels, text);
     CHECK_THROWS_AS(decode(image_x(cut.substr(0, cut.find("zTXt") + 100))), InputError);
@@ -276,48 +257,6 @@ TEST_CASE("PNG encoding chooses the filter of each row") {
             checked_png(drawn(width, height, [](auto x, auto y) {
                 return std::array{x * y, x * x, y * y + noise(x, y) % 4, 255 - x};
             }));
-}
-
-TEST_CASE("grey, grey with alpha, 16-bit and palette images are decoded to 8-bit RGBA") {
-    CHECK(decode(image_x(png_file(2, 1, 8, 0,
-                                  bytes_of_hex("00"
-                                               "40"
-                                               "ff"))))
-              .rgba == Bytes{0x40, 0x40, 0x40, 255, 255, 255, 255, 255});
-    const Pixels grey_alpha = decode(image_x(png_file(1, 1, 8, 4,
-                                                      bytes_of_hex("00"
-                                                                   "c880"))));
-    CHECK(grey_alpha.rgba == Bytes{0xc8, 0xc8, 0xc8, 0x80});
-    CHECK(grey_alpha.has_alpha);
-    CHECK(decode(image_x(png_file(1, 1, 16, 2,
-                                  bytes_of_hex("00"
-                                               "ffff"
-                                               "8080"
-                                               "0000"))))
-              .rgba == Bytes{255, 128, 0, 255});
-    const std::string palette = png_chunk("PLTE", bytes_of_hex("0a0b0c"
-                                                               "14151e"));
-    CHECK(decode(image_x(png_file(2, 1, 8, 3,
-                                  bytes_of_hex("00"
-                                               "01"
-                                               "00"),
-                                  palette)))
-              .rgba == Bytes{0x14, 0x15, 0x1e, 255, 0x0a, 0x0b, 0x0c, 255});
-    const Pixels keyed = decode(image_x(png_file(2, 1, 8, 3,
-                                                 bytes_of_hex("00"
-                                                              "01"
-                                                              "00"),
-                                                 palette + png_chunk("tRNS", bytes_of_hex("00")))));
-    CHECK(keyed.rgba == Bytes{0x14, 0x15, 0x1e, 255, 0x0a, 0x0b, 0x0c, 0});
-}
-
-TEST_CASE("gamma chunks do not change the decoded colours") {
-    const std::string gamma = png_chunk("gAMA", big_endian(100000));
-    CHECK(decode(image_x(png_file(1, 1, 8, 6,
-                                  bytes_of_hex("00"
-                                               "64c8fa80"),
-                                  gamma)))
-              .rgba == Bytes{0x64, 0xc8, 0xfa, 0x80});
 }
 
 TEST_CASE("a PNG whose header exceeds the size limit is rejected before memory is allocated") {

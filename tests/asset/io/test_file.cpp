@@ -125,28 +125,6 @@ TEST_CASE("writing to folders, devices and missing folders fails", "[file]") {
     CHECK(files_in(folder) == 0);
 }
 
-TEST_CASE("a failed write keeps the old file and leaves no temporary file", "[file]") {
-    const TemporaryFolder folder;
-    put(folder / "a", "old");
-    // A file size limit simulates a full disk: write() stores a part and then fails.
-    struct rlimit old_limit = {};
-    REQUIRE(::getrlimit(RLIMIT_FSIZE, &old_limit) == 0);
-    auto* const old_handler = std::signal(SIGXFSZ, SIG_IGN);
-    struct rlimit limit = old_limit;
-    limit.rlim_cur = 1000;
-    REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
-    const std::string large(5000, 'x');
-    const std::string message =
-        message_of<WriteError>([&] { write_file(folder / "a", bytes_of(large), Overwrite::yes); });
-    const FileContent files[] = {{folder / "first", bytes_of("fits")}, {folder / "second", bytes_of(large)}};
-    CHECK_THROWS_AS(write_files(files, Overwrite::no), WriteError);
-    ::setrlimit(RLIMIT_FSIZE, &old_limit);
-    std::signal(SIGXFSZ, old_handler);
-    CHECK(contains(message, "File too large"));
-    CHECK(get(folder / "a") == "old");
-    CHECK(files_in(folder) == 1);
-}
-
 TEST_CASE("if one of several files exists, none is written by default", "[file]") {
     const TemporaryFolder folder;
     put(folder / "b", "old");
@@ -196,32 +174,6 @@ TEST_CASE("a signal handler can remove the temporary file of a write in progress
     CHECK(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == 0);
     CHECK(files_in(folder) == 0);
-}
-
-TEST_CASE("a process killed during a write keeps the complete old file", "[file]") {
-    const TemporaryFolder folder;
-    put(folder / "a", "old");
-    const pid_t child = ::fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-        // The write exceeds the file size limit: the signal arrives when a part of the file is written.
-        std::signal(SIGXFSZ, [](int) { ::kill(::getpid(), SIGKILL); });
-        const struct rlimit limit = {1000, 1000};
-        if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(2);
-        try {
-            write_file(folder / "a", bytes_of(std::string(5000, 'x')), Overwrite::yes);
-        } catch (...) {
-        }
-        ::_exit(3);
-    }
-    int status = 0;
-    REQUIRE(::waitpid(child, &status, 0) == child);
-    CHECK(WIFSIGNALED(status));
-    CHECK(get(folder / "a") == "old");
-    // The remaining temporary file has another name and does not prevent the next write.
-    CHECK(files_in(folder) == 2);
-    write_file(folder / "a", bytes_of("new"), Overwrite::yes);
-    CHECK(get(folder / "a") == "new");
 }
 
 TEST_CASE("references inside the folder are resolved", "[file]") {
