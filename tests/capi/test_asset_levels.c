@@ -200,13 +200,6 @@ static void levels_are_saved_in_one_file(void) {
     size_t faces = 0;
     for (size_t p = 0; p < 6; ++p) faces += faqem_asset_face_count(read, p);
     CHECK(faces <= 576 + 288 + 40 && faces > 576 + 280 + 30);
-    faqem_asset* simplified = NULL; /* from the finest level */
-    CHECK(faqem_asset_simplify(read, options, &simplified, &error) == FAQEM_OK);
-    faqem_report report;
-    CHECK(faqem_asset_report(simplified, &report) == FAQEM_OK && report.faces_in == 576);
-    CHECK(strstr(faqem_asset_report_json(simplified), "4 coarser levels of 2 nodes (MSFT_lod)") != NULL);
-    for (size_t p = 2; p < 6; ++p) CHECK(faqem_asset_face_count(simplified, p) == 0);
-    faqem_asset_destroy(simplified);
     faqem_asset_destroy(read);
     for (int i = 0; i < 3; ++i) faqem_asset_destroy(chain[i]);
     faqem_options_destroy(options);

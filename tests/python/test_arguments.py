@@ -188,10 +188,17 @@ class Keywords(unittest.TestCase):
     def test_a_misspelt_keyword_names_the_right_one(self):
         vertices, triangles = bumpy_grid(6)
         out = faqem.simplify(vertices, triangles, history=True)
+        model = faqem.Model.from_arrays(vertices, triangles)
         for wrong, right, call in (
             ("triangels", "triangles", lambda **keyword: faqem.simplify(vertices, ratio=0.5, **keyword)),
             ("triangels", "triangles", lambda **keyword: faqem.simplify(vertices, triangles, **keyword)),
             ("rato", "ratio", lambda **keyword: faqem.simplify(vertices, **keyword)),
+            ("weight", "weights", lambda **keyword: faqem.simplify_levels(vertices, triangles, [0.5], **keyword)),
+            ("progres", "progress", lambda **keyword: faqem.simplify(model, **keyword)),
+            ("texture", "textures", lambda **keyword: faqem.simplify_levels(model, [0.5], **keyword)),
+            ("overwrit", "overwrite", lambda **keyword: faqem.save(model, "a.glb", **keyword)),
+            ("pixel_eror", "pixel_error", lambda **keyword: faqem.save_levels([model], "a.glb", **keyword)),
+            ("sample", "samples", lambda **keyword: faqem.compare(model, model, **keyword)),
             ("triangels", "triangles", lambda **keyword: faqem.Model.from_arrays(vertices, **keyword)),
             ("colapses", "collapses", lambda **keyword: fast.replay_simplification(vertices, triangles, **keyword)),
             ("barycentrics", "barycentric", lambda **keyword: out.map([0], **keyword)),
