@@ -9,14 +9,10 @@ using namespace faqem;
 
 namespace {
 
-Part part_of(const TriangleMesh& mesh, Index material) {
-    Part part;
-    part.positions = mesh.positions;
-    part.triangles = mesh.triangles;
+Part painted_part(const TriangleMesh& mesh, Index material) {
+    const auto uv_of = [](const Vec3& p) { return std::array{p[0] / 3 + p[2], p[1] / 3}; };
+    Part part = test::uv_mapped(test::part_of(mesh), uv_of);
     part.face_material.assign(mesh.triangles.size(), material);
-    part.uvs.resize(1);
-    for (const Vec3& p : mesh.positions)
-        part.uvs[0].push_back({static_cast<float>(p[0] / 3 + p[2]), static_cast<float>(p[1] / 3)});
     return part;
 }
 
@@ -26,7 +22,7 @@ Asset asset_of(std::initializer_list<TriangleMesh> meshes) {
     asset.materials.push_back(asset.materials[0]);
     asset.materials[1].alpha_mode = AlphaMode::mask;
     for (const TriangleMesh& mesh : meshes)
-        asset.parts.push_back(part_of(mesh, static_cast<Index>(asset.parts.size() % 2)));
+        asset.parts.push_back(painted_part(mesh, static_cast<Index>(asset.parts.size() % 2)));
     return asset;
 }
 

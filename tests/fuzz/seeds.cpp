@@ -27,12 +27,7 @@ Asset scene() {
     Asset asset = test::textured_square(test::ramp(4));
     asset.parts[0].colors.assign(4, {1, 0.5f, 0.25f, 1});
     asset.parts[0].normals.assign(4, {0, 0, 1});
-    Part ball;
-    const TriangleMesh sphere = test::icosphere(1);
-    ball.positions = sphere.positions;
-    ball.triangles = sphere.triangles;
-    ball.face_material.assign(ball.triangles.size(), no_index);
-    asset.parts.push_back(ball);
+    asset.parts.push_back(test::part_of(test::icosphere(1)));
     return asset;
 }
 
@@ -43,18 +38,14 @@ testing::GltfBuilder rich_gltf() {
     GltfBuilder b = square_gltf();
     const std::vector<Vec2f> uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
     const std::vector<std::array<std::uint8_t, 4>> joints(4), colours(4, {255, 128, 0, 255});
-    const std::vector<Vec4f> weights(4, {1, 0, 0, 0}), tangents(4, {1, 0, 0, 1});
-    Json& primitive = b.json["meshes"][0]["primitives"][0];
-    Json& attributes = primitive["attributes"];
-    attributes["TEXCOORD_0"] = b.accessor(uvs, f32, "VEC2");
-    attributes["NORMAL"] = b.accessor(std::vector<Vec3f>(4, {0, 0, 1}), f32, "VEC3");
-    attributes["TANGENT"] = b.accessor(tangents, f32, "VEC4");
-    attributes["JOINTS_0"] = b.accessor(joints, u8, "VEC4");
-    attributes["WEIGHTS_0"] = b.accessor(weights, f32, "VEC4");
-    attributes["COLOR_0"] = b.accessor(colours, u8, "VEC4");
-    b.json["accessors"][attributes["COLOR_0"].get<std::size_t>()]["normalized"] = true;
+    b.attribute("TEXCOORD_0", uvs, f32, "VEC2");
+    b.attribute("NORMAL", std::vector<Vec3f>(4, {0, 0, 1}), f32, "VEC3");
+    b.attribute("TANGENT", std::vector<Vec4f>(4, {1, 0, 0, 1}), f32, "VEC4");
+    b.attribute("JOINTS_0", joints, u8, "VEC4");
+    b.attribute("WEIGHTS_0", std::vector<Vec4f>(4, {1, 0, 0, 0}), f32, "VEC4");
+    b.json["accessors"][b.attribute("COLOR_0", colours, u8, "VEC4")]["normalized"] = true;
     const auto target = b.accessor(square, f32, "VEC3");
-    primitive["targets"] = {{{"POSITION", target}}};
+    b.primitive()["targets"] = {{{"POSITION", target}}};
     b.json["accessors"][target]["sparse"] = {
         {"count", 1},
         {"indices",
@@ -73,7 +64,7 @@ testing::GltfBuilder rich_gltf() {
          {"normalTexture", {{"index", 1}, {"scale", 2}}},
          {"alphaMode", "MASK"},
          {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
-    primitive["material"] = 0;
+    b.primitive()["material"] = 0;
     b.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_unlit"};
     b.json["nodes"][0]["children"] = {1};
     b.json["nodes"][0]["skin"] = 0;
@@ -91,10 +82,8 @@ testing::GltfBuilder rich_gltf() {
 /// A mesh that a joint with an inverse bind matrix and default morph weights pose.
 testing::GltfBuilder posed_gltf() {
     testing::GltfBuilder b = rich_gltf();
-    const std::vector<float> matrix = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -2, 0, 1, 0, 0, 1};
-    b.json["skins"][0]["inverseBindMatrices"] = b.add(
-        "accessors",
-        {{"bufferView", b.view(matrix)}, {"componentType", testing::f32}, {"type", "MAT4"}, {"count", 1}});
+    const std::array<float, 16> matrix = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -2, 0, 1, 0, 0, 1};
+    b.json["skins"][0]["inverseBindMatrices"] = b.accessor(std::vector{matrix}, testing::f32, "MAT4");
     b.json["meshes"][0]["weights"] = {0.5};
     b.json["nodes"][0]["weights"] = {1e9};
     return b;
@@ -198,7 +187,7 @@ void gltf_seeds() {
     write("quantized", quantized_gltf());
     write("passed", passed_gltf());
     testing::GltfBuilder strip = testing::square_gltf();
-    strip.json["meshes"][0]["primitives"][0]["mode"] = 5;
+    strip.primitive()["mode"] = 5;
     strip.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 6}});
     strip.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
     write("strip", strip);

@@ -6,6 +6,7 @@
 #include "result/model_size.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
+#include "support/message_of.hpp"
 
 using namespace tool_test;
 using faqem::detail::model_size;
@@ -59,9 +60,7 @@ std::uint64_t bytes_with_source_uvs(const faqem::Asset& asset) {
 }
 
 bool has_warning(const faqem::SimplifiedAsset& result, const std::string& text) {
-    for (const std::string& warning : result.report.warnings)
-        if (warning.find(text) != std::string::npos) return true;
-    return false;
+    return faqem::testing::any_contains(result.report.warnings, text);
 }
 
 std::uint64_t size_of(const Folder& folder, const char* file) { return fs::file_size(folder / file); }

@@ -255,13 +255,9 @@ TEST_CASE("progress over several parts never decreases") {
 TEST_CASE("simplifying and baking preserves the colours of the source") {
     // A wavy grid whose texture is a ramp in x and y, so that colours identify positions.
     Asset asset = textured_square(ramp(128));
-    asset.parts = {bumpy(24)};
-    Part& part = asset.parts[0];
-    part.uvs.resize(1);
-    for (const Vec3& p : part.positions) {
-        part.uvs[0].push_back({static_cast<float>(p[0] / 24), static_cast<float>(p[1] / 24)});
-    }
-    part.face_material.assign(part.triangles.size(), 0);
+    const auto uv_of = [](const Vec3& p) { return std::array{p[0] / 24, p[1] / 24}; };
+    asset.parts = {uv_mapped(bumpy(24), uv_of)};
+    const Part& part = asset.parts[0];
     Options options{.target = ratio(0.2)};
     options.bake.texture_size = 512;
     options.history = Recording::on;

@@ -4,7 +4,7 @@
 
 #include "faqem/bake.hpp"
 #include "support/catch.hpp"
-#include "support/meshes.hpp"
+#include "support/scenes.hpp"
 
 using namespace faqem;
 using detail::min_visibility;
@@ -13,17 +13,10 @@ using detail::VertexVisibility;
 using test::icosphere;
 using test::inside_out;
 using test::moved;
+using test::part_of;
 using test::scaled;
 
 namespace {
-
-Part part_of(const TriangleMesh& mesh, Index material = no_index) {
-    Part part;
-    part.positions = mesh.positions;
-    part.triangles = mesh.triangles;
-    part.face_material.assign(mesh.triangles.size(), material);
-    return part;
-}
 
 // A mesh inside a sphere of radius 2. The sphere has a material.
 Asset shell_around(const TriangleMesh& inner, int level = 2) {

@@ -47,16 +47,6 @@ inline Image image_of(const std::string& bytes, const std::string& name = "") {
     return image;
 }
 
-inline bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-inline bool any_contains(const std::vector<std::string>& texts, const std::string& part) {
-    for (const std::string& text : texts)
-        if (contains(text, part)) return true;
-    return false;
-}
-
 /// An asset of one part whose faces have no material.
 inline Asset one_part(std::vector<Vec3> positions, std::vector<Triangle> triangles) {
     Asset asset;

@@ -1,7 +1,8 @@
 #pragma once
-// What a refused input or option is answered with.
+// What a refused input or option is answered with, and texts in messages and warnings.
 
 #include <string>
+#include <vector>
 
 #include "faqem/error.hpp"
 
@@ -16,6 +17,16 @@ std::string message_of(Call&& call) {
         return error.what();
     }
     return "accepted";
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+inline bool any_contains(const std::vector<std::string>& texts, const std::string& part) {
+    for (const std::string& text : texts)
+        if (contains(text, part)) return true;
+    return false;
 }
 
 }  // namespace faqem::testing

@@ -53,13 +53,38 @@ inline Part square() {
     return part;
 }
 
+/// A mesh as a part, whose faces have a material or none.
+inline Part part_of(const TriangleMesh& mesh, Index material = no_index) {
+    Part part;
+    part.positions = mesh.positions;
+    part.triangles = mesh.triangles;
+    part.face_material.assign(mesh.triangles.size(), material);
+    return part;
+}
+
 // A surface of 2 n^2 faces: the grid point (x, y) in [0, n]^2 has the position place(x, y).
 inline Part sheet(Index n, const std::function<Vec3(double x, double y)>& place) {
-    const TriangleMesh flat = grid(n);
-    Part part;
-    part.triangles = flat.triangles;
-    for (const Vec3& p : flat.positions) part.positions.push_back(place(p[0], p[1]));
+    Part part = part_of(grid(n));
+    part.face_material.clear();
+    for (Vec3& p : part.positions) p = place(p[0], p[1]);
     return part;
+}
+
+/// The part with material 0, and with the UVs uv_of(position), v pointing down.
+template <class UvOf>
+Part uv_mapped(Part part, const UvOf& uv_of) {
+    part.uvs.assign(1, {});
+    for (const Vec3& p : part.positions) {
+        const std::array<double, 2> uv = uv_of(p);
+        part.uvs[0].push_back({static_cast<float>(uv[0]), static_cast<float>(uv[1])});
+    }
+    part.face_material.assign(part.triangles.size(), 0);
+    return part;
+}
+
+/// The part with material 0, and with x and y as UVs.
+inline Part uv_mapped(Part part) {
+    return uv_mapped(std::move(part), [](const Vec3& p) { return std::array{p[0], p[1]}; });
 }
 
 inline Asset textured_square(const Pixels& pixels) {

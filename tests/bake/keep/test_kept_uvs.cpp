@@ -20,12 +20,10 @@ namespace {
 
 // A smooth sheet whose texture is repeated `repeats` times in both directions.
 Part tiled_sheet(Index n, float repeats) {
-    Part part = sheet(n, [n](double x, double y) { return Vec3{x / n, y / n, 0.05 * std::sin(3 * x / n)}; });
+    const auto place = [n](double x, double y) { return Vec3{x / n, y / n, 0.05 * std::sin(3 * x / n)}; };
+    const auto uv_of = [&](const Vec3& p) { return std::array{repeats * p[0], repeats * (1 - p[1])}; };
+    Part part = uv_mapped(sheet(n, place), uv_of);
     part.name = "sheet";
-    part.uvs.resize(1);
-    for (const Vec3& p : part.positions)
-        part.uvs[0].push_back({repeats * static_cast<float>(p[0]), repeats * static_cast<float>(1 - p[1])});
-    part.face_material.assign(part.triangles.size(), 0);
     return part;
 }
 

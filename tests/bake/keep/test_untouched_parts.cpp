@@ -32,14 +32,10 @@ Part odd_square() {
 }
 
 Part textured_sheet(Index n) {
-    Part part = sheet(n, [n](double x, double y) {
+    Part part = uv_mapped(sheet(n, [n](double x, double y) {
         return Vec3{x / n, y / n, 0.1 * std::sin(3 * x) * y / n};
-    });
+    }));
     part.name = "sheet";
-    part.uvs.resize(1);
-    for (const Vec3& p : part.positions)
-        part.uvs[0].push_back({static_cast<float>(p[0]), static_cast<float>(p[1])});
-    part.face_material.assign(part.triangles.size(), 0);
     return part;
 }
 

@@ -112,11 +112,8 @@ TEST_CASE("a normal map from geometry restores the shading of removed faces") {
 
 TEST_CASE("automatic normal maps of textured models are made only if normals deviate") {
     Asset asset = textured_square(ramp(16));
-    asset.parts = {steep_waves(false)};
-    asset.parts[0].uvs.resize(1);
-    for (const Vec3& p : asset.parts[0].positions)
-        asset.parts[0].uvs[0].push_back({static_cast<float>(p[0] / 7), static_cast<float>(p[1] / 7)});
-    asset.parts[0].face_material.assign(asset.parts[0].triangles.size(), 0);
+    const auto uv_of = [](const Vec3& p) { return std::array{p[0] / 7, p[1] / 7}; };
+    asset.parts = {uv_mapped(steep_waves(false), uv_of)};
     CHECK(simplify(asset, with(NormalMap::automatic, 0.02)).asset.materials[0].normal_texture);
     for (Vec3& p : asset.parts[0].positions) p[2] = 0;
     const SimplifiedAsset flat = simplify(asset, with(NormalMap::automatic, 0.02));

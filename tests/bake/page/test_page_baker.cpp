@@ -12,16 +12,8 @@ namespace {
 // A sphere with a smooth ramp as texture, projected along z: u and v are linear in x and y.
 Asset painted_ball(int level = 3) {
     Asset asset = textured_square(ramp(64));
-    const TriangleMesh ball = icosphere(level);
-    Part part;
-    part.positions = ball.positions;
-    part.triangles = ball.triangles;
-    part.uvs.resize(1);
-    for (const Vec3& p : ball.positions) {
-        part.uvs[0].push_back({static_cast<float>(0.5 + 0.45 * p[0]), static_cast<float>(0.5 + 0.45 * p[1])});
-    }
-    part.face_material.assign(ball.triangles.size(), 0);
-    asset.parts = {part};
+    const auto uv_of = [](const Vec3& p) { return std::array{0.5 + 0.45 * p[0], 0.5 + 0.45 * p[1]}; };
+    asset.parts = {uv_mapped(part_of(icosphere(level)), uv_of)};
     return asset;
 }
 

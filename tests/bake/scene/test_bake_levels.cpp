@@ -27,14 +27,8 @@ Options plain() { return {.bake = {.kind = Bake::none}}; }
 /// A sphere with a texture that is projected along z, so that red and green identify x and y.
 Asset ball_painted_along_z() {
     Asset asset = textured_square(ramp(64));
-    const TriangleMesh ball = icosphere(3);
-    Part& part = asset.parts[0];
-    part.positions = ball.positions;
-    part.triangles = ball.triangles;
-    part.face_material.assign(part.triangles.size(), 0);
-    part.uvs = {{}};
-    for (const Vec3& p : part.positions)
-        part.uvs[0].push_back({static_cast<float>(0.5 + p[0] / 2), static_cast<float>(0.5 + p[1] / 2)});
+    const auto uv_of = [](const Vec3& p) { return std::array{0.5 + p[0] / 2, 0.5 + p[1] / 2}; };
+    asset.parts = {uv_mapped(part_of(icosphere(3)), uv_of)};
     return asset;
 }
 
@@ -106,11 +100,7 @@ TEST_CASE("a level of an asset can be a distance in scene units") {
 
 TEST_CASE("every level of a textured asset has its own texture by default") {
     Asset asset = textured_square(ramp(64));
-    asset.parts[0] = rolling_sheet(12, 0.1, 0);
-    asset.parts[0].face_material.assign(asset.parts[0].triangles.size(), 0);
-    asset.parts[0].uvs.resize(1);
-    for (const Vec3& p : asset.parts[0].positions)
-        asset.parts[0].uvs[0].push_back({static_cast<float>(p[0]), static_cast<float>(1 - p[1])});
+    asset.parts = {uv_mapped(rolling_sheet(12, 0.1, 0))};
     Options options;
     options.bake.texture_size = 64;
     const auto levels = simplify_levels(asset, {ratio(0.5), ratio(0.1)}, options);

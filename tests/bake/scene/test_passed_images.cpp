@@ -23,14 +23,11 @@ const PassedKind passed_kinds[] = {
 GltfBuilder passed_square(const PassedKind& kind) {
     const auto& [extension, media_type, bytes] = kind;
     GltfBuilder builder = square_gltf();
-    const auto uvs = builder.accessor<Vec2f>({{0, 0}, {1, 0}, {0, 1}, {1, 1}}, f32, "VEC2");
+    builder.attribute<Vec2f>("TEXCOORD_0", {{0, 0}, {1, 0}, {0, 1}, {1, 1}}, f32, "VEC2");
     builder.add("images", {{"bufferView", builder.view(std::vector<char>(bytes.begin(), bytes.end()))},
                            {"mimeType", media_type}});
     builder.add("textures", {{"extensions", {{extension, {{"source", 0}}}}}});
-    builder.json["materials"] = Json::parse(R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])");
-    Json& primitive = builder.json["meshes"][0]["primitives"][0];
-    primitive["material"] = 0;
-    primitive["attributes"]["TEXCOORD_0"] = uvs;
+    builder.material(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
     builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {extension};
     return builder;
 }

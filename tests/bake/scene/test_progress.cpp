@@ -15,14 +15,9 @@ Asset two_hills() {
     Asset asset = textured_square(ramp(64));
     asset.parts.clear();
     for (const double height : {0.0, 1.0}) {
-        Part part = sheet(16, [height](double x, double y) {
+        asset.parts.push_back(uv_mapped(sheet(16, [height](double x, double y) {
             return Vec3{x / 16, y / 16, height + 0.05 * std::sin(x) * std::cos(0.7 * y)};
-        });
-        part.uvs.resize(1);
-        for (const Vec3& p : part.positions)
-            part.uvs[0].push_back({static_cast<float>(p[0]), static_cast<float>(p[1])});
-        part.face_material.assign(part.triangles.size(), 0);
-        asset.parts.push_back(part);
+        })));
     }
     return asset;
 }

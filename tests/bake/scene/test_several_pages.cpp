@@ -19,13 +19,8 @@ Asset three_pages() {
         const auto height = [&](double x, double y) {
             return Vec3{x, y, 5.0 * p + std::sin(3 * x + p) * std::cos(2 * y)};
         };
-        Part part = sheet(12, height);
-        std::vector<Vec2f> uvs;
-        for (const Vec3& at : part.positions)
-            uvs.push_back({static_cast<float>(at[0]), static_cast<float>(at[1])});
-        part.uvs = {std::move(uvs)};
-        part.face_material.assign(part.triangles.size(), p);
-        asset.parts.push_back(std::move(part));
+        asset.parts.push_back(uv_mapped(sheet(12, height)));
+        asset.parts[p].face_material.assign(asset.parts[p].triangles.size(), p);
         if (p > 0) asset.materials.push_back(asset.materials[0]);
         asset.materials[p].alpha_mode = modes[p];
     }

@@ -18,18 +18,11 @@ namespace {
 
 constexpr std::array<std::uint64_t, 3> steps = {100, 40, 12};
 
-Part flat_sheet(Index n) {
-    Part part = sheet(n, [n](double x, double y) { return Vec3{x / n, y / n, 0.01 * x * y / n}; });
-    part.uvs.resize(1);
-    for (const Vec3& p : part.positions)
-        part.uvs[0].push_back({static_cast<float>(p[0]), static_cast<float>(1 - p[1])});
-    part.face_material.assign(part.triangles.size(), 0);
-    return part;
-}
-
 Asset textured_sheet() {
     Asset asset = textured_square(ramp(64));
-    asset.parts = {flat_sheet(10)};
+    asset.parts = {uv_mapped(sheet(10, [](double x, double y) {
+        return Vec3{x / 10, y / 10, 0.001 * x * y};
+    }))};
     return asset;
 }
 
