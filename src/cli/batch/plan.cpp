@@ -29,8 +29,8 @@ std::string link_problem(const fs::directory_entry& entry) {
            (status.type() == fs::file_type::not_found ? "No such file or directory" : error.message());
 }
 
-void find_models(const fs::path& folder, const fs::path& out_folder, std::vector<BatchFile>& found,
-                 std::size_t& others) {
+void search(const fs::path& folder, const fs::path& out_folder, std::vector<BatchFile>& found,
+            std::size_t& others) {
     std::error_code error;
     for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
         std::string problem = link_problem(*it);
@@ -70,24 +70,30 @@ void assign_output_paths(std::vector<BatchFile>& files, const fs::path& out_fold
 
 }  // namespace
 
-std::vector<BatchFile> plan_batch(const fs::path& folder, const fs::path& out_folder,
-                                  const std::string& extension, std::size_t& others) {
+std::vector<BatchFile> find_models(const fs::path& folder, std::size_t& others, const fs::path& excluded) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) throw ReadError(folder.string(), "", "is not a directory");
-    if (fs::equivalent(folder, out_folder, error))
-        throw OptionError(out_folder.string() + ": is the input directory; choose another output directory");
     std::vector<BatchFile> files;
     try {
         others = 0;
-        find_models(folder, out_folder, files, others);
+        search(folder, excluded, files, others);
     } catch (const fs::filesystem_error& problem) {
         throw ReadError(problem.path1().empty() ? folder.string() : problem.path1().string(), "",
                         "cannot read: " + problem.code().message());
     }
     if (files.empty()) throw InputError(folder.string(), "", "contains no models");
-    // Sorted by name first, so that error messages do not depend on the order of the directory entries.
+    // Sorted, so that nothing depends on the order of the directory entries.
     std::sort(files.begin(), files.end(),
               [](const BatchFile& a, const BatchFile& b) { return a.name < b.name; });
+    return files;
+}
+
+std::vector<BatchFile> plan_batch(const fs::path& folder, const fs::path& out_folder,
+                                  const std::string& extension, std::size_t& others) {
+    std::error_code error;
+    if (fs::equivalent(folder, out_folder, error))
+        throw OptionError(out_folder.string() + ": is the input directory; choose another output directory");
+    std::vector<BatchFile> files = find_models(folder, others, out_folder);
     assign_output_paths(files, out_folder, extension);
     std::stable_sort(files.begin(), files.end(),
                      [](const BatchFile& a, const BatchFile& b) { return a.bytes > b.bytes; });

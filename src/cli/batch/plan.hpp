@@ -2,32 +2,46 @@
 /// \file
 /// The models of a batch and the names of their results.
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "faqem/options.hpp"
 
 namespace faqem::cli {
 
 /// One model of a batch.
 struct BatchFile {
     std::filesystem::path in, out;
-    std::string name;         ///< path of the input relative to the input directory, with slashes
+    std::string name;  ///< path of the input relative to the input directory, with slashes; of a list: the id
     std::string out_name;     ///< path of the result relative to the output directory, with slashes
     std::uint64_t bytes = 0;  ///< size of the input file; 0 if it cannot be read
     std::string problem;      ///< why the input cannot be read; empty: it can, as far as is known
+    std::string hash = {};    ///< model_hash() that the input must have; empty: any
+    bool alone = false;       ///< no other model may use memory at the same time
+    std::optional<Options> options = {};  ///< instead of those of the batch
 };
 
-/// Finds the files of a directory and its subdirectories that have the extension of a readable format (ignoring
-/// case), and assigns the paths of the results: the same relative path in the output directory, with another
-/// extension. Links to directories are not followed. A link to a file that does not exist is a model with a problem.
-/// The output directory is not searched.
+/// Finds the files of a directory and its subdirectories that have the extension of a readable format, ignoring case.
+/// Links to directories are not followed. A link to a file that does not exist is a model with a problem.
+/// \param others    receives the number of files that are no models
+/// \param excluded  a directory that is not searched; empty: none
+/// \return the models without results, by name
+/// \throws ReadError   a directory cannot be read
+/// \throws InputError  there are no models
+std::vector<BatchFile> find_models(const std::filesystem::path& folder, std::size_t& others,
+                                   const std::filesystem::path& excluded = {});
+
+/// Finds the models of a directory, as find_models(), and assigns the paths of the results: the same relative path in the output directory, with another
+/// extension. The output directory is not searched.
 /// \param folder      input directory
 /// \param out_folder  output directory; need not exist
 /// \param extension   of the results, with the dot
-/// \param others      receives the number of files that are no models
+/// \param others      as of find_models()
 /// \return the models, by decreasing file size, then by name
-/// \throws ReadError    a directory cannot be read
-/// \throws InputError   there are no models
+/// \throws ReadError, InputError  as find_models()
 /// \throws OptionError  both directories are the same, or two models have the same result (the message names
 /// them)
 std::vector<BatchFile> plan_batch(const std::filesystem::path& folder,

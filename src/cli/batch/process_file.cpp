@@ -10,6 +10,7 @@
 #include "asset/model_files.hpp"
 #include "cli/files/file_stamp.hpp"
 #include "cli/files/output_file.hpp"
+#include "cli/files/sha256.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/process/interrupt.hpp"
 #include "cli/process/rejection.hpp"
@@ -65,6 +66,7 @@ struct Result {
     std::string status, message;
     std::uint64_t faces_in = 0, faces_out = 0;
     std::vector<std::string> warnings;
+    Json record = {};  // what only a ledger has
 };
 
 Result skipped_result(const BatchEntry& entry) {
@@ -76,9 +78,9 @@ Result cancelled_result() { return {exit_cancelled, "cancelled", "cancelled", 0,
 /// \param overwrite  set to yes when the result is about to be written
 Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchEntry entry,
                          Overwrite& overwrite) {
-    SimplifiedAsset simplified = detail::simplify_file(file.in, work.options, [&](const Asset& source) {
-        check_strictness(source, file.in, work.strictness);
-    });
+    const Options& options = file.options ? *file.options : work.options;
+    SimplifiedAsset simplified = detail::simplify_file(
+        file.in, options, [&](const Asset& source) { check_strictness(source, file.in, work.strictness); });
     const Report& report = simplified.report;
     if (report.stop == StopReason::cancelled) return cancelled_result();
     Result result = {exit_ok, "done", "", report.faces_in, report.faces_out, report.warnings};
@@ -90,11 +92,15 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
     }
     entry.faces_in = report.faces_in;
     entry.faces_out = report.faces_out;
-    work.record.add(file.out_name, entry);
-    detail::save_result(simplified, file.out, work.options, std::exchange(overwrite, Overwrite::yes));
+    if (work.record) work.record->add(file.out_name, entry);
+    detail::save_result(simplified, file.out, options, std::exchange(overwrite, Overwrite::yes));
     result.warnings = report.warnings;
     entry.result = modification_stamp({file.out});
-    work.record.add(file.out_name, entry);
+    if (work.record) work.record->add(file.out_name, entry);
+    std::error_code error;
+    result.record = {{"bytes", fs::file_size(file.out, error)},
+                     {"peak_rss_bytes", peak_memory()},
+                     {"time_limit", report.stop == StopReason::reached_time_limit}};
     return result;
 }
 
@@ -108,11 +114,13 @@ Result failed_result(const std::exception& problem) {
 Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemory& memory,
                    Overwrite& overwrite, detail::Stopwatch& watch) try {
     if (!file.problem.empty()) throw ReadError(file.in.string(), "", file.problem);
+    if (!file.hash.empty() && model_hash(file.in) != file.hash)
+        throw InputError(file.in.string(), "", "is not the model of the list: its SHA-256 is another one");
     std::vector<fs::path> inputs = detail::referenced_files(file.in, detail::References::readable);
     inputs.insert(inputs.begin(), file.in);
     const BatchEntry entry = {modification_stamp(inputs), work.options_key, "", 0, 0};
     const std::optional<BatchEntry> before =
-        work.resume ? work.record.find(file.out_name) : std::optional<BatchEntry>();
+        work.record && work.resume ? work.record->find(file.out_name) : std::optional<BatchEntry>();
     const bool is_own = is_own_result(file, before);
     if (is_own && !before->result.empty() && before->inputs == entry.inputs &&
         before->options == entry.options)
@@ -124,8 +132,8 @@ Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemor
     memory.reserve(detail::estimated_document_memory(file.in, memory.all()));
     const std::uint64_t loading = detail::estimated_model_memory(file.in, memory.all());
     require_memory(file.in, loading, memory.all());
-    memory.reserve(loading +
-                   detail::estimated_work_memory(file.in, detail::total_file_size(inputs), work.options));
+    memory.reserve(loading + detail::estimated_work_memory(file.in, detail::total_file_size(inputs),
+                                                           file.options ? *file.options : work.options));
     if (is_interrupted()) return cancelled_result();
     watch = {};
     return simplify_and_save(file, work, entry, overwrite);
@@ -140,13 +148,14 @@ Json line_of(const Result& result, double seconds) {
     return {{"status", result.status},     {"code", static_cast<int>(result.code)},
             {"faces_in", result.faces_in}, {"faces_out", result.faces_out},
             {"seconds", seconds},          {"message", result.message},
-            {"warnings", result.warnings}};
+            {"warnings", result.warnings}, {"record", result.record}};
 }
 
 }  // namespace
 
 Json process_batch_file(const BatchFile& file, const BatchContext& work, const BatchAttempt& attempt) {
     GrantedMemory memory(work, attempt);
+    reset_peak_memory();
     Overwrite overwrite = attempt.overwrite;
     detail::Stopwatch watch;
     try {
@@ -155,6 +164,13 @@ Json process_batch_file(const BatchFile& file, const BatchContext& work, const B
     } catch (const std::bad_alloc&) {
         return {{"retry", true}, {"overwrite", overwrite == Overwrite::yes}};
     }
+}
+
+std::string printed_line(const BatchFile& file, const Json& members) {
+    Json line = {{"path", file.name}, {"result", file.out_name}};
+    line.update(members);
+    for (const char* own : {"record", "alone", "killed"}) line.erase(own);  // not for users
+    return json_line(line);
 }
 
 Json line_without_result(ExitCode code, const std::string& status, const std::string& message) {

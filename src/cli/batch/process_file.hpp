@@ -22,8 +22,8 @@ struct BatchContext {
     Strictness strictness = Strictness::lenient;
     bool strict_target = false;
     bool resume = false;
-    std::uint64_t max_memory = 0;  ///< bytes, of all models at the same time
-    BatchRecord& record;
+    std::uint64_t max_memory = 0;   ///< bytes, of all models at the same time
+    BatchRecord* record = nullptr;  ///< null: a batch over a list, which has a Ledger
 };
 
 /// How one model is to be simplified.
@@ -37,9 +37,13 @@ struct BatchAttempt {
 /// Simplifies one model as `faqem simplify` does. With BatchContext::resume, up-to-date results are skipped, and results
 /// that the record lists and that were not changed since may be overwritten. Limits the memory of the process to what
 /// is granted.
-/// \return the members of the line that is printed for the model, without its names: see docs/reference.md. If the
-/// memory that was granted is exhausted, and there is more, the member `retry`, and `overwrite` for the next attempt
+/// \return the members of the line that is printed for the model, without its names (see docs/reference.md), and
+/// `record`: what a Ledger has besides. If the memory that was granted is exhausted, and there is more, the member
+/// `retry`, and `overwrite` for the next attempt
 Json process_batch_file(const BatchFile& file, const BatchContext& work, const BatchAttempt& attempt);
+
+/// Returns the line that is printed for a model. \param members  of process_batch_file()
+std::string printed_line(const BatchFile& file, const Json& members);
 
 /// Returns the members of the line of a model without a result.
 /// \param status   `failed` or `cancelled`

@@ -4,10 +4,13 @@
 #include <string.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "asset/io/temporary_file.hpp"
 #include "cli/batch/memory_queue.hpp"
@@ -55,36 +58,52 @@ struct Slot {
 class Supervisor {
 public:
     Supervisor(const std::vector<BatchFile>& files, const BatchContext& work, const WorkerOptions& workers,
-               const std::function<void(const std::string&)>& print)
+               const BatchEvents& events)
         : files_(files),
           work_(work),
           workers_(workers),
-          print_(print),
+          events_(events),
           memory_(work.max_memory),
           slots_(workers.jobs) {}
 
-    ExitCode run() {
-        for (;;) {
+    void run() {
+        do {
             for (std::size_t i = 0; i < slots_.size(); ++i)
                 if (!slots_[i].has_model && next_ < files_.size()) begin(i);
             grant_memory();
-            if (!wait_for_messages()) return code_;
-        }
+        } while (wait_for_messages());
     }
 
 private:
     /// Gives the next model to a process without one.
     void begin(std::size_t i) {
         if (is_interrupted()) {
-            finish(files_[next_++], line_without_result(exit_cancelled, "cancelled", "cancelled"));
+            const std::size_t model = next_++;
+            events_.ended(model, line_without_result(exit_cancelled, "cancelled", "cancelled"));
             return;
         }
         Slot& slot = slots_[i];
         slot.model = next_++;
         slot.has_model = true;
-        slot.alone = slot.is_cancelled = false;
+        slot.is_cancelled = false;
         slot.overwrite = workers_.overwrite == Overwrite::yes;
-        tell_model(slot);
+        begin_attempt(i, files_[slot.model].alone);
+    }
+
+    void begin_attempt(std::size_t i, bool alone) {
+        Slot& slot = slots_[i];
+        slot.alone = alone;
+        if (events_.begun) events_.begun(slot.model);
+        if (alone)
+            wait_for_all_memory(i);
+        else
+            tell_model(slot);
+    }
+
+    void wait_for_all_memory(std::size_t i) {
+        memory_.release(i);
+        memory_.request(i, all_memory);
+        slots_[i].is_waiting = true;
     }
 
     void tell_model(Slot& slot) {
@@ -153,81 +172,80 @@ private:
         } else if (message->contains("retry")) {
             retry_alone(i, message->at("overwrite"));
         } else {
-            end_model(i, std::move(*message));
+            end_model(i, *message);
         }
     }
 
-    /// Begins the model of a process once more, in a new process, as soon as it can have all memory.
+    /// Continues with a model in a new process, as soon as it can have all memory.
     void retry_alone(std::size_t i, bool overwrite) {
         Slot& slot = slots_[i];
         slot.worker.reset();
-        slot.alone = slot.is_waiting = true;
+        slot.alone = true;
         slot.overwrite = overwrite;
-        memory_.release(i);
-        memory_.request(i, all_memory);
+        wait_for_all_memory(i);
     }
 
     void on_death(std::size_t i) {
         Slot& slot = slots_[i];
         const int status = slot.worker->wait();
-        const bool is_short_of_memory =
-            WIFSIGNALED(status) ? WTERMSIG(status) == SIGKILL : WEXITSTATUS(status) == exit_no_memory;
-        remove_leftovers_of(slot);
-        if (is_short_of_memory && !slot.alone && !is_interrupted()) return retry_alone(i, slot.overwrite);
-        if (WIFSIGNALED(status))
-            on_end(i, "the process ended with signal " + std::to_string(WTERMSIG(status)) + " (" +
-                          ::strsignal(WTERMSIG(status)) + ")");
-        else if (is_short_of_memory)
-            end_model(i, line_without_result(exit_no_memory, "failed", "not enough memory"));
-        else
+        if (WIFSIGNALED(status)) {
+            const int number = WTERMSIG(status);
+            on_end(
+                i,
+                "the process ended with signal " + std::to_string(number) + " (" + ::strsignal(number) + ")",
+                number == SIGKILL);
+        } else if (WEXITSTATUS(status) != exit_no_memory) {
             on_end(i, "the process ended with code " + std::to_string(WEXITSTATUS(status)));
+        } else if (slot.alone) {
+            end_model(i, line_without_result(exit_no_memory, "failed", "not enough memory"));
+        } else {
+            remove_leftovers_of(slot);
+            retry_alone(i, slot.overwrite);
+        }
     }
 
     /// The process of a model has ended, or is to be killed, without a result.
-    void on_end(std::size_t i, const std::string& how) {
+    /// \param is_killed  by another process, as the kernel does when the memory of the machine is exhausted
+    void on_end(std::size_t i, const std::string& how, bool is_killed = false) {
         Slot& slot = slots_[i];
         slot.worker.reset();
         remove_leftovers_of(slot);
-        end_model(i,
-                  line_without_result(exit_internal, "failed", files_[slot.model].in.string() + ": " + how));
+        Json line = line_without_result(exit_internal, "failed", files_[slot.model].in.string() + ": " + how);
+        line["alone"] = slot.alone;
+        line["killed"] = is_killed;
+        end_model(i, line);
     }
 
     void remove_leftovers_of(const Slot& slot) const {
         detail::remove_leftovers(files_[slot.model].out.parent_path());
     }
 
-    void end_model(std::size_t i, Json line) {
+    void end_model(std::size_t i, const Json& members) {
         memory_.release(i);
-        slots_[i].has_model = false;
-        finish(files_[slots_[i].model], line);
-    }
-
-    void finish(const BatchFile& file, const Json& members) {
-        Json line = {{"path", file.name}, {"result", file.out_name}};
-        line.update(members);
-        const ExitCode one = members.at("code").get<ExitCode>();
-        if (one == exit_cancelled)
-            code_ = exit_cancelled;
-        else if (one != exit_ok && code_ == exit_ok)
-            code_ = exit_batch_incomplete;
-        print_(json_line(line));
+        Slot& slot = slots_[i];
+        const NextStep next = events_.ended(slot.model, members);
+        if (next == NextStep::again_alone) {
+            slot.worker.reset();
+            return begin_attempt(i, true);
+        }
+        slot.has_model = false;
+        if (next == NextStep::stop) next_ = files_.size();
     }
 
     const std::vector<BatchFile>& files_;
     const BatchContext& work_;
     const WorkerOptions& workers_;
-    const std::function<void(const std::string&)>& print_;
+    const BatchEvents& events_;
     MemoryQueue memory_;
     std::vector<Slot> slots_;
     std::size_t next_ = 0;  // the first model that was not begun
-    ExitCode code_ = exit_ok;
 };
 
 }  // namespace
 
-ExitCode process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
-                       const WorkerOptions& workers, const std::function<void(const std::string&)>& print) {
-    return Supervisor(files, work, workers, print).run();
+void process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
+                   const WorkerOptions& workers, const BatchEvents& events) {
+    Supervisor(files, work, workers, events).run();
 }
 
 }  // namespace faqem::cli

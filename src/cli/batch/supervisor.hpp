@@ -18,14 +18,27 @@ struct WorkerOptions {
     Overwrite overwrite = Overwrite::no;
 };
 
+/// What a batch does after a model.
+enum class NextStep {
+    go_on,
+    again_alone,  ///< tries the model again, in a new process, while no other uses memory
+    stop          ///< begins no other model
+};
+
+/// Called by process_batch(), in this process.
+struct BatchEvents {
+    /// A model begins. May be empty.
+    std::function<void(std::size_t model)> begun;
+    /// A model has ended. \param members  as of process_batch_file()
+    std::function<NextStep(std::size_t model, const Json& members)> ended;
+};
+
 /// Simplifies models, each in one of several processes. A process that crashes, or is killed because its model takes too
-/// long, costs only this model. A model that exhausts its memory, or whose process was killed by the system, is tried
-/// again while no other uses memory. After a signal, models that are being simplified are cancelled, and the others are
-/// not begun.
+/// long, costs only this model, which ends with exit_internal. A model that exhausts its memory is tried again while no
+/// other uses memory. After a signal, models that are being simplified are cancelled, and the others end without having
+/// begun.
 /// \pre this process has one thread
-/// \param print  receives the line of each model when it is finished
-/// \return exit_ok if each model is done or up to date, exit_cancelled after a signal, otherwise exit_batch_incomplete
-ExitCode process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
-                       const WorkerOptions& workers, const std::function<void(const std::string&)>& print);
+void process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
+                   const WorkerOptions& workers, const BatchEvents& events);
 
 }  // namespace faqem::cli

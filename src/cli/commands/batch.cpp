@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "asset/scene/messages.hpp"
-#include "cli/batch/supervisor.hpp"
+#include "cli/batch/run_shard.hpp"
+#include "cli/batch/run_summary.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"
@@ -18,6 +19,7 @@
 #include "cli/options/simplify_options.hpp"
 #include "cli/process/interrupt.hpp"
 #include "cli/process/progress_bar.hpp"
+#include "cli/report/batch_page.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/options/option_table.hpp"
 #include "faqem/version.hpp"
@@ -27,80 +29,173 @@ namespace faqem::cli {
 namespace {
 
 struct BatchArguments : SimplifyArguments {
-    std::string in, out, format = default_format();
+    std::string in, out, format = default_format(), list, shard;
     std::uint32_t jobs = 0;
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
-    double end_after = 0;          ///< seconds; 0: the default
-    bool resume = false, force = false;
+    std::uint64_t max_array = 1000;
+    double end_after = 0;  ///< seconds; 0: the default
+    bool resume = false, force = false, new_run = false, missing = false, merge = false;
 };
 
 /// Checks before the first model that no result, with the files beside it, is an input of the batch or belongs
 /// to one.
-void check_outputs_unprotected(const std::vector<BatchFile>& files, const std::string& out_folder) {
+void check_outputs_unprotected(const std::vector<BatchFile>& files) {
     std::vector<std::filesystem::path> results;
     for (const BatchFile& file : files) {
         protect_input(file.in);
         results.push_back(file.out);
     }
     check_models_unprotected(results);
-    check_unprotected(BatchRecord::path_in(out_folder));
+}
+
+/// The state that all models share, without a record.
+BatchContext make_context(const BatchArguments& arguments, std::size_t jobs) {
+    BatchContext work;
+    work.options = make_options(arguments.options);
+    const std::string extension = extension_of_format(arguments.format);
+    work.options.format = format_of_output("model" + extension);
+    for (const std::string& idle :
+         detail::idle_options(work.options, typed_names(arguments.options), detail::command_spelling))
+        std::cerr << "faqem: warning: " << idle << "\n";
+    // Processing several files at a time uses the threads better than using several threads per file.
+    if (work.options.threads == 0)
+        work.options.threads =
+            static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
+    work.options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
+    work.options_key = std::string(version()) + " " + extension + " " + detail::options_key(work.options) +
+                       (arguments.strict ? " strict" : "") +
+                       (arguments.strict_target ? " strict-target" : "");
+    work.strictness = arguments.strictness();
+    work.strict_target = arguments.strict_target;
+    work.resume = arguments.resume;
+    work.max_memory = arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3;
+    return work;
+}
+
+WorkerOptions make_workers(const BatchArguments& arguments, std::size_t models, const Options& options) {
+    WorkerOptions workers;
+    workers.jobs =
+        static_cast<std::uint32_t>(std::clamp<std::size_t>(models, 1, detail::thread_count(arguments.jobs)));
+    workers.end_after = arguments.end_after > 0 ? arguments.end_after
+                        : options.max_seconds   ? 2 * *options.max_seconds + 60
+                                                : 3600;
+    workers.overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
+    return workers;
+}
+
+/// Prints the lines of models, and how many there are of each status.
+class BatchOutput {
+public:
+    explicit BatchOutput(std::size_t models) : models_(models) { show_count(); }
+
+    void print(const std::string& line) {
+        ++counts_[Json::parse(line).at("status").get<std::string>()];
+        ++finished_;
+        bar_.hide();
+        std::cout << line << std::flush;  // so that a reader of a pipe gets each line immediately
+        show_count();
+    }
+    /// \param others  number of files that are no models
+    void end(std::size_t others = 0) {
+        bar_.hide();
+        std::cerr << "faqem: " << detail::pluralized(models_, "model");
+        const char* separator = ": ";
+        for (const auto& [status, count] : counts_) {
+            std::cerr << separator << count << " " << status;
+            separator = ", ";
+        }
+        if (others > 0) std::cerr << "; " << detail::pluralized(others, "other file") << " passed over";
+        std::cerr << "\n";
+    }
+
+private:
+    void show_count() { bar_.show(std::to_string(finished_) + " of " + std::to_string(models_)); }
+
+    std::size_t models_, finished_ = 0;
+    std::map<std::string, std::size_t> counts_;  // by status
+    ProgressBar bar_{Bar::shown};
+};
+
+int run_folder(const BatchArguments& arguments) {
+    const std::string& out = arguments.out;
+    std::size_t others = 0;
+    const std::vector<BatchFile> files =
+        plan_batch(arguments.in, out, extension_of_format(arguments.format), others);
+    const WorkerOptions workers = make_workers(arguments, files.size(), make_options(arguments.options));
+    BatchContext work = make_context(arguments, workers.jobs);
+    check_outputs_unprotected(files);
+    check_unprotected(BatchRecord::path_in(out));
+    make_folder(out);
+    BatchRecord record(out);
+    work.record = &record;
+    install_signal_handlers();
+    BatchOutput output(files.size());
+    ExitCode code = exit_ok;  // exit_cancelled if a model was not done because of a signal
+    process_batch(files, work, workers, {nullptr, [&](std::size_t i, const Json& members) {
+                                             const auto one = members.at("code").get<ExitCode>();
+                                             // The kernel kills a process when the memory of the machine is exhausted.
+                                             if (one == exit_internal && members.value("killed", false) &&
+                                                 !members.value("alone", false))
+                                                 return NextStep::again_alone;
+                                             if (one == exit_cancelled)
+                                                 code = exit_cancelled;
+                                             else if (one != exit_ok && code == exit_ok)
+                                                 code = exit_batch_incomplete;
+                                             output.print(printed_line(files[i], members));
+                                             return NextStep::go_on;
+                                         }});
+    output.end(others);
+    return code;
+}
+
+int run_list(const BatchArguments& arguments, const std::string& out) {
+    ShardArguments shard{arguments.list, out, extension_of_format(arguments.format)};
+    if (!arguments.shard.empty()) shard.shard = parse_shard(arguments.shard);
+    shard.redoes = arguments.force;
+    shard.replaces_run = arguments.new_run;
+    const std::vector<BatchFile> files = models_of_shard(shard, arguments.options);
+    WorkerOptions workers = make_workers(arguments, files.size(), make_options(arguments.options));
+    workers.overwrite = Overwrite::yes;  // the records say whose results are in the directory
+    const BatchContext work = make_context(arguments, workers.jobs);
+    check_outputs_unprotected(files);
+    install_signal_handlers();
+    BatchOutput output(files.size());
+    const ExitCode code =
+        run_shard(files, shard, work, workers, [&](const std::string& line) { output.print(line); });
+    output.end();
+    return code;
+}
+
+int print_missing(const BatchArguments& arguments, const std::string& out) {
+    std::cout << array_options(incomplete_shards(out), arguments.max_array);
+    return exit_ok;
+}
+
+/// Writes batch.jsonl and batch.html to the directory.
+int merge(const std::string& out) {
+    std::string lines;
+    const RunSummary summary = merge_records(out, [&](const Json& record) { lines += json_line(record); });
+    const std::filesystem::path folder = out;
+    write_output(folder / "batch.jsonl", lines, Overwrite::yes);
+    write_only_output(folder / "batch.html", batch_page(summary), Overwrite::yes);
+    for (const auto& [end, count] : summary.counts) std::cout << end << ": " << count << "\n";
+    for (const std::string& problem : summary.problems)
+        std::cerr << "faqem: " << out << ": " << problem << "\n";
+    return summary.problems.empty() ? exit_ok : exit_batch_incomplete;
 }
 
 int run(const BatchArguments& arguments) {
-    Options options = make_options(arguments.options);
-    const std::string extension = extension_of_format(arguments.format);
-    options.format = format_of_output("model" + extension);
-    std::size_t others = 0;
-    const std::vector<BatchFile> files = plan_batch(arguments.in, arguments.out, extension, others);
-    check_outputs_unprotected(files, arguments.out);
-    for (const std::string& idle :
-         detail::idle_options(options, typed_names(arguments.options), detail::command_spelling))
-        std::cerr << "faqem: warning: " << idle << "\n";
-    make_folder(arguments.out);
-    BatchRecord record(arguments.out);
-    const std::uint64_t allowed = arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3;
-    install_signal_handlers();
-    const std::size_t jobs = std::min<std::size_t>(detail::thread_count(arguments.jobs), files.size());
-    // Processing several files at a time uses the threads better than using several threads per file.
-    if (options.threads == 0)
-        options.threads =
-            static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
-    options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
-    const std::string key = std::string(version()) + " " + extension + " " + detail::options_key(options) +
-                            (arguments.strict ? " strict" : "") +
-                            (arguments.strict_target ? " strict-target" : "");
-    const BatchContext work = {
-        options, key, arguments.strictness(), arguments.strict_target, arguments.resume, allowed, record};
-    const double end_after = arguments.end_after > 0 ? arguments.end_after
-                             : options.max_seconds   ? 2 * *options.max_seconds + 60
-                                                     : 3600;
-    std::map<std::string, std::size_t> counts;  // by status
-    std::size_t finished = 0;
-    ProgressBar bar(Bar::shown);
-    const auto show_count = [&] {
-        bar.show(std::to_string(finished) + " of " + std::to_string(files.size()));
-    };
-    show_count();
-    const ExitCode code = process_batch(
-        files, work,
-        {static_cast<std::uint32_t>(jobs), end_after, arguments.force ? Overwrite::yes : Overwrite::no},
-        [&](const std::string& line) {
-            ++counts[Json::parse(line).at("status").get<std::string>()];
-            ++finished;
-            bar.hide();
-            std::cout << line << std::flush;  // so that a reader of a pipe gets each line immediately
-            show_count();
-        });
-    bar.hide();
-    std::cerr << "faqem: " << detail::pluralized(files.size(), "model") << ":";
-    const char* separator = " ";
-    for (const auto& [status, count] : counts) {
-        std::cerr << separator << count << " " << status;
-        separator = ", ";
-    }
-    if (others > 0) std::cerr << "; " << detail::pluralized(others, "other file") << " passed over";
-    std::cerr << "\n";
-    return code;
+    const bool has_list = !arguments.list.empty() || arguments.missing || arguments.merge;
+    const std::string& out_of_list = arguments.in.empty() ? arguments.out : arguments.in;
+    if ((arguments.in.empty() || arguments.out.empty()) != has_list)
+        throw OptionError(has_list ? "with --list, --missing and --merge there is one directory: OUTDIR"
+                                   : "two directories are needed: DIR and OUTDIR");
+    if (arguments.list.empty() && (arguments.new_run || !arguments.shard.empty()))
+        throw OptionError("--shard and --new-run need --list");
+    if (arguments.missing) return print_missing(arguments, out_of_list);
+    if (arguments.merge) return merge(out_of_list);
+    if (!arguments.list.empty()) return run_list(arguments, out_of_list);
+    return run_folder(arguments);
 }
 
 }  // namespace
@@ -111,21 +206,36 @@ CommandInfo batch_command() {
                         "Simplify all models of a directory, several at a time",
                         {"faqem batch scans simplified --ratio 0.02 --resume >> done.jsonl",
                          "faqem batch parts simplified --format stl --max-error 0.05 --jobs 4"}};
-    command.positionals = {
-        positional("DIR", arguments->in, "Directory of the models; subdirectories are included")};
+    OptionInfo dir =
+        positional("DIR", arguments->in, "Directory of the models, with subdirectories; with --list: none");
+    dir.is_required = false;
+    command.positionals = {dir};
     add_output(command, "OUTDIR", arguments->out, "Directory for the results; created if necessary");
-    add_options(command.options,
-                {format_option(arguments->format),
-                 number_option("-j,--jobs", "N", arguments->jobs, {.max = 1024},
-                               "Models at a time; 0: the number of threads (default)"),
-                 size_option("--max-memory", arguments->max_memory,
-                             "Memory of models that run at the same time, as 8GB; a model that may need "
-                             "more runs alone (default: three quarters of the machine's memory)"),
-                 number_option("--end-after", "S", arguments->end_after, {.min = 1, .max = 1e6},
-                               "Give up a model after this many seconds; default: twice --max-seconds plus "
-                               "60, or 3600"),
-                 flag_option("--resume", arguments->resume,
-                             "Skip results that are up to date; redo those that are not")});
+    command.options.back().is_required = false;  // with --list it is the only directory
+    add_options(
+        command.options,
+        {format_option(arguments->format),
+         number_option("-j,--jobs", "N", arguments->jobs, {.max = 1024},
+                       "Models at a time; 0: the number of threads (default)"),
+         size_option("--max-memory", arguments->max_memory,
+                     "Memory of models that run at the same time, as 8GB; a model that may need "
+                     "more runs alone (default: three quarters of the machine's memory)"),
+         number_option(
+             "--end-after", "S", arguments->end_after, {.min = 1, .max = 1e6},
+             "Give up a model after this many seconds; default: twice --max-seconds plus 60, or 3600"),
+         flag_option("--resume", arguments->resume,
+                     "Skip results that are up to date; redo those that are not"),
+         text_option("--list", "FILE", arguments->list, "Simplify the models of a list; of faqem list"),
+         text_option("--shard", "I/N", arguments->shard,
+                     "Only a part of the list; the first is 0/N; auto: of an array job"),
+         rare(flag_option("--new-run", arguments->new_run,
+                          "Replace the run of OUTDIR; which had another list, options or N")),
+         rare(flag_option("--missing", arguments->missing,
+                          "Print options of sbatch for shards of OUTDIR without an end")),
+         rare(number_option("--max-array", "N", arguments->max_array, from_one(1e9),
+                            "Indices of an array of --missing are below N; default: 1000")),
+         rare(flag_option("--merge", arguments->merge,
+                          "Write what became of each model of OUTDIR; to its batch.jsonl and batch.html"))});
     add_options(command.options, table_options(detail::in_batch, arguments->options));
     for (OptionInfo& option : command.options) {
         if (option.names.back() == "--threads")

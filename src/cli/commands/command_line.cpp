@@ -52,12 +52,12 @@ CommandTree command_tree() {
         "4 unsupported input, 5 target missed (with --strict-target),\n"
         "6 --max-error exceeded, 7 cannot write, 8 cancelled, 9 not all models of a batch\n"
         "are done, 10 --max-bytes exceeded, 11 not enough memory, 12 --max-seconds was\n"
-        "over before there was a result.";
+        "over before there was a result, 75 a shard is not complete.";
     tree.options = help_options();
     tree.options.push_back({{"-V", "--version"}, "", "Print the version", detail::OptionKind::flag});
-    tree.commands = {simplify_command(), lod_command(),        truncate_command(), batch_command(),
-                     info_command(),     compare_command(),    render_command(),   report_command(),
-                     profiles_command(), completion_command(), man_command()};
+    tree.commands = {simplify_command(), lod_command(),      truncate_command(),   batch_command(),
+                     list_command(),     info_command(),     compare_command(),    render_command(),
+                     report_command(),   profiles_command(), completion_command(), man_command()};
     complete_options(tree);
     return tree;
 }

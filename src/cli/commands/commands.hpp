@@ -10,6 +10,7 @@ CommandInfo simplify_command();
 CommandInfo lod_command();
 CommandInfo truncate_command();
 CommandInfo batch_command();
+CommandInfo list_command();
 CommandInfo info_command();
 CommandInfo compare_command();
 CommandInfo render_command();

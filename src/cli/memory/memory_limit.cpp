@@ -103,4 +103,8 @@ void return_freed_memory() {
     mallopt(M_TRIM_THRESHOLD, block_bytes);
 }
 
+void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
+
+std::uint64_t peak_memory() { return status_bytes("VmHWM:"); }
+
 }  // namespace faqem::cli

@@ -69,7 +69,7 @@ void add_output(CommandInfo& command, const std::string& name, std::string& valu
     command.positionals.push_back({{name}, "", description});
     OptionInfo& output = command.options.emplace_back(
         rare(text_option("-o,--output", name, value, "The same as " + name + " as the last word")));
-    output.is_positional = true;
+    output.is_positional = output.is_required = true;
 }
 
 OptionInfo force_option(bool& force) { return flag_option("-f,--force", force, "Overwrite existing files"); }

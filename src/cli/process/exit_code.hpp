@@ -24,6 +24,7 @@ enum ExitCode : int {
     exit_too_large = 10,
     exit_no_memory = 11,
     exit_time_limit = 12,
+    exit_try_again = 75,  ///< EX_TEMPFAIL of sysexits.h
 };
 
 /// Thrown if the estimated memory exceeds the limit. The command exits with code 11.

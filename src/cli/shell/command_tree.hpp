@@ -22,7 +22,7 @@ struct OptionInfo {
     std::string suffix_choice = {};          ///< choice that a number may follow: `smooth:30`
     std::vector<std::string> excludes = {};  ///< options that cannot be given together with this one, sorted
     bool is_required = false;
-    bool is_positional = false;        ///< of an option: required, and may also be the last word
+    bool is_positional = false;        ///< of an option: it may also be the last word
     int min_words = 1, max_words = 1;  ///< number of values
 
     /// Receives the values after parsing, and whether they were typed: those of a profile are not. Throws OptionError if

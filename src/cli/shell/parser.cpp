@@ -19,7 +19,7 @@ CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
     if (info.is_positional) names.append(",").append(info.value_name);
     if (info.kind == detail::OptionKind::flag) return command.add_flag(names);
     CLI::Option* option = command.add_option(names);
-    option->required(info.is_required)->expected(info.min_words, info.max_words);
+    option->required(info.is_required && !info.is_positional)->expected(info.min_words, info.max_words);
     option->allow_extra_args(info.max_words > 1);
     if (info.kind == detail::OptionKind::list) option->delimiter(',');
     return option;
@@ -30,7 +30,8 @@ std::vector<ParsedValue> typed_values(const std::vector<ParsedOption>& options) 
     std::vector<ParsedValue> result;
     for (const auto& [info, option] : options) {
         // CLI11 would say that --output is missing.
-        if (option->count() == 0 && info->is_positional) throw CLI::RequiredError(info->value_name);
+        if (option->count() == 0 && info->is_positional && info->is_required)
+            throw CLI::RequiredError(info->value_name);
         if (option->count() == 0) continue;
         const bool is_false = info->kind == detail::OptionKind::flag &&
                               CLI::detail::to_flag_value(option->results().back()) <= 0;  // --quiet=false

@@ -19,6 +19,7 @@ from .errors import (
     OptionError,
     ReadError,
     TimeLimitError,
+    TryAgainError,
     UnsupportedError,
     WriteError,
 )
@@ -52,6 +53,7 @@ __all__ = [
     "SimplifiedModel",
     "Texture",
     "TimeLimitError",
+    "TryAgainError",
     "UnsupportedError",
     "WriteError",
     "bake_truncated",

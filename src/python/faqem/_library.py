@@ -161,6 +161,7 @@ exceptions: dict[int, type[Exception]] = {
     10: errors.ByteLimitError,
     11: MemoryError,
     12: errors.TimeLimitError,
+    75: errors.TryAgainError,
 }
 
 

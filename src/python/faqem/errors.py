@@ -36,5 +36,9 @@ class TimeLimitError(Error, TimeoutError):
     """max_seconds was over before there was a result that the options allow."""
 
 
+class TryAgainError(Error):
+    """A shard of a list is not complete; another attempt goes on."""
+
+
 class InternalError(Error):
     """A defect in faqem."""

@@ -89,6 +89,25 @@ TEST_CASE("a model whose process crashes, is killed or hangs costs only itself")
     CHECK(run(folder, batch_words + "--resume").code == 0);
 }
 
+TEST_CASE("a model of a list that crashes is tried once more alone, and then given up") {
+    const Folder folder;
+    make_models_with_bad(folder);
+    REQUIRE(run(folder, "list in -o models.jsonl").code == 0);
+    const std::string shard = "batch --list models.jsonl out --bake none --threads 1 ";
+    {
+        const BadFile bad("segv");
+        const Outcome outcome = run(folder, shard);
+        CHECK(outcome.code == 0);
+        const auto lines = lines_by_path(outcome);
+        REQUIRE(lines.size() == 6);
+        for (const auto& [name, line] : lines)
+            CHECK(line["status"] == (name == "bad.ply" ? "poisoned" : "done"));
+    }
+    // It stays given up, also where it would be right.
+    CHECK(lines_by_path(run(folder, shard)).at("bad.ply")["status"] == "poisoned");
+    CHECK(lines_by_path(run(folder, shard + "--force")).at("bad.ply")["status"] == "done");
+}
+
 TEST_CASE("the processes of a batch that is killed end with it, in the middle of a model too") {
     const Folder folder;
     make_models_with_bad(folder);

@@ -40,8 +40,8 @@ using WordSet = std::set<std::string>;
 }  // namespace
 
 TEST_CASE("bash completes commands, options and values") {
-    CHECK(in_bash("''", 1) == WordSet{"simplify", "lod", "truncate", "batch", "info", "compare", "render",
-                                      "report", "profiles", "completion", "man"});
+    CHECK(in_bash("''", 1) == WordSet{"simplify", "lod", "truncate", "batch", "list", "info", "compare",
+                                      "render", "report", "profiles", "completion", "man"});
     CHECK(in_bash("co", 1) == WordSet{"compare", "completion"});
     CHECK(in_bash("--v", 1) == WordSet{"--version"});
     CHECK(in_bash("simplify a.glb --textu", 3) == WordSet{"--texture-size"});
@@ -68,7 +68,7 @@ TEST_CASE("zsh completes commands, options and values") {
         "compdef() { }\n_describe() { print -rl -- $commands }\n_arguments() { print -rl -- \"$@\" }\n"
         "source ./_faqem\n";
     const WordSet commands = lines_of("zsh -f", folder, beginning + "words=(faqem s) CURRENT=2\n_faqem\n");
-    CHECK(commands.size() == 11);
+    CHECK(commands.size() == 12);
     CHECK(commands.count("info:Count and measure the contents of a file"));
     const WordSet options =
         lines_of("zsh -f", folder, beginning + "words=(faqem simplify -) CURRENT=3\n_faqem\n");

@@ -1,0 +1,195 @@
+#include "cli/batch/ledger.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <ctime>
+#include <fstream>
+#include <random>
+#include <system_error>
+#include <vector>
+
+#include "asset/io/file.hpp"
+#include "asset/io/file_set.hpp"
+#include "cli/files/output_file.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder with the records of an output directory.
+fs::path records_folder(const fs::path& out_folder) { return out_folder / ".faqem-batch"; }
+
+Json json_of(const RunIdentity& run) {
+    return {{"shards", run.shards}, {"options", run.options}, {"version", run.version}, {"list", run.list}};
+}
+
+void write_json(const fs::path& file, const Json& json, Overwrite overwrite) {
+    const std::string text = json_line(json);
+    detail::write_file(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, overwrite);
+}
+
+/// Writes run.json, or checks the one that is there.
+void join_run(const fs::path& file, const RunIdentity& run, bool replaces) {
+    const Json own = json_of(run);
+    if (!replaces && !fs::exists(file)) {
+        try {
+            return write_json(file, own, Overwrite::no);
+        } catch (const WriteError&) {
+            if (!fs::exists(file)) throw;  // otherwise another shard was faster
+        }
+    }
+    if (replaces) return write_json(file, own, Overwrite::yes);
+    const Json other = Json::parse(detail::read_file(file), nullptr, false);
+    for (const auto& [name, value] : own.items())
+        if (!other.is_object() || other.value(name, Json()) != value)
+            throw OptionError(file.string() + ": the directory has the results of a run with other " + name +
+                              "; choose another directory, or --new-run");
+}
+
+/// A name that no other attempt has: time, process, and a random number.
+std::string attempt_name() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc = {};
+    ::gmtime_r(&now, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y%m%dT%H%M%SZ", &utc);
+    return std::string(text) + "-" + std::to_string(::getpid()) + "-" +
+           std::to_string(std::random_device()());
+}
+
+std::string key_text(const std::string& id, const std::string& hash, const std::string& options,
+                     const std::string& version) {
+    return Json::array({id, hash, options, version}).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The files of the attempts at a shard, the oldest first.
+std::vector<fs::path> attempts_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// Calls a function with each line of a ledger. A last line that a crash has cut was not written.
+template <class Take>
+void for_each_line(const fs::path& file, const Take& take) {
+    std::ifstream in(file, std::ios::binary);
+    for (std::string line; std::getline(in, line) && !in.eof();)
+        if (const Json json = Json::parse(line, nullptr, false); json.is_object() && json.contains("id"))
+            take(json);
+}
+
+/// Adds a line of a ledger to the histories. \param open  models that the attempt has begun and not ended
+void read_line(const Json& json, std::map<std::string, ModelHistory>& histories,
+               std::vector<std::string>& open) {
+    const std::string key = key_text(json.value("id", ""), json.value("sha256", ""),
+                                     json.value("options", ""), json.value("version", ""));
+    const std::string event = json.value("event", "");
+    if (event == "started") return open.push_back(key);
+    std::erase(open, key);
+    ModelHistory& history = histories[key];
+    if (event == "done" || event == "refused") {
+        history.end = event;
+        history.bytes = json.value("bytes", std::uint64_t{0});
+    }
+    if (event == "crashed") ++history.crashes;
+    if (event != "interrupted") history.reason = json.value("message", "");
+}
+
+}  // namespace
+
+Ledger::Ledger(const fs::path& out_folder, const Shard& shard, const RunIdentity& run, bool replaces_run)
+    : folder_(records_folder(out_folder) / shard.name()), run_(run) {
+    make_folder(folder_);
+    join_run(records_folder(out_folder) / "run.json", run, replaces_run);
+    read_attempts();
+    file_ = folder_ / (attempt_name() + ".jsonl");
+    out_ =
+        detail::Descriptor(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
+    if (!out_) throw WriteError(file_.string() + ": cannot write: " + std::generic_category().message(errno));
+}
+
+void Ledger::read_attempts() {
+    for (const fs::path& file : attempts_in(folder_)) {
+        std::vector<std::string> open;
+        for_each_line(file, [&](const Json& line) { read_line(line, histories_, open); });
+        for (const std::string& key : open) ++histories_[key].unended;
+    }
+}
+
+ModelHistory Ledger::history(const ModelKey& model) const {
+    const auto found = histories_.find(key_text(model.id, model.hash, model.options, run_.version));
+    return found == histories_.end() ? ModelHistory() : found->second;
+}
+
+void Ledger::begin(const ModelKey& model) {
+    append({{"event", "started"},
+            {"id", model.id},
+            {"sha256", model.hash},
+            {"options", model.options},
+            {"version", run_.version}});
+}
+
+void Ledger::end(const ModelKey& model, const std::string& event, const Json& details) {
+    Json line = {{"event", event},
+                 {"id", model.id},
+                 {"sha256", model.hash},
+                 {"options", model.options},
+                 {"version", run_.version}};
+    line.update(details);
+    append(line);
+}
+
+void Ledger::append(const Json& line) {
+    const std::string text = json_line(line);
+    if (::write(out_.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+        throw WriteError(file_.string() + ": cannot write: " + std::generic_category().message(errno));
+}
+
+void Ledger::complete(const Json& counts) const {
+    Json json = json_of(run_);
+    json.update(counts);
+    write_json(folder_ / "complete.json", json, Overwrite::yes);
+}
+
+RunIdentity read_run(const fs::path& out_folder) {
+    const fs::path file = records_folder(out_folder) / "run.json";
+    try {
+        const Json json = Json::parse(detail::read_file(file));
+        RunIdentity run{json.at("shards"), json.at("options"), json.at("version"), json.at("list")};
+        if (run.shards > 0) return run;
+    } catch (const Json::exception&) {
+    }
+    throw InputError(file.string(), "", "is damaged");
+}
+
+bool is_complete(const fs::path& out_folder, const Shard& shard, const RunIdentity& run) {
+    const fs::path file = records_folder(out_folder) / shard.name() / "complete.json";
+    if (!fs::exists(file)) return false;
+    const Json json = Json::parse(detail::read_file(file), nullptr, false);
+    const Json wanted = json_of(run);
+    return json.is_object() &&
+           std::all_of(wanted.items().begin(), wanted.items().end(),
+                       [&](const auto& one) { return json.value(one.key(), Json()) == one.value(); });
+}
+
+std::map<std::string, Json> last_records(const fs::path& out_folder, const Shard& shard) {
+    std::map<std::string, Json> records;
+    for (const fs::path& file : attempts_in(records_folder(out_folder) / shard.name()))
+        for_each_line(file, [&](const Json& line) {
+            Json& record = records[line.value("id", "")];
+            // An attempt that has only begun says nothing new of a model with an end.
+            if (line.value("event", "") != "started" || record.is_null()) record = line;
+        });
+    return records;
+}
+
+}  // namespace faqem::cli

@@ -1,0 +1,135 @@
+#include "cli/batch/model_list.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "faqem/error.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The id of a line that begins with it, as list_line() writes it; nothing if it does not, or has an escape.
+std::optional<std::string> leading_id(std::string_view line) {
+    constexpr std::string_view start = R"({"id":")";
+    if (!line.starts_with(start)) return std::nullopt;
+    line.remove_prefix(start.size());
+    const std::size_t end = line.find_first_of("\"\\");
+    if (end == std::string_view::npos || line[end] == '\\') return std::nullopt;
+    return std::string(line.substr(0, end));
+}
+
+ListedModel parse_line(const std::string& line) {
+    const Json json = Json::parse(line);
+    ListedModel model;
+    json.at("id").get_to(model.id);
+    model.input = json.at("input").get<std::string>();
+    model.hash = json.value("sha256", "");
+    model.bytes = json.value("bytes", std::uint64_t{0});
+    model.output = json.value("output", "");
+    if (json.contains("options")) model.options = json["options"];
+    if (model.id.empty() || model.input.empty()) throw InputError("", "", "has an empty id or input");
+    if (!model.options.is_null() && !model.options.is_object())
+        throw InputError("", "", "options is no object");
+    return model;
+}
+
+/// The fields of a line of a table (RFC 4180, without line ends in fields).
+std::vector<std::string> fields_of(const std::string& line) {
+    std::vector<std::string> fields(1);
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"')
+            fields.back() += line[i++];
+        else if (line[i] == '"')
+            is_quoted = !is_quoted;
+        else if (line[i] == ',' && !is_quoted)
+            fields.emplace_back();
+        else
+            fields.back() += line[i];
+    }
+    return fields;
+}
+
+/// Reads the lines of a table as those of a list.
+class TableReader {
+public:
+    explicit TableReader(const std::string& header) {
+        const std::vector<std::string> names = fields_of(header);
+        const auto column = [&](const char* name) {
+            const auto found = std::find(names.begin(), names.end(), name);
+            if (found == names.end()) throw InputError("", "", std::string("there is no column ") + name);
+            return static_cast<std::size_t>(found - names.begin());
+        };
+        id_ = column("sha256");
+        input_ = column("local_path");
+    }
+
+    ListedModel model(const std::string& line) const {
+        const std::vector<std::string> fields = fields_of(line);
+        if (fields.size() <= std::max(id_, input_)) throw InputError("", "", "has too few columns");
+        ListedModel model;
+        model.id = fields[id_];
+        model.input = fields[input_];
+        if (model.id.empty() || model.input.empty())
+            throw InputError("", "", "has no sha256 or no local_path");
+        return model;
+    }
+
+private:
+    std::size_t id_ = 0, input_ = 0;
+};
+
+}  // namespace
+
+void read_list(const fs::path& list, const std::function<bool(const std::string& id)>& wanted,
+               const std::function<void(ListedModel&&)>& take) {
+    std::ifstream in(list, std::ios::binary);
+    if (!in || fs::is_directory(list)) throw ReadError(list.string(), "", "cannot read");
+    std::optional<TableReader> table;
+    const bool is_table = list.extension() == ".csv";
+    std::uint64_t number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (line.empty()) continue;
+        try {
+            if (is_table && !table) {
+                table.emplace(line);
+                continue;
+            }
+            if (const std::optional<std::string> id = leading_id(line); id && !table && !wanted(*id))
+                continue;
+            ListedModel model = table ? table->model(line) : parse_line(line);
+            if (!wanted(model.id)) continue;
+            model.input = list.parent_path() / model.input;
+            take(std::move(model));
+        } catch (const Json::exception& error) {
+            throw InputError(list.string(), "line " + std::to_string(number), error.what());
+        } catch (const InputError& error) {
+            throw InputError(list.string(), "line " + std::to_string(number), error.what());
+        }
+    }
+    if (in.bad()) throw ReadError(list.string(), "", "cannot read");
+}
+
+std::string list_line(const ListedModel& model, const fs::path& folder) {
+    const fs::path relative =
+        fs::absolute(model.input)
+            .lexically_normal()
+            .lexically_relative(fs::absolute(folder.empty() ? "." : folder).lexically_normal());
+    Json json = {{"id", model.id},
+                 {"input", relative.empty() ? model.input.string() : relative.string()},
+                 {"sha256", model.hash},
+                 {"bytes", model.bytes}};
+    if (!model.output.empty()) json["output"] = model.output;
+    if (!model.options.is_null()) json["options"] = model.options;
+    return json_line(json);
+}
+
+}  // namespace faqem::cli

@@ -1,0 +1,113 @@
+#include "cli/batch/shard.hpp"
+
+#include <charconv>
+#include <cstdlib>
+
+#include "cli/files/sha256.hpp"
+#include "faqem/error.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+std::optional<std::uint64_t> parse_number(const std::string& text) {
+    std::uint64_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (text.empty() || error != std::errc() || stop != end) return std::nullopt;
+    return number;
+}
+
+Shard checked_shard(std::uint64_t index, std::uint64_t count) {
+    if (!(index < count))
+        throw OptionError("--shard: " + std::to_string(index) + " of " + std::to_string(count) +
+                          " is out of range: the first shard is 0");
+    return {index, count};
+}
+
+/// A variable with the index of a task, and the one with the number of tasks.
+struct TaskVariables {
+    const char *index, *count;
+};
+constexpr TaskVariables task_variables[] = {{"FAQEM_SHARD_INDEX", nullptr},
+                                            {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT"},
+                                            {"AWS_BATCH_JOB_ARRAY_INDEX", "AWS_BATCH_JOB_ARRAY_SIZE"},
+                                            {"JOB_COMPLETION_INDEX", nullptr},
+                                            {"RANK", "WORLD_SIZE"}};
+
+Shard automatic_shard(const Environment& environment) {
+    const auto number = [&](const std::string& name) -> std::optional<std::uint64_t> {
+        const std::optional<std::string> text = environment(name);
+        if (!text) return std::nullopt;
+        if (const auto parsed = parse_number(*text)) return parsed;
+        throw OptionError("--shard auto: " + name + " is no number: '" + *text + "'");
+    };
+    for (const TaskVariables& task : task_variables) {
+        std::optional<std::uint64_t> index = number(task.index);
+        if (!index) continue;
+        *index += number("FAQEM_SHARD_OFFSET").value_or(0);
+        if (const auto count = number("FAQEM_SHARD_COUNT")) return checked_shard(*index, *count);
+        const std::optional<std::uint64_t> count =
+            task.count ? number(task.count) : std::optional<std::uint64_t>();
+        if (!count)
+            throw OptionError(std::string("--shard auto: ") + task.index +
+                              " is set, but not the number of shards; set FAQEM_SHARD_COUNT");
+        if (task.index == std::string("SLURM_ARRAY_TASK_ID")) {
+            const std::uint64_t first = number("SLURM_ARRAY_TASK_MIN").value_or(0);
+            const std::uint64_t last = number("SLURM_ARRAY_TASK_MAX").value_or(first + *count - 1);
+            if (last - first + 1 != *count || *index < first)
+                throw OptionError(
+                    "--shard auto: the array of Slurm has gaps, so that the number of shards is unknown; set "
+                    "FAQEM_SHARD_COUNT");
+            *index -= first;
+        }
+        return checked_shard(*index, *count);
+    }
+    throw OptionError(
+        "--shard auto: no variable has the index of a shard: FAQEM_SHARD_INDEX, SLURM_ARRAY_TASK_ID, "
+        "AWS_BATCH_JOB_ARRAY_INDEX, JOB_COMPLETION_INDEX or RANK");
+}
+
+}  // namespace
+
+bool Shard::contains(const std::string& id) const {
+    if (count == 1) return true;
+    const Digest digest = sha256(id);
+    std::uint64_t number = 0;
+    for (std::size_t i = 0; i < 8; ++i) number = number << 8 | digest[i];
+    return number % count == index;
+}
+
+std::string Shard::name() const { return std::to_string(index) + "-of-" + std::to_string(count); }
+
+std::optional<std::string> environment_variable(const std::string& name) {
+    const char* value = std::getenv(name.c_str());
+    return value ? std::optional<std::string>(value) : std::nullopt;
+}
+
+Shard parse_shard(const std::string& text, const Environment& environment) {
+    if (text == "auto") return automatic_shard(environment);
+    const std::size_t slash = text.find('/');
+    if (slash != std::string::npos) {
+        const auto index = parse_number(text.substr(0, slash)), count = parse_number(text.substr(slash + 1));
+        if (index && count) return checked_shard(*index, *count);
+    }
+    throw OptionError("--shard: '" + text + "' is neither I/N nor auto");
+}
+
+std::string default_output(const std::string& id, const std::string& extension) {
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    std::string name = hexadecimal(sha256(id)).substr(0, 2) + "/";
+    for (const char c : id) {
+        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                              c == '.' || c == '_' || c == '-';
+        const auto byte = static_cast<unsigned char>(c);
+        if (is_plain)
+            name += c;
+        else
+            name += {'%', digits[byte / 16], digits[byte % 16]};
+    }
+    return name + extension;
+}
+
+}  // namespace faqem::cli

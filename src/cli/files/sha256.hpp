@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// SHA-256 (FIPS 180-4), which identifies models in lists and records.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace faqem::cli {
+
+using Digest = std::array<std::uint8_t, 32>;
+
+class Sha256 {
+public:
+    void add(std::span<const std::uint8_t> bytes);
+    /// Returns the digest of all bytes. The object must not be used afterwards.
+    Digest finish();
+
+private:
+    void add_block(const std::uint8_t* block);
+
+    std::array<std::uint32_t, 8> state_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                           0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+    std::array<std::uint8_t, 64> rest_ = {};  // bytes that are no whole block yet
+    std::uint64_t size_ = 0;                  // bytes added so far
+};
+
+/// The digest of a text.
+Digest sha256(std::string_view text);
+
+/// A digest as 64 hexadecimal digits.
+std::string hexadecimal(const Digest& digest);
+
+/// The hash of a model: of its bytes, followed by those of the files that it refers to and that can be read, in the
+/// order of References::readable. \return 64 hexadecimal digits
+/// \throws ReadError  the model cannot be read
+/// Complexity: reads each file once, in pieces.
+std::string model_hash(const std::filesystem::path& model);
+
+}  // namespace faqem::cli
