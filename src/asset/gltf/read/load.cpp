@@ -155,18 +155,12 @@ Json without_extras(const Json& from) {
     return copy;
 }
 
-/// The part of the document that the reader takes from the tinygltf model, without indices, for which tinygltf requires
-/// accessors. The rest, mostly the larger part, is taken from the document, so that it is parsed once.
+/// The part of the document that the reader takes from the tinygltf model. The rest, mostly the larger part, is taken from
+/// the document, so that it is parsed once.
 std::string json_for_tinygltf(const Json& document) {
     Json part = {{"asset", {{"version", "2.0"}}}};
-    for (const char* const key : {"meshes", "materials", "textures", "samplers"})
+    for (const char* const key : {"materials", "textures", "samplers"})
         part[key] = without_extras(member(document, key));
-    for (Json& mesh : part["meshes"]) {
-        for (Json& primitive : mesh["primitives"]) {
-            primitive.erase("indices");
-            primitive.erase("extensions");
-        }
-    }
     return part.dump();
 }
 
@@ -185,12 +179,6 @@ tinygltf::Model parse_with_tinygltf(const Json& document, const std::string& fil
         throw;
     } catch (const std::exception& error) {
         throw InputError(file, "", error.what());
-    }
-    for (std::size_t m = 0; m < model.meshes.size(); ++m) {
-        std::vector<tinygltf::Primitive>& primitives = model.meshes[m].primitives;
-        for (std::size_t p = 0; p < primitives.size(); ++p)
-            primitives[p].indices =
-                static_cast<int>(index_member(document["meshes"][m]["primitives"][p], "indices"));
     }
     return model;
 }

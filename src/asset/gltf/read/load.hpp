@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Loading of a glTF file to a validated document. tinygltf parses meshes, materials, textures and samplers, after they
-/// were validated; everything else is taken from the document.
+/// Loading of a glTF file to a validated document. tinygltf parses materials, textures and samplers, after they were
+/// validated; everything else is taken from the document.
 
 #include <tiny_gltf.h>
 
@@ -21,7 +21,7 @@ namespace faqem::detail {
 struct LoadedGltf {
     std::string file;                        ///< path for messages
     std::shared_ptr<SourceDocument> source;  ///< has the buffers and images; materials are still empty
-    tinygltf::Model model;  ///< has the meshes, materials, textures and samplers of the document
+    tinygltf::Model model;                   ///< has the materials, textures and samplers of the document
     std::vector<std::string> warnings;
 };
 

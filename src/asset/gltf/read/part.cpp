@@ -15,8 +15,6 @@
 namespace faqem::detail {
 namespace {
 
-using Attributes = std::map<std::string, int>;
-
 /// Union of the attributes of all triangle primitives of a mesh.
 struct PartLayout {
     bool normals = false, tangents = false, colors = false, target_normals = false;
@@ -36,27 +34,27 @@ std::string uv_name(std::size_t set) { return "TEXCOORD_" + std::to_string(set);
 std::string joints_name(std::size_t set) { return "JOINTS_" + std::to_string(set); }
 std::string weights_name(std::size_t set) { return "WEIGHTS_" + std::to_string(set); }
 
-bool is_triangle_primitive(const tinygltf::Primitive& primitive) {
-    return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.attributes.count("POSITION") != 0;
+std::uint64_t mode_of(const Json& primitive) {
+    return unsigned_member(primitive, "mode", TINYGLTF_MODE_TRIANGLES);
 }
 
-Index find_accessor(const Attributes& attributes, const std::string& name) {
-    const auto found = attributes.find(name);
-    return found == attributes.end() ? no_index : static_cast<Index>(found->second);
+bool is_triangle_primitive(const Json& primitive) {
+    return mode_of(primitive) >= TINYGLTF_MODE_TRIANGLES &&
+           member(primitive, "attributes").contains("POSITION");
 }
 
 // The attributes of applications that all triangle primitives store in the same way. Feature ids have no value that
 // stands for none, so that an attribute which some primitives lack cannot be joined.
-std::vector<CustomAttribute> custom_attributes(const tinygltf::Mesh& mesh, const Json& accessors) {
+std::vector<CustomAttribute> custom_attributes(const Json& mesh, const Json& accessors) {
     std::map<std::string, CustomAttribute> found;
     std::map<std::string, std::size_t> uses;
     std::size_t primitives = 0;
-    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+    for (const Json& primitive : member(mesh, "primitives")) {
         if (!is_triangle_primitive(primitive)) continue;
         ++primitives;
-        for (const auto& [name, index] : primitive.attributes) {
+        for (const auto& [name, index] : primitive["attributes"].items()) {
             if (name.empty() || name[0] != '_') continue;
-            const Json& accessor = accessors[static_cast<std::size_t>(index)];
+            const Json& accessor = accessors[index.get<Index>()];
             CustomAttribute own{name, {}};
             const std::string type = string_member(accessor, "type");
             own.components = type.compare(0, 3, "MAT") == 0 ? 0 : component_count(type);
@@ -74,16 +72,17 @@ std::vector<CustomAttribute> custom_attributes(const tinygltf::Mesh& mesh, const
     return result;
 }
 
-PartLayout layout_of(const tinygltf::Mesh& mesh, const Json& accessors) {
+PartLayout layout_of(const Json& mesh, const Json& accessors) {
     PartLayout layout;
     layout.custom = custom_attributes(mesh, accessors);
     std::set<std::string> names, target_names;
-    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+    for (const Json& primitive : member(mesh, "primitives")) {
         if (!is_triangle_primitive(primitive)) continue;
-        for (const auto& [name, accessor] : primitive.attributes) names.insert(name);
-        for (const Attributes& target : primitive.targets)
-            for (const auto& [name, accessor] : target) target_names.insert(name);
-        layout.targets = std::max(layout.targets, primitive.targets.size());
+        for (const auto& [name, accessor] : primitive["attributes"].items()) names.insert(name);
+        const Json& targets = member(primitive, "targets");
+        for (const Json& target : targets)
+            for (const auto& [name, accessor] : target.items()) target_names.insert(name);
+        layout.targets = std::max(layout.targets, targets.size());
     }
     while (names.erase(uv_name(layout.uv_sets)) != 0) ++layout.uv_sets;
     names.erase("POSITION");
@@ -125,13 +124,13 @@ std::uint64_t append(std::vector<std::array<T, N>>& out, const SourceDocument& s
 
 /// Appends the joints and weights of a primitive: one set as it is, of several the four heaviest influences.
 /// \param sets  largest number of sets that the primitive may have
-void append_joints(Part& part, const SourceDocument& source, const Attributes& attributes, std::size_t sets,
+void append_joints(Part& part, const SourceDocument& source, const Json& attributes, std::size_t sets,
                    std::size_t count, Repairs& repairs) {
     std::vector<std::vector<std::array<std::uint16_t, 4>>> joints;
     std::vector<std::vector<Vec4f>> weights;
     for (std::size_t set = 0; set < sets; ++set) {
-        const Index of_joints = find_accessor(attributes, joints_name(set)),
-                    of_weights = find_accessor(attributes, weights_name(set));
+        const Index of_joints = index_member(attributes, joints_name(set).c_str()),
+                    of_weights = index_member(attributes, weights_name(set).c_str());
         if (of_joints == no_index || of_weights == no_index) continue;
         joints.push_back(read_joints(source, of_joints));
         repairs.weights += append(weights.emplace_back(), source, of_weights, count, Vec4f{});
@@ -157,46 +156,48 @@ void append_joints(Part& part, const SourceDocument& source, const Attributes& a
 
 /// Appends the vertices of a primitive. Returns the index of the first one.
 std::uint64_t append_vertices(Part& part, const PartLayout& layout, const SourceDocument& source,
-                              const tinygltf::Primitive& primitive, Repairs& repairs) {
-    const Attributes& from = primitive.attributes;
+                              const Json& primitive, Repairs& repairs) {
+    const Json &from = primitive["attributes"], &targets = member(primitive, "targets");
     const std::uint64_t first = part.positions.size();
-    const std::vector<Vec3> positions = read_vectors<double, 3>(source, find_accessor(from, "POSITION"));
+    const std::vector<Vec3> positions = read_vectors<double, 3>(source, index_member(from, "POSITION"));
     const std::size_t count = positions.size();
     part.positions.insert(part.positions.end(), positions.begin(), positions.end());
     if (layout.normals)
-        repairs.normals += append(part.normals, source, find_accessor(from, "NORMAL"), count, Vec3f{});
+        repairs.normals += append(part.normals, source, index_member(from, "NORMAL"), count, Vec3f{});
     if (layout.tangents)
-        repairs.tangents += append(part.tangents, source, find_accessor(from, "TANGENT"), count, Vec4f{});
+        repairs.tangents += append(part.tangents, source, index_member(from, "TANGENT"), count, Vec4f{});
     for (std::size_t set = 0; set < layout.uv_sets; ++set)
-        repairs.uvs += append(part.uvs[set], source, find_accessor(from, uv_name(set)), count, Vec2f{});
+        repairs.uvs +=
+            append(part.uvs[set], source, index_member(from, uv_name(set).c_str()), count, Vec2f{});
     if (layout.colors)
         repairs.colors +=
-            append(part.colors, source, find_accessor(from, "COLOR_0"), count, Vec4f{1, 1, 1, 1});
+            append(part.colors, source, index_member(from, "COLOR_0"), count, Vec4f{1, 1, 1, 1});
     if (layout.joint_sets > 0) append_joints(part, source, from, layout.joint_sets, count, repairs);
     for (CustomAttribute& attribute : part.custom_attributes)
-        repairs.custom += append(attribute.values, source, find_accessor(from, attribute.name), count,
+        repairs.custom += append(attribute.values, source, index_member(from, attribute.name.c_str()), count,
                                  std::array<double, 4>{});
     for (std::size_t t = 0; t < layout.targets; ++t) {
-        static const Attributes none;
-        const Attributes& target = t < primitive.targets.size() ? primitive.targets[t] : none;
+        static const Json none;
+        const Json& target = t < targets.size() ? targets[t] : none;
         MorphTarget& to = part.morph_targets[t];
-        repairs.targets += append(to.positions, source, find_accessor(target, "POSITION"), count, Vec3f{});
+        repairs.targets += append(to.positions, source, index_member(target, "POSITION"), count, Vec3f{});
         if (layout.target_normals)
-            repairs.targets += append(to.normals, source, find_accessor(target, "NORMAL"), count, Vec3f{});
+            repairs.targets += append(to.normals, source, index_member(target, "NORMAL"), count, Vec3f{});
     }
     return first;
 }
 
 /// The corners of a primitive as indices of its own vertices.
-std::vector<Index> corners_of(const LoadedGltf& loaded, const tinygltf::Primitive& primitive,
-                              std::uint64_t vertices, const std::string& where) {
+std::vector<Index> corners_of(const LoadedGltf& loaded, const Json& primitive, std::uint64_t vertices,
+                              const std::string& where) {
     std::vector<Index> corners;
-    if (primitive.indices < 0) {
+    const Index indices = index_member(primitive, "indices");
+    if (indices == no_index) {
         corners.resize(vertices);
         for (std::uint64_t i = 0; i < vertices; ++i) corners[i] = static_cast<Index>(i);
         return corners;
     }
-    corners = read_indices(*loaded.source, static_cast<Index>(primitive.indices));
+    corners = read_indices(*loaded.source, indices);
     for (const Index corner : corners)
         if (corner >= vertices)
             throw InputError(loaded.file, where + "/indices",
@@ -207,7 +208,7 @@ std::vector<Index> corners_of(const LoadedGltf& loaded, const tinygltf::Primitiv
 
 /// Triangles of a list, strip or fan (glTF 2.0, section 3.7.2.1). Degenerate triangles of strips and fans,
 /// which only connect parts of the strip, are left out.
-std::vector<Triangle> triangles_of(const std::vector<Index>& v, int mode) {
+std::vector<Triangle> triangles_of(const std::vector<Index>& v, std::uint64_t mode) {
     std::vector<Triangle> triangles;
     if (mode == TINYGLTF_MODE_TRIANGLES) {
         triangles.reserve(v.size() / 3);
@@ -224,11 +225,11 @@ std::vector<Triangle> triangles_of(const std::vector<Index>& v, int mode) {
 }
 
 /// Part::position_spacing: that of the primitives, if they all have the same.
-double position_spacing(const tinygltf::Mesh& mesh, const Json& accessors) {
+double position_spacing(const Json& mesh, const Json& accessors) {
     std::optional<double> spacing;
-    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+    for (const Json& primitive : member(mesh, "primitives")) {
         if (!is_triangle_primitive(primitive)) continue;
-        const double own = integer_step(accessors[find_accessor(primitive.attributes, "POSITION")]);
+        const double own = integer_step(accessors[index_member(primitive["attributes"], "POSITION")]);
         if (spacing.value_or(own) != own) return 0;
         spacing = own;
     }
@@ -283,11 +284,12 @@ void add_warnings(LoadedGltf& loaded, const std::string& where, const Repairs& r
 }  // namespace
 
 Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_faces) {
-    const tinygltf::Mesh& mesh = loaded.model.meshes[mesh_index];
+    const Json& document = loaded.source->document;
+    const Json &mesh = document["meshes"][mesh_index], &accessors = member(document, "accessors");
     const std::string where = child_path("/meshes", mesh_index);
-    const PartLayout layout = layout_of(mesh, loaded.source->document["accessors"]);
+    const PartLayout layout = layout_of(mesh, accessors);
     Part part;
-    part.name = mesh.name;
+    part.name = string_member(mesh, "name");
     part.source = mesh_index;
     part.uvs.resize(layout.uv_sets);
     part.morph_targets.resize(layout.targets);
@@ -295,27 +297,29 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
     Repairs repairs;
     std::uint64_t dropped = 0, excess = 0;
     // Primitives often share their vertices and differ only in indices and material.
-    std::map<std::pair<Attributes, std::vector<Attributes>>, std::uint64_t> first_vertex;
-    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-        const tinygltf::Primitive& primitive = mesh.primitives[p];
+    std::map<std::pair<Json, Json>, std::uint64_t> first_vertex;
+    const Json& primitives = member(mesh, "primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+        const Json& primitive = primitives[p];
+        const std::uint64_t mode = mode_of(primitive);
         const std::string at = child_path(where + "/primitives", p);
         if (!is_triangle_primitive(primitive)) {
-            if (primitive.mode >= TINYGLTF_MODE_TRIANGLES)
+            if (mode >= TINYGLTF_MODE_TRIANGLES)
                 loaded.warnings.push_back(at + ": has no positions and was left out");
             continue;
         }
-        const auto [entry, is_new] = first_vertex.try_emplace({primitive.attributes, primitive.targets}, 0);
+        const auto [entry, is_new] =
+            first_vertex.try_emplace({primitive["attributes"], member(primitive, "targets")}, 0);
         if (is_new) entry->second = append_vertices(part, layout, *loaded.source, primitive, repairs);
         const std::uint64_t first = entry->second;
         if (part.positions.size() >= no_index)
             throw InputError(loaded.file, where, "has more than 2^32 - 2 vertices");
-        const Json& accessors = loaded.source->document["accessors"];
         const std::uint64_t count =
-            unsigned_member(accessors[find_accessor(primitive.attributes, "POSITION")], "count", 0);
+            unsigned_member(accessors[index_member(primitive["attributes"], "POSITION")], "count", 0);
         const std::vector<Index> corners = corners_of(loaded, primitive, count, at);
-        if (primitive.mode == TINYGLTF_MODE_TRIANGLES) excess += corners.size() % 3;
-        const Index material = primitive.material < 0 ? no_index : static_cast<Index>(primitive.material);
-        for (Triangle triangle : triangles_of(corners, primitive.mode)) {
+        if (mode == TINYGLTF_MODE_TRIANGLES) excess += corners.size() % 3;
+        const Index material = index_member(primitive, "material");
+        for (Triangle triangle : triangles_of(corners, mode)) {
             for (Index& corner : triangle) corner = static_cast<Index>(corner + first);
             if (!std::all_of(triangle.begin(), triangle.end(),
                              [&](Index v) { return is_finite(part.positions[v]); })) {
@@ -326,7 +330,7 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
             part.face_material.push_back(material);
         }
     }
-    part.position_spacing = position_spacing(mesh, loaded.source->document["accessors"]);
+    part.position_spacing = position_spacing(mesh, accessors);
     repair_positions(part, repairs);
     add_warnings(loaded, where, repairs, dropped, excess, layout);
     dropped_faces += dropped;
@@ -335,12 +339,13 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
 
 void read_vertex_bits(const LoadedGltf& loaded, Asset& asset) {
     constexpr QuantizeOptions standard;
-    const Json& accessors = loaded.source->document["accessors"];
-    for (const tinygltf::Mesh& mesh : loaded.model.meshes) {
-        for (const tinygltf::Primitive& primitive : mesh.primitives) {
+    const Json &meshes = member(loaded.source->document, "meshes"),
+               &accessors = member(loaded.source->document, "accessors");
+    for (const Json& mesh : meshes) {
+        for (const Json& primitive : member(mesh, "primitives")) {
             if (!is_triangle_primitive(primitive)) continue;
-            for (const auto& [name, accessor] : primitive.attributes) {
-                if (integer_step(accessors[static_cast<std::size_t>(accessor)]) == 0) continue;
+            for (const auto& [name, accessor] : primitive["attributes"].items()) {
+                if (integer_step(accessors[accessor.get<Index>()]) == 0) continue;
                 if (name == "NORMAL" || name == "TANGENT") asset.normal_bits = standard.normal_bits;
                 if (name.compare(0, 9, "TEXCOORD_") == 0) asset.uv_bits = standard.uv_bits;
             }

@@ -110,7 +110,7 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
     asset.materials = loaded.source->materials;
     add_used_images(asset, *loaded.source);
     std::uint64_t faces = 0, dropped_faces = 0;
-    for (Index mesh = 0; mesh < loaded.model.meshes.size(); ++mesh) {
+    for (Index mesh = 0; mesh < array_size(loaded.source->document, "meshes"); ++mesh) {
         asset.parts.push_back(read_part(loaded, mesh, dropped_faces));
         faces += asset.parts.back().triangles.size();
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Conversion of the tinygltf model to parts and materials.
+/// Conversion of a loaded document to parts and materials.
 
 #include "asset/gltf/read/load.hpp"
 
