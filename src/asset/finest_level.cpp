@@ -24,10 +24,7 @@ constexpr std::array<const char*, 7> placing_members = {"name",        "extras",
 bool has_levels(const Json& object) { return member(object, "extensions").contains(lod_name); }
 
 void erase_levels(Json& object) {
-    if (!has_levels(object)) return;
-    object["extensions"].erase(lod_name);
-    if (object["extensions"].empty()) object.erase("extensions");
-    if (!member(object, "extras").is_object()) return;
+    if (!erase_extension(object, lod_name) || !member(object, "extras").is_object()) return;
     object["extras"].erase(coverage_name);
     if (object["extras"].empty()) object.erase("extras");
 }

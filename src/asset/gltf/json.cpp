@@ -42,6 +42,13 @@ Index texture_image(const Json& texture) {
     return image;
 }
 
+bool erase_extension(Json& object, const char* name) {
+    if (!member(object, "extensions").contains(name)) return false;
+    object["extensions"].erase(name);
+    if (object["extensions"].empty()) object.erase("extensions");
+    return true;
+}
+
 const Json& level_ids(const Json& object) {
     return member(member(member(object, "extensions"), lod_name), "ids");
 }

@@ -54,6 +54,9 @@ std::string string_member(const Json& object, const char* key);
 /// The image of a texture; if it has none, the first of one of its extensions; no_index: none.
 Index texture_image(const Json& texture);
 
+/// Removes an extension of an object, and `extensions` if it was the only one. Returns whether there was one.
+bool erase_extension(Json& object, const char* name);
+
 /// The indices of the coarser levels of a node or material by MSFT_lod; null if it has none.
 const Json& level_ids(const Json& object);
 

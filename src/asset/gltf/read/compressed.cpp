@@ -31,12 +31,6 @@ std::uint64_t total_buffer_size(const SourceDocument& source) {
     return source.buffers.size() - 1;
 }
 
-void erase_extension(Json& holder, const char* name) {
-    if (!holder.contains("extensions")) return;
-    holder["extensions"].erase(name);
-    if (holder["extensions"].empty()) holder.erase("extensions");
-}
-
 void decompress_views(SourceDocument& source, const std::string& file) {
     if (!source.document.contains("bufferViews")) return;
     [[maybe_unused]] DecompressionLimit limit(max_meshopt_ratio * total_buffer_size(source), file);

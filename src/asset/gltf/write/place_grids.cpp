@@ -194,8 +194,7 @@ Index move_mesh_to_child(GltfWriter& writer, Index node) {
     }
     if (member(parent, "extensions").contains(instancing_name)) {
         child["extensions"][instancing_name] = parent["extensions"][instancing_name];
-        parent["extensions"].erase(instancing_name);
-        if (parent["extensions"].empty()) parent.erase("extensions");
+        erase_extension(parent, instancing_name);
     }
     const Index index = append(writer, "nodes", std::move(child));
     writer.out["nodes"][node]["children"].push_back(index);

@@ -39,16 +39,11 @@ void remap_instancing(GltfWriter& writer, Json& node) {
         accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
 }
 
-/// Removes the instances of a node without a mesh, so that their accessors are not written.
-void erase_instancing(Json& node) {
-    if (!member(node, "extensions").contains(instancing_name)) return;
-    node["extensions"].erase(instancing_name);
-    if (node["extensions"].empty()) node.erase("extensions");
-}
-
 void update_node(GltfWriter& writer, Json& node) {
     const Index source_mesh = index_member(node, "mesh");
-    if (source_mesh == no_index || writer.mesh_map[source_mesh] == no_index) erase_instancing(node);
+    // The instances of a node without a mesh are removed, so that their accessors are not written.
+    if (source_mesh == no_index || writer.mesh_map[source_mesh] == no_index)
+        erase_extension(node, instancing_name);
     if (!any_needs_transform(writer)) remap_instancing(writer, node);
     if (source_mesh == no_index) return;
     const Index mesh = writer.mesh_map[source_mesh];
