@@ -305,7 +305,7 @@ Marks used_materials(const Json& document) {
 /// Leaves out materials, and the images that no other one has. The faces get the new indices.
 void remove_materials(const Marks& removed_sources, Asset& asset) {
     std::vector<Material> materials;
-    std::vector<Index> number, image_number(asset.images.size(), no_index);
+    std::vector<Index> number;
     for (Material& material : asset.materials) {
         const bool is_removed = material.source < removed_sources.size() && removed_sources[material.source];
         number.push_back(is_removed ? no_index : static_cast<Index>(materials.size()));
@@ -315,21 +315,7 @@ void remove_materials(const Marks& removed_sources, Asset& asset) {
         for (Index& material : part.face_material)
             if (material != no_index) material = number[material];
     asset.materials = std::move(materials);
-    for (const Material& material : asset.materials)
-        for_each_texture(material, [&](const TextureRef& ref) {
-            if (ref) image_number[ref.image] = 0;
-        });
-    std::vector<Image> images;
-    for (std::size_t i = 0; i < image_number.size(); ++i) {
-        if (image_number[i] == no_index) continue;
-        image_number[i] = static_cast<Index>(images.size());
-        images.push_back(std::move(asset.images[i]));
-    }
-    asset.images = std::move(images);
-    for (Material& material : asset.materials)
-        for_each_texture(material, [&](TextureRef& ref) {
-            if (ref) ref.image = image_number[ref.image];
-        });
+    asset.images = used_images(asset.materials, asset.images);
 }
 
 void erase_material_levels(SourceDocument& source, std::vector<Material>& materials) {

@@ -127,6 +127,26 @@ void for_each_texture(M& material, const Visit& visit) {
     for (auto& extension : material.extension_textures) visit(extension.texture);
 }
 
+/// Returns the images that materials use, each one once, in their order, and updates the references.
+inline std::vector<Image> used_images(std::vector<Material>& materials, const std::vector<Image>& images) {
+    std::vector<Index> number(images.size(), no_index);
+    for (const Material& material : materials)
+        for_each_texture(material, [&](const TextureRef& ref) {
+            if (ref) number[ref.image] = 0;
+        });
+    std::vector<Image> used;
+    for (std::size_t i = 0; i < number.size(); ++i) {
+        if (number[i] == no_index) continue;
+        number[i] = static_cast<Index>(used.size());
+        used.push_back(images[i]);
+    }
+    for (Material& material : materials)
+        for_each_texture(material, [&](TextureRef& ref) {
+            if (ref) ref.image = number[ref.image];
+        });
+    return used;
+}
+
 /// Whether the file of an asset names materials, textures and images by number (VRM), so that a result must keep all of
 /// them in their order.
 FAQEM_EXPORT bool names_objects_by_number(const Asset& asset);

@@ -48,24 +48,6 @@ void move_sources_to_extensions(SourceDocument& source, std::vector<std::string>
     }
 }
 
-/// Copies the images that the materials use to the asset, each one once, and updates the references.
-void add_used_images(Asset& asset, const SourceDocument& source) {
-    std::vector<Index> new_index(source.images.size(), no_index);
-    for (const Material& material : asset.materials)
-        for_each_texture(material, [&](const TextureRef& ref) {
-            if (ref) new_index[ref.image] = 0;
-        });
-    for (std::size_t i = 0; i < new_index.size(); ++i)
-        if (new_index[i] != no_index) {
-            new_index[i] = static_cast<Index>(asset.images.size());
-            asset.images.push_back(source.images[i]);
-        }
-    for (Material& material : asset.materials)
-        for_each_texture(material, [&](TextureRef& ref) {
-            if (ref) ref.image = new_index[ref.image];
-        });
-}
-
 /// Checks that all positions, in world space and in the pose at rest, are within the range of double, so that the scene
 /// can be flattened and measured.
 void check_world_positions(const Asset& asset, const std::string& file) {
@@ -108,7 +90,7 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
     move_sources_to_extensions(*loaded.source, loaded.warnings);
     loaded.source->materials = read_materials(loaded);
     asset.materials = loaded.source->materials;
-    add_used_images(asset, *loaded.source);
+    asset.images = used_images(asset.materials, loaded.source->images);
     std::uint64_t faces = 0, dropped_faces = 0;
     for (Index mesh = 0; mesh < array_size(loaded.source->document, "meshes"); ++mesh) {
         asset.parts.push_back(read_part(loaded, mesh, dropped_faces));
