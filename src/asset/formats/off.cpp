@@ -7,11 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "asset/formats/face_colors.hpp"
+#include "asset/formats/polygon_content.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/repair.hpp"
-#include "asset/scene/triangulate.hpp"
 #include "asset/text/number_digits.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
@@ -70,10 +69,10 @@ struct ColorWords {
 /// Parser of an OFF file.
 class OffReader {
 public:
-    OffReader(std::span<const std::uint8_t> text, const std::string& file, Asset& asset)
-        : in_(text, file, Continuation::no), warnings_(asset.warnings), precision_(asset.precision) {}
+    OffReader(std::span<const std::uint8_t> text, const std::filesystem::path& file)
+        : in_(text, file.string(), Continuation::no), file_(file) {}
 
-    Part run() {
+    Asset run() {
         keyword_ = read_keyword(in_);
         const std::uint64_t vertices = count("vertices"), faces = count("faces");
         if (!in_.at_line_end()) in_.number<std::uint64_t>();
@@ -88,8 +87,13 @@ public:
         for (std::uint64_t f = 0; f < faces; ++f) read_face(vertices);
         if (in_.skip_to_content())
             warnings_.push_back(pluralized(in_.remaining().size(), "byte") + " after the last face ignored");
-        finish();
-        return std::move(part_);
+        if (unknown_colors_)
+            warnings_.push_back("colours of " + pluralized(unknown_colors_, "face") +
+                                " ignored: they have neither three nor four numbers");
+        if (!colored_faces_) content_.faces.colors.clear();
+        Asset asset = polygon_asset(std::move(content_), {}, file_, std::move(warnings_));
+        asset.precision = precision_;
+        return asset;
     }
 
 private:
@@ -168,44 +172,24 @@ private:
         const bool is_color = words.size == 3 || words.size == 4;
         colored_faces_ += is_color;
         unknown_colors_ += words.size > 0 && !is_color;
-        face_colors_.push_back(is_color ? words.linear() : Vec4f{1, 1, 1, 1});
-    }
-
-    void finish() {
-        if (unknown_colors_)
-            warnings_.push_back("colours of " + pluralized(unknown_colors_, "face") +
-                                " ignored: they have neither three nor four numbers");
-        if (colored_faces_ && !part_.colors.empty())
-            warnings_.push_back("face colours are ignored beside vertex colours");
-        else if (colored_faces_)
-            set_face_colors(part_, polygons_, face_colors_, in_.file());
-        TriangulatedPolygons split = triangulate_polygons(polygons_, part_.positions);
-        if (split.too_few_corners)
-            warnings_.push_back(pluralized(split.too_few_corners, "face") +
-                                " with fewer than three corners left out");
-        check_index_count(split.triangles.size(), in_.file(), "triangles");
-        part_.triangles = std::move(split.triangles);
-        part_.face_material.assign(part_.triangles.size(), no_index);
-        repair_non_finite(part_, in_.file(), split.non_finite, warnings_);
+        content_.faces.colors.push_back(is_color ? words.linear() : Vec4f{1, 1, 1, 1});
     }
 
     TextScanner in_;
-    std::vector<std::string>& warnings_;
-    StoredPrecision& precision_;
+    const std::filesystem::path& file_;
+    std::vector<std::string> warnings_;
+    StoredPrecision precision_;
     Keyword keyword_;
-    Part part_;
-    Polygons polygons_;
-    std::vector<Vec4f> face_colors_;  // by face
+    PolygonContent content_;
+    Part& part_ = content_.part;
+    Polygons& polygons_ = content_.faces.polygons;
     std::uint64_t colored_faces_ = 0, unknown_colors_ = 0;
 };
 
 }  // namespace
 
 Asset read_off(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
-    Asset asset;
-    asset.parts.push_back(OffReader(text, file.string(), asset).run());
-    asset.parts[0].name = file.stem().string();
-    return asset;
+    return OffReader(text, file).run();
 }
 
 Asset read_off(const std::filesystem::path& file) { return read_off(read_file(file), file); }

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <utility>
 
-#include "asset/formats/face_colors.hpp"
-#include "asset/formats/ply_content.hpp"
+#include "asset/formats/byte_colors.hpp"
 #include "asset/formats/ply_data.hpp"
 #include "asset/formats/ply_header.hpp"
+#include "asset/formats/polygon_content.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/messages.hpp"
@@ -95,7 +95,7 @@ public:
     PlyReader(const PlyHeader& header, Data data, const std::string& file, std::vector<std::string>& warnings)
         : header_(header), data_(std::move(data)), file_(file), warnings_(warnings) {}
 
-    PlyContent run() {
+    PolygonContent run() {
         check_elements();
         for (const PlyElement& element : header_.elements) {
             if (element.count == 0) continue;
@@ -342,9 +342,9 @@ private:
     Data data_;
     const std::string file_;
     std::vector<std::string>& warnings_;
-    PlyContent content_;
+    PolygonContent content_;
     Part& part_ = content_.part;
-    PlyFaces& faces_ = content_.faces;
+    PolygonFaces& faces_ = content_.faces;
     Polygons& strips_ = content_.strips;
     std::uint64_t vertex_count_ = 0;
     double largest_float_color_ = 0;
@@ -370,13 +370,13 @@ Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path&
     std::vector<std::string> warnings;
     const PlyHeader header = read_ply_header(bytes, file.string());
     const std::span<const std::uint8_t> data = bytes.subspan(header.size);
-    PlyContent content =
+    PolygonContent content =
         header.format == PlyFormat::ascii
             ? PlyReader(header, PlyAsciiData(data, file.string(), header.lines), file.string(), warnings)
                   .run()
             : PlyReader(header, PlyBinaryData(data, file.string(), header.format), file.string(), warnings)
                   .run();
-    Asset asset = ply_asset(std::move(content), header.texture_files, file, std::move(warnings));
+    Asset asset = polygon_asset(std::move(content), header.texture_files, file, std::move(warnings));
     asset.precision = position_precision(header);
     return asset;
 }

@@ -20,7 +20,7 @@ namespace faqem::detail {
 ///   their full range or floats in [0, 1], where the colour is sRGB and converted to linear, and alpha is
 ///   linear; s t (also u v, texture_u texture_v) with v' = 1 - v
 /// - `face`: the list vertex_indices or vertex_index; polygons are split by triangulate(). The list texcoord, two
-///   numbers for each corner, texnumber, and red green blue [alpha]: see ply_asset(), also for `comment TextureFile`
+///   numbers for each corner, texnumber, and red green blue [alpha]: see polygon_asset(), also for `comment TextureFile`
 /// - `tristrips`: the same list, with -1 between strips
 ///
 /// Float colours above 2 are taken as 0 to 255, with a warning. Everything else is ignored. Faces with fewer than three

@@ -1,4 +1,4 @@
-#include "asset/formats/ply_content.hpp"
+#include "asset/formats/polygon_content.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,9 +15,10 @@ namespace {
 bool has_value(Index index) { return index != no_index; }
 
 /// Converts the content of one file.
-class PlyConverter {
+class PolygonConverter {
 public:
-    PlyConverter(PlyContent content, const std::filesystem::path& file, std::vector<std::string> warnings)
+    PolygonConverter(PolygonContent content, const std::filesystem::path& file,
+                     std::vector<std::string> warnings)
         : content_(std::move(content)), file_(file) {
         asset_.warnings = std::move(warnings);
         asset_.not_understood = std::move(content_.not_understood);
@@ -152,9 +153,9 @@ private:
         }
     }
 
-    PlyContent content_;
+    PolygonContent content_;
     Part& part_ = content_.part;
-    PlyFaces& faces_ = content_.faces;
+    PolygonFaces& faces_ = content_.faces;
     const std::filesystem::path& file_;
     Asset asset_;
     std::vector<Index> material_;  // by face; empty: none has one
@@ -162,9 +163,9 @@ private:
 
 }  // namespace
 
-Asset ply_asset(PlyContent content, const std::vector<std::string>& texture_files,
-                const std::filesystem::path& file, std::vector<std::string> warnings) {
-    return PlyConverter(std::move(content), file, std::move(warnings)).run(texture_files);
+Asset polygon_asset(PolygonContent content, const std::vector<std::string>& texture_files,
+                    const std::filesystem::path& file, std::vector<std::string> warnings) {
+    return PolygonConverter(std::move(content), file, std::move(warnings)).run(texture_files);
 }
 
 }  // namespace faqem::detail

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The content of a PLY file as it is stored, and its conversion to an asset.
+/// The content of a file of polygons (PLY, OFF) as it is stored, and its conversion to an asset.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,8 +12,8 @@
 
 namespace faqem::detail {
 
-/// The faces of a PLY file, and what they store beside their vertices. Arrays are empty if the file does not have them.
-struct PlyFaces {
+/// The faces of a file, and what they store beside their vertices. Arrays are empty if the file does not have them.
+struct PolygonFaces {
     Polygons polygons;
     std::vector<Vec2f> uvs;             ///< by corner, v pointing down
     std::vector<std::uint8_t> has_uvs;  ///< by face: whether it has coordinates
@@ -21,15 +21,15 @@ struct PlyFaces {
     std::vector<Vec4f> colors;          ///< by face, linear
 };
 
-/// The content of a PLY file.
-struct PlyContent {
+/// The content of a file.
+struct PolygonContent {
     Part part;  ///< positions and attributes of the vertices
-    PlyFaces faces;
+    PolygonFaces faces;
     Polygons strips;                          ///< triangles of strips
     std::vector<std::string> not_understood;  ///< as Asset::not_understood
 };
 
-/// Converts the content of a PLY file to an asset of one part.
+/// Converts the content of a file to an asset of one part.
 ///
 /// - Vertices whose corners differ in texture coordinates or face colour are repeated after all others.
 /// - Each texture file becomes a material, if faces with coordinates refer to it; without numbers they refer to
@@ -41,7 +41,7 @@ struct PlyContent {
 /// \param file           path of the model
 /// \param warnings       of the reader; moved to the asset
 /// \throws InputError  there are no faces, or more elements than indices
-Asset ply_asset(PlyContent content, const std::vector<std::string>& texture_files,
-                const std::filesystem::path& file, std::vector<std::string> warnings);
+Asset polygon_asset(PolygonContent content, const std::vector<std::string>& texture_files,
+                    const std::filesystem::path& file, std::vector<std::string> warnings);
 
 }  // namespace faqem::detail

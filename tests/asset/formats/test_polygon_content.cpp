@@ -1,6 +1,6 @@
 // Textures and face colours of PLY files.
 
-#include "asset/formats/ply_content.hpp"
+#include "asset/formats/polygon_content.hpp"
 
 #include "asset/formats/ply.hpp"
 #include "asset/model_files.hpp"
