@@ -71,6 +71,7 @@ MIN_LINES = 40
 # Small subjects that stay apart: umbrellas, and what only one build uses.
 SMALL = {
     # Utilities with several unrelated users.
+    "include/faqem/detail/base/lower_case",
     "include/faqem/detail/base/morton",
     "include/faqem/detail/base/stopwatch",
     "include/faqem/detail/geometry/vertex_faces",

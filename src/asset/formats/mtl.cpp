@@ -16,6 +16,7 @@
 #include "asset/io/file.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/text/text_scanner.hpp"
+#include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -45,13 +46,6 @@ std::optional<float> as_number(std::string_view word) {
     if (error != std::errc{} || last != word.data() + word.size() || !std::isfinite(value))
         return std::nullopt;
     return value;
-}
-
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return lower;
 }
 
 /// Where the options of a texture statement are. Before the file name its word, the last one, is not an argument,
@@ -166,7 +160,7 @@ private:
     void warn(const std::string& what) { warnings_.push_back(in_.file() + ": " + what); }
 
     void statement(std::string_view key_as_written) {
-        const std::string key = lower_case(key_as_written);
+        const std::string key = lower_case(std::string(key_as_written));
         if (key == "newmtl") {
             finish_material();
             materials_.emplace_back();
@@ -293,7 +287,7 @@ private:
 
 bool is_texture_key(std::string_view key) {
     static constexpr std::array<std::string_view, 5> others = {"bump", "disp", "decal", "refl", "norm"};
-    const std::string lower = lower_case(key);
+    const std::string lower = lower_case(std::string(key));
     return lower.starts_with("map_") || std::find(others.begin(), others.end(), lower) != others.end();
 }
 

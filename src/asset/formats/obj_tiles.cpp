@@ -9,6 +9,7 @@
 
 #include "asset/scene/messages.hpp"
 #include "asset/scene/value_numbers.hpp"
+#include "faqem/detail/base/lower_case.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -98,14 +99,10 @@ std::string tile_file_name(const std::string& name, std::uint32_t tile) {
          {"<uvtile>", "u" + std::to_string(number % 10 + 1) + "_v" + std::to_string(number / 10 + 1)}}};
     std::string result = name;
     for (const auto& [mark, value] : marks) {
-        const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
-        for (auto at = result.begin();;) {
-            at = std::search(at, result.end(), mark.begin(), mark.end(), is_same);
-            if (at == result.end()) break;
-            const auto first = at - result.begin();
-            result.replace(at, at + static_cast<std::ptrdiff_t>(mark.size()), value);
-            at = result.begin() + first + static_cast<std::ptrdiff_t>(value.size());
-        }
+        const std::string lower = lower_case(result);
+        std::size_t at = lower.size();
+        while (at > 0 && (at = lower.rfind(mark, at - 1)) != std::string::npos)
+            result.replace(at, mark.size(), value);
     }
     return result;
 }

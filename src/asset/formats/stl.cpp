@@ -20,6 +20,7 @@
 #include "asset/scene/value_numbers.hpp"
 #include "asset/text/number_digits.hpp"
 #include "asset/text/text_scanner.hpp"
+#include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -62,12 +63,6 @@ private:
     std::vector<Triangle> triangles_;
 };
 
-bool equals_lower_case(std::string_view word, std::string_view lower) {
-    return std::equal(word.begin(), word.end(), lower.begin(), lower.end(), [](char a, char b) {
-        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
-    });
-}
-
 /// Makes the solids that have facets objects of the part, if there are several.
 void add_solids(Part& part, std::vector<std::string> names, const std::vector<Index>& solids,
                 const std::string& file) {
@@ -81,7 +76,7 @@ void add_solids(Part& part, std::vector<std::string> names, const std::vector<In
 void expect(TextScanner& in, std::string_view expected) {
     in.skip_to_content();
     const std::string_view word = in.word();
-    if (equals_lower_case(word, expected)) return;
+    if (lower_case(std::string(word)) == expected) return;
     if (word.empty()) in.fail("the file ends where " + TextScanner::quoted(expected) + " is expected");
     in.fail(TextScanner::quoted(word) + " instead of " + TextScanner::quoted(expected));
 }
@@ -96,8 +91,7 @@ bool next_starts_with(TextScanner& in, char letter) {
 /// Whether the text after the last solid is no solid, but junk that has no facets.
 bool is_junk(TextScanner in) {
     const std::string_view rest = in.remaining();
-    const std::string_view word = in.word();
-    return !equals_lower_case(word, "solid") && rest.find("facet") == std::string_view::npos &&
+    return lower_case(std::string(in.word())) != "solid" && rest.find("facet") == std::string_view::npos &&
            rest.find("FACET") == std::string_view::npos;
 }
 

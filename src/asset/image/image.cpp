@@ -13,6 +13,7 @@
 #include "asset/image/png_writer.hpp"
 #include "asset/image/webp.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -80,9 +81,7 @@ std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
 }
 
 const char* foreign_kind(std::string_view text) {
-    std::string begin(text.substr(0, 64));
-    for (char& c : begin)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string begin = lower_case(std::string(text.substr(0, 64)));
     const auto kind = std::find_if(foreign_kinds.begin(), foreign_kinds.end(),
                                    [&](const auto& k) { return begin.starts_with(k.first); });
     return kind == foreign_kinds.end() ? nullptr : kind->second;

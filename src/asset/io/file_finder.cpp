@@ -7,18 +7,13 @@
 #include <utility>
 
 #include "asset/io/file_names.hpp"
+#include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_same_ignoring_case(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char x, char y) { return lower(x) == lower(y); });
-}
 
 std::string without_quotes(const std::string& name) {
     const bool is_quoted =
@@ -110,7 +105,7 @@ std::optional<fs::path> FileFinder::match(fs::path subfolder, const Names& steps
             continue;
         }
         const auto other = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
-            return is_same_ignoring_case(name, steps[i]);
+            return lower_case(name) == lower_case(steps[i]);
         });
         if (other == names.end()) return std::nullopt;
         subfolder /= *other;

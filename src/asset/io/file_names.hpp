@@ -6,14 +6,13 @@
 #include <filesystem>
 #include <string>
 
+#include "faqem/detail/base/lower_case.hpp"
+
 namespace faqem::detail {
 
 /// Returns the extension of a file name with its dot, in lower case (ASCII).
 inline std::string lower_case_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return extension;
+    return lower_case(file.extension().string());
 }
 
 /// File name of the buffer of STEM.gltf: STEM.bin.

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "faqem/detail/base/closest_word.hpp"
+#include "faqem/detail/base/lower_case.hpp"
 #include "faqem/detail/options/appearance_rows.hpp"
 #include "faqem/detail/options/geometry_rows.hpp"
 #include "faqem/error.hpp"
@@ -121,9 +122,8 @@ FAQEM_INLINE std::string default_text(const OptionRow& row) {
 
 /// Bytes per unit of a size, in lower case; 0 if there is no such unit.
 inline double bytes_per_unit(std::string_view unit) {
-    std::string lower(unit.substr(std::min(unit.find_first_not_of(' '), unit.size())));
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string lower =
+        lower_case(std::string(unit.substr(std::min(unit.find_first_not_of(' '), unit.size()))));
     if (lower.empty() || lower == "b") return 1;
     const std::size_t power = std::string_view("kmgt").find(lower[0]);
     if (power == std::string_view::npos) return 0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "asset/scene/affine.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "faqem/error.hpp"
 
@@ -17,8 +18,6 @@ namespace {
 
 constexpr double unit_tolerance = 5e-4;    // vectors whose length is within this of 1 are kept
 constexpr double weight_tolerance = 2e-7;  // required by glTF 2.0, section 3.7.3.3, for one joint
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Normalises the first three components. Returns false if their length is zero or not finite.
 template <std::size_t N>
