@@ -97,23 +97,6 @@ TrianglePlacement place_triangle(const AtlasCell& cell, const CellShape& shape, 
     return placement;
 }
 
-// Index of (x, y) along a Hilbert curve over a square of 2^16 by 2^16.
-std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
-    std::uint64_t result = 0;
-    for (std::uint32_t s = 1u << 15; s > 0; s /= 2) {
-        const bool right = x & s, low = y & s;
-        result = 4 * result + (low ? (right ? 2 : 1) : (right ? 3 : 0));
-        if (!low) {
-            if (right) {
-                x = ~x;
-                y = ~y;
-            }
-            std::swap(x, y);
-        }
-    }
-    return result;
-}
-
 // The cells of all triangles at one scale, packed on shelves.
 class ShelfPacking {
 public:
@@ -167,39 +150,18 @@ public:
 
     Atlas atlas(std::uint32_t width, std::uint32_t height) const {
         Atlas result{width, height, std::vector<TrianglePlacement>(triangles_.size()), {}, scale_};
-        std::vector<CurvePoint> curve_points;
-        curve_points.reserve(units_.size());
         place_on_shelves(width, height, [&](std::size_t i, std::uint32_t x, std::uint32_t y) {
-            const CellShape& shape = units_[i].shape;
-            curve_points.push_back({hilbert_index(x / shape.width, y / shape.height), x, y});
-        });
-        for (std::size_t begin = 0, end; begin < units_.size(); begin = end) {
-            for (end = begin; end < units_.size() && units_[end].shape.size() == units_[begin].shape.size();)
-                ++end;
-            std::sort(curve_points.begin() + std::ptrdiff_t(begin),
-                      curve_points.begin() + std::ptrdiff_t(end));
-        }
-        for (std::size_t i = 0; i < units_.size(); ++i) {
             const Unit& unit = units_[i];
-            const AtlasCell cell{curve_points[i].x, curve_points[i].y, unit.shape.width,
-                                 unit.shape.height, unit.first,        unit.second};
-            result.cells.push_back(cell);
-            for (Index t : {cell.first, cell.second}) {
-                if (t == no_index) continue;
-                result.placements[t] = place_triangle(cell, unit.shape, triangles_[t], t == cell.second);
-            }
-        }
+            result.cells.push_back({x, y, unit.shape.width, unit.shape.height, unit.first, unit.second});
+            for (Index t : {unit.first, unit.second})
+                if (t != no_index)
+                    result.placements[t] =
+                        place_triangle(result.cells.back(), unit.shape, triangles_[t], t == unit.second);
+        });
         return result;
     }
 
 private:
-    // Position of a cell; cells of one size are sorted along a space-filling curve.
-    struct CurvePoint {
-        std::uint64_t curve;
-        std::uint32_t x, y;
-        auto operator<=>(const CurvePoint&) const = default;  // NOLINT(modernize-use-nullptr)
-    };
-
     std::span<const AtlasTriangle> triangles_;
     double scale_;
     std::vector<Unit> units_;

@@ -57,8 +57,8 @@ struct Atlas {
 /// share cells in twos. Takes the smallest page on which the wanted lengths fit, and then the largest scale
 /// that fits on this page, at most sqrt(2). If the largest page is too small, the scale is below 1.
 /// Cells are aligned to a grid of 2^k texels and triangles begin 2^(k-1) texels inside their cell, so that
-/// mip level k reads texels of the triangle's own cell only; k grows with the cell. Cells of one size follow
-/// a Hilbert curve over the page, so that levels beyond k mix texels of cells that look alike.
+/// mip level k reads texels of the triangle's own cell only; k grows with the cell. Cells of one size are in the order of
+/// AtlasTriangle::order, so that levels beyond k mix texels of cells that look alike.
 /// \param triangles  all triangles of the page
 /// \param max_size   largest width and height in texels, a power of two
 /// \return nothing if there are more triangles than texels
