@@ -39,8 +39,8 @@ struct LodArguments : SimplifyArguments {
     std::vector<std::string> levels = {"0.5", "0.25", "0.1", "0.01"};
     ViewSettings view_settings;
     bool without_original = false, force = false, quiet = false;
+    Overwrite overwrite = Overwrite::no;  ///< after prepare_outputs()
 
-    Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
     LevelTextures level_textures() const {
         return textures == "shared" ? LevelTextures::shared : LevelTextures::each;
     }
@@ -112,21 +112,15 @@ struct NewFolders {
 };
 
 /// Checks all output files and creates their folder.
-void prepare_outputs(LodArguments& a, const Outputs& outputs) {
+Overwrite prepare_outputs(const LodArguments& a, const Outputs& outputs) {
     protect_input(a.in);
     check_models_unprotected(outputs.models);
     for (const fs::path& file : {outputs.manifest, fs::path(a.history)}) check_unprotected(file);
-    std::vector<fs::path> files = outputs.models;
-    files.insert(files.end(), {outputs.manifest, a.history});
-    a.force = may_overwrite(files, a.force);
+    std::vector<fs::path> files = {outputs.manifest, a.history};
+    files.insert(files.end(), outputs.models.begin(),
+                 outputs.is_file ? outputs.models.begin() + 1 : outputs.models.end());
     if (!outputs.is_file) make_folder(a.out);
-    for (const fs::path& file : outputs.models) check_output(file, a.overwrite());
-    check_output(outputs.manifest, a.overwrite());
-    if (a.history.empty()) return;
-    check_output(a.history, a.overwrite());
-    std::vector<fs::path> others = outputs.models;
-    others.push_back(outputs.manifest);
-    for (const fs::path& other : others) check_different(a.history, other);
+    return check_outputs(std::move(files), a.force);
 }
 
 /// Writes the histories of all parts one after the other, each with all levels.
@@ -138,7 +132,7 @@ void write_histories(const LodArguments& a, const std::vector<SimplifiedPartsLev
         for (const SimplifiedPartsLevel& level : levels) histories.push_back(level.result.parts[p].history);
         write(join(histories), out);
     }
-    write_output(a.history, out.view(), a.overwrite());
+    write_output(a.history, out.view(), a.overwrite);
 }
 
 /// \param warnings  of the manifest; those of the levels follow, and equal ones are printed once
@@ -179,7 +173,7 @@ public:
             const ExitOnInterrupt exit_on_interrupt;
             const detail::CollectWrites collect(set_);
             append(warnings_,
-                   save_levels(std::move(one_file_levels_), outputs_.models[0], arguments_.overwrite()));
+                   save_levels(std::move(one_file_levels_), outputs_.models[0], arguments_.overwrite));
         }
         Json manifest = lod_manifest(arguments_.in, size_.diagonal, arguments_.view_settings, written_);
         manifest["warnings"] = warnings_;
@@ -188,7 +182,7 @@ public:
             const detail::CollectWrites collect(set_);
             write_output(outputs_.manifest,
                          manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
-                         arguments_.overwrite());
+                         arguments_.overwrite);
         }
         commit_outputs(set_);
         return exit_ok;
@@ -281,7 +275,7 @@ private:
             level.faces += part.triangles.size();
             level.vertices += part.positions.size();
         }
-        if (!outputs_.is_file) return save(asset, file, arguments_.overwrite());
+        if (!outputs_.is_file) return save(asset, file, arguments_.overwrite);
         one_file_levels_.push_back({std::move(asset), coverage(error)});
         return {};
     }
@@ -316,7 +310,7 @@ int run(LodArguments arguments) {
     check_max_bytes(arguments, outputs, options);
     options.format = format_of_output(outputs.models[0]);
     const NewFolders folders(outputs.is_file ? "" : arguments.out);
-    prepare_outputs(arguments, outputs);
+    arguments.overwrite = prepare_outputs(arguments, outputs);
     install_signal_handlers();
     Asset source;
     LodWriter writer(arguments, outputs, source, levels, options);

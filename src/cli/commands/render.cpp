@@ -35,8 +35,7 @@ int run(const RenderArguments& arguments) {
         throw OptionError("render: 1 to 16 models and an image are required");
     check_extension(out, {".png"});
     for (const std::string& model : models) protect_input(model);
-    const Overwrite overwrite = may_overwrite({out}, arguments.force) ? Overwrite::yes : Overwrite::no;
-    check_output(out, overwrite);
+    const Overwrite overwrite = check_outputs({out}, arguments.force);
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;
 

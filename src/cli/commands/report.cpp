@@ -100,9 +100,7 @@ std::optional<ViewerData> make_viewer_data(const ReportArguments& arguments, con
 int run(const ReportArguments& arguments) {
     check_extension(arguments.out, {".html", ".htm"});
     for (const std::string& model : {arguments.a, arguments.b}) protect_input(model);
-    const Overwrite overwrite =
-        may_overwrite({arguments.out}, arguments.force) ? Overwrite::yes : Overwrite::no;
-    check_output(arguments.out, overwrite);
+    const Overwrite overwrite = check_outputs({arguments.out}, arguments.force);
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;
 

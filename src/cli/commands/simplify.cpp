@@ -45,37 +45,20 @@ struct SimplifyCommandArguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
     std::uint64_t max_memory = 0;  ///< bytes; 0: machine_memory()
     bool force = false, quiet = false;
-
-    Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
+    Overwrite overwrite = Overwrite::no;  ///< after check_outputs()
 };
-
-/// Checks all output files before the work starts, which may take hours.
-void check_outputs(SimplifyCommandArguments& arguments) {
-    check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
-    protect_input(arguments.in);
-    const std::vector<std::filesystem::path> files = {arguments.out, arguments.report, arguments.history,
-                                                      arguments.correspondence};
-    arguments.force = may_overwrite(files, arguments.force);
-    std::vector<std::filesystem::path> taken;
-    for (const std::filesystem::path& file : files) {
-        if (file.empty()) continue;
-        check_output(file, arguments.overwrite());
-        for (const auto& other : taken) check_different(file, other);
-        taken.emplace_back(file);
-    }
-}
 
 void write_histories(const SimplifyCommandArguments& arguments,
                      const std::vector<CollapseHistory>& histories) {
     std::ostringstream out;
     for (const CollapseHistory& history : histories) write(history, out);
-    write_output(arguments.history, out.view(), arguments.overwrite());
+    write_output(arguments.history, out.view(), arguments.overwrite);
 }
 
 void write_correspondence(const SimplifyCommandArguments& arguments, const std::vector<PageOrigins>& pages) {
     std::ostringstream out;
     write(pages, out);
-    write_output(arguments.correspondence, out.view(), arguments.overwrite());
+    write_output(arguments.correspondence, out.view(), arguments.overwrite);
 }
 
 /// Why few bytes are saved, in one line.
@@ -140,7 +123,7 @@ void save_files(const SimplifyCommandArguments& arguments, const Options& option
                 SimplifiedAsset& simplified, detail::FileSet& set) {
     const ExitOnInterrupt exit_on_interrupt;
     const detail::CollectWrites collect(set);
-    detail::save_result(simplified, arguments.out, options, arguments.overwrite());
+    detail::save_result(simplified, arguments.out, options, arguments.overwrite);
     if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
     if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
 }
@@ -179,7 +162,10 @@ int run(SimplifyCommandArguments arguments) {
             throw OptionError("--correspondence: requires --bake auto, atlas or per-triangle");
         options.bake.correspondence = Recording::on;
     }
-    check_outputs(arguments);
+    check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
+    protect_input(arguments.in);
+    arguments.overwrite = check_outputs(
+        {arguments.out, arguments.report, arguments.history, arguments.correspondence}, arguments.force);
     install_signal_handlers();
     const Stopwatch watch;
     SimplifiedAsset simplified;
@@ -201,7 +187,7 @@ int run(SimplifyCommandArguments arguments) {
     if (!arguments.report.empty()) {
         const ExitOnInterrupt exit_on_interrupt;
         const detail::CollectWrites collect(set);
-        write_output(arguments.report, to_json(simplified.report), arguments.overwrite());
+        write_output(arguments.report, to_json(simplified.report), arguments.overwrite);
     }
     commit_outputs(set);
     if (!arguments.quiet) print_summary(arguments, simplified.report, diagonal);

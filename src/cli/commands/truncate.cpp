@@ -33,7 +33,6 @@ struct TruncateArguments {
     bool strict = false, force = false, quiet = false;
 
     Strictness strictness() const { return strict ? Strictness::strict : Strictness::lenient; }
-    Overwrite overwrite() const { return force ? Overwrite::yes : Overwrite::no; }
 };
 
 std::vector<ChainHistory> read_histories(const std::string& file) {
@@ -78,7 +77,7 @@ SimplifiedAsset baked_model(const TruncateArguments& arguments, const Simplified
     });
 }
 
-int run(TruncateArguments arguments) {
+int run(const TruncateArguments& arguments) {
     Options options = make_options(arguments.options);
     options.format = format_of_output(arguments.out);
     if (options.bake.kind == Bake::keep)
@@ -88,19 +87,13 @@ int run(TruncateArguments arguments) {
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.history);
     if (!arguments.source.empty()) protect_input(arguments.source);
-    arguments.force = may_overwrite({arguments.out}, arguments.force);
-    check_output(arguments.out, arguments.overwrite());
+    const Overwrite overwrite = check_outputs({arguments.out}, arguments.force);
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;
-    const SimplifiedParts simplified_parts =
+    SimplifiedParts simplified_parts =
         detail::parts_from_histories(truncate_to_faces(read_histories(arguments.history), arguments.faces));
-    if (simplified_parts.report.faces_out > arguments.faces) {
-        std::cerr << "faqem: target missed: " << arguments.history << " ends with "
-                  << simplified_parts.report.faces_out << " faces, the target is " << arguments.faces << "; "
-                  << arguments.out << " was not written\n";
-        return exit_target_missed;
-    }
-    const ExitCode rejection = rejection_code(simplified_parts.report, false);
+    simplified_parts.report.target_faces = arguments.faces;
+    const ExitCode rejection = rejection_code(simplified_parts.report, true);
     if (rejection != exit_ok) {
         std::cerr << "faqem: "
                   << rejection_message(rejection, arguments.history, arguments.out, simplified_parts.report)
@@ -118,7 +111,7 @@ int run(TruncateArguments arguments) {
     detail::FileSet set;
     {
         const detail::CollectWrites collect(set);
-        for (std::string& loss : save(result.asset, arguments.out, arguments.overwrite()))
+        for (std::string& loss : save(result.asset, arguments.out, overwrite))
             warnings.push_back(std::move(loss));
     }
     commit_outputs(set);

@@ -39,31 +39,10 @@ void clean_folder_once(const fs::path& folder) {
     if (!error && cleaned.insert(known).second) detail::remove_leftovers(known);
 }
 
-}  // namespace
-
-void check_output(const fs::path& file, Overwrite overwrite) {
-    std::error_code error;
-    check_unprotected(file);
-    if (const detail::FileFormat* format = detail::format_by_name(file);
-        format && format->side_file.is_always_written)
-        check_unprotected(file.parent_path() / format->side_file.name(file.stem().string()));
-    const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
-    if (!fs::is_directory(folder, error))
-        throw WriteError(file.string() + ": no such directory: " + folder.string());
-    detail::recover_folder(folder);
-    clean_folder_once(folder);
-    if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a directory");
-    if (fs::exists(file, error) && !fs::is_regular_file(file, error))
-        throw WriteError(file.string() + ": is not a regular file");
-    if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error))) {
-        throw WriteError(file.string() + ": the file exists; use --force to overwrite it");
-    }
-    if (access(folder.c_str(), W_OK) != 0)
-        throw WriteError(file.string() + ": the directory is not writable");
-}
-
-bool may_overwrite(const std::vector<fs::path>& files, bool force) {
-    if (force || isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1) return force;
+/// Asks at a terminal, once for all files, whether those that exist may be overwritten. Files that are protected are not
+/// asked about.
+bool user_allows_overwriting(const std::vector<fs::path>& files) {
+    if (isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1) return false;
     const std::set<fs::path> different(files.begin(), files.end());
     std::vector<std::string> existing;
     for (const fs::path& file : different) {
@@ -87,11 +66,45 @@ bool may_overwrite(const std::vector<fs::path>& files, bool force) {
     return answer == "y" || answer == "Y" || answer == "yes";
 }
 
+/// Checks that two output files are not the same one, whether or not they exist. Links and relative paths do not matter.
 void check_different(const fs::path& file, const fs::path& other) {
     std::error_code error;
     if (fs::weakly_canonical(fs::absolute(file)) == fs::weakly_canonical(fs::absolute(other)) ||
         fs::equivalent(file, other, error))
         throw OptionError(file.string() + ": is given for two files");
+}
+
+}  // namespace
+
+void check_output(const fs::path& file, Overwrite overwrite) {
+    std::error_code error;
+    check_unprotected(file);
+    if (const detail::FileFormat* format = detail::format_by_name(file);
+        format && format->side_file.is_always_written)
+        check_unprotected(file.parent_path() / format->side_file.name(file.stem().string()));
+    const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
+    if (!fs::is_directory(folder, error))
+        throw WriteError(file.string() + ": no such directory: " + folder.string());
+    detail::recover_folder(folder);
+    clean_folder_once(folder);
+    if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a directory");
+    if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+        throw WriteError(file.string() + ": is not a regular file");
+    if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error))) {
+        throw WriteError(file.string() + ": the file exists; use --force to overwrite it");
+    }
+    if (access(folder.c_str(), W_OK) != 0)
+        throw WriteError(file.string() + ": the directory is not writable");
+}
+
+Overwrite check_outputs(std::vector<fs::path> files, bool force) {
+    std::erase(files, fs::path());
+    const Overwrite overwrite = force || user_allows_overwriting(files) ? Overwrite::yes : Overwrite::no;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        check_output(files[i], overwrite);
+        for (std::size_t k = 0; k < i; ++k) check_different(files[i], files[k]);
+    }
+    return overwrite;
 }
 
 void check_extension(const fs::path& file, const std::vector<std::string_view>& extensions) {

@@ -21,16 +21,12 @@ namespace faqem::cli {
 /// \throws WriteError   any other condition is violated
 void check_output(const std::filesystem::path& file, Overwrite overwrite);
 
-/// Asks at a terminal, once for all files, whether those that exist may be overwritten. Files that are protected are not
-/// asked about.
+/// Calls check_output() for the files of a command, before the work starts, which may take hours. At a terminal it asks
+/// once whether those that exist may be overwritten.
+/// \param files  must be different, whether or not they exist; empty names are left out
 /// \param force  the answer without a question
-/// \return false if the answer is not yes, or nobody can be asked
-/// \throws OptionError, WriteError  as check_unprotected()
-bool may_overwrite(const std::vector<std::filesystem::path>& files, bool force);
-
-/// Checks that two output files are not the same one, whether or not they exist. Links and relative paths do not
-/// matter. \throws OptionError  they are the same
-void check_different(const std::filesystem::path& file, const std::filesystem::path& other);
+/// \throws OptionError, WriteError  as check_output()
+Overwrite check_outputs(std::vector<std::filesystem::path> files, bool force);
 
 /// Checks that a file name has one of the extensions, ignoring case.
 /// \param extensions  in lower case, with the dot
