@@ -13,8 +13,10 @@
 
 #include "asset/io/file.hpp"
 #include "asset/io/file_set.hpp"
+#include "cli/files/file_stamp.hpp"
 #include "cli/files/output_file.hpp"
 #include "faqem/error.hpp"
+#include "faqem/version.hpp"
 
 namespace faqem::cli {
 
@@ -34,38 +36,20 @@ void write_json(const fs::path& file, const Json& json, Overwrite overwrite) {
     detail::write_file(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, overwrite);
 }
 
-/// Writes run.json, or checks the one that is there.
-void join_run(const fs::path& file, const RunIdentity& run, bool replaces) {
-    const Json own = json_of(run);
-    if (!replaces && !fs::exists(file)) {
-        try {
-            return write_json(file, own, Overwrite::no);
-        } catch (const WriteError&) {
-            if (!fs::exists(file)) throw;  // otherwise another shard was faster
-        }
-    }
-    if (replaces) return write_json(file, own, Overwrite::yes);
-    const Json other = Json::parse(detail::read_file(file), nullptr, false);
-    for (const auto& [name, value] : own.items())
-        if (!other.is_object() || other.value(name, Json()) != value)
-            throw OptionError(file.string() + ": the directory has the results of a run with other " + name +
-                              "; choose another directory, or --new-run");
-}
-
-/// A name that no other attempt has: time, process, and a random number.
+/// A name that no other attempt has, later than those before: time, process, and a random number.
 std::string attempt_name() {
-    const std::time_t now = std::time(nullptr);
+    std::timespec now = {};
+    std::timespec_get(&now, TIME_UTC);
     std::tm utc = {};
-    ::gmtime_r(&now, &utc);
+    ::gmtime_r(&now.tv_sec, &utc);
     char text[32];
-    std::strftime(text, sizeof text, "%Y%m%dT%H%M%SZ", &utc);
-    return std::string(text) + "-" + std::to_string(::getpid()) + "-" +
-           std::to_string(std::random_device()());
+    std::strftime(text, sizeof text, "%Y%m%dT%H%M%S.", &utc);
+    return text + std::to_string(1'000'000'000 + now.tv_nsec).substr(1) + "-" + std::to_string(::getpid()) +
+           "-" + std::to_string(std::random_device()());
 }
 
-std::string key_text(const std::string& id, const std::string& hash, const std::string& options,
-                     const std::string& version) {
-    return Json::array({id, hash, options, version}).dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string key_text(const std::string& id, const std::string& hash, const std::string& options) {
+    return Json::array({id, hash, options}).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// The files of the attempts at a shard, the oldest first.
@@ -87,15 +71,39 @@ void for_each_line(const fs::path& file, const Take& take) {
             take(json);
 }
 
-/// Adds a line of a ledger to the histories. \param open  models that the attempt has begun and not ended
-void read_line(const Json& json, std::map<std::string, ModelHistory>& histories,
-               std::vector<std::string>& open) {
-    const std::string key = key_text(json.value("id", ""), json.value("sha256", ""),
-                                     json.value("options", ""), json.value("version", ""));
+}  // namespace
+
+Ledger::Ledger(const fs::path& out_folder, const std::string& name, bool reads) {
+    const fs::path folder = records_folder(out_folder) / name;
+    make_folder(folder);
+    for (const fs::path& file : reads ? attempts_in(folder) : std::vector<fs::path>()) {
+        std::vector<std::string> open;
+        for_each_line(file, [&](const Json& line) { read_line(line, open); });
+        for (const std::string& key : open) ++histories_[key].unended;
+    }
+    file_ = folder / (attempt_name() + ".jsonl");
+    out_ =
+        detail::Descriptor(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
+    if (!out_) throw WriteError(file_.string() + ": cannot write: " + std::generic_category().message(errno));
+}
+
+/// \param open  models that the attempt has begun and not ended
+void Ledger::read_line(const Json& json, std::vector<std::string>& open) {
+    const std::string key =
+        key_text(json.value("id", ""), json.value("sha256", ""), json.value("options", ""));
     const std::string event = json.value("event", "");
-    if (event == "started") return open.push_back(key);
+    EarlierResult& result = results_[json.value("result", "")];
+    if (event == "started") {
+        // Of several attempts without an end any may have written the result.
+        if (!result.replaced) result.replaced = json.value("replaced", "");
+        return open.push_back(key);
+    }
     std::erase(open, key);
-    ModelHistory& history = histories[key];
+    ModelHistory& history = histories_[key];
+    if (event == "done")
+        result = {json.value("inputs", ""), json.value("options", ""), json.value("written", ""),
+                  json.value("faces_in", std::uint64_t{0}), json.value("faces_out", std::uint64_t{0})};
+    if (event == "refused") result.replaced.reset();
     if (event == "done" || event == "refused") {
         history.end = event;
         history.bytes = json.value("bytes", std::uint64_t{0});
@@ -104,60 +112,58 @@ void read_line(const Json& json, std::map<std::string, ModelHistory>& histories,
     if (event != "interrupted") history.reason = json.value("message", "");
 }
 
-}  // namespace
-
-Ledger::Ledger(const fs::path& out_folder, const Shard& shard, const RunIdentity& run, bool replaces_run)
-    : folder_(records_folder(out_folder) / shard.name()), run_(run) {
-    make_folder(folder_);
-    join_run(records_folder(out_folder) / "run.json", run, replaces_run);
-    read_attempts();
-    file_ = folder_ / (attempt_name() + ".jsonl");
-    out_ =
-        detail::Descriptor(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
-    if (!out_) throw WriteError(file_.string() + ": cannot write: " + std::generic_category().message(errno));
-}
-
-void Ledger::read_attempts() {
-    for (const fs::path& file : attempts_in(folder_)) {
-        std::vector<std::string> open;
-        for_each_line(file, [&](const Json& line) { read_line(line, histories_, open); });
-        for (const std::string& key : open) ++histories_[key].unended;
-    }
-}
-
-ModelHistory Ledger::history(const ModelKey& model) const {
-    const auto found = histories_.find(key_text(model.id, model.hash, model.options, run_.version));
+ModelHistory Ledger::history(const BatchFile& model) const {
+    const auto found = histories_.find(key_text(model.name, model.hash, model.options_id));
     return found == histories_.end() ? ModelHistory() : found->second;
 }
 
-void Ledger::begin(const ModelKey& model) {
-    append({{"event", "started"},
-            {"id", model.id},
-            {"sha256", model.hash},
-            {"options", model.options},
-            {"version", run_.version}});
+std::optional<EarlierResult> Ledger::earlier_result(const BatchFile& model) const {
+    const auto found = results_.find(model.out_name);
+    return found == results_.end() ? std::optional<EarlierResult>() : found->second;
 }
 
-void Ledger::end(const ModelKey& model, const std::string& event, const Json& details) {
-    Json line = {{"event", event},
-                 {"id", model.id},
-                 {"sha256", model.hash},
-                 {"options", model.options},
-                 {"version", run_.version}};
+void Ledger::begin(const BatchFile& model) {
+    append(model, "started", {{"replaced", modification_stamp({model.out})}});
+}
+
+void Ledger::end(const BatchFile& model, const std::string& event, const Json& details) {
+    append(model, event, details);
+}
+
+void Ledger::append(const BatchFile& model, const std::string& event, const Json& details) {
+    Json line = {{"event", event},       {"id", model.name},
+                 {"sha256", model.hash}, {"options", model.options_id},
+                 {"version", version()}, {"result", model.out_name}};
     line.update(details);
-    append(line);
-}
-
-void Ledger::append(const Json& line) {
     const std::string text = json_line(line);
     if (::write(out_.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
         throw WriteError(file_.string() + ": cannot write: " + std::generic_category().message(errno));
 }
 
-void Ledger::complete(const Json& counts) const {
-    Json json = json_of(run_);
+void join_run(const fs::path& out_folder, const RunIdentity& run, bool replaces) {
+    const fs::path file = records_folder(out_folder) / "run.json";
+    const Json own = json_of(run);
+    make_folder(file.parent_path());
+    if (replaces) return write_json(file, own, Overwrite::yes);
+    if (!fs::exists(file)) {
+        try {
+            return write_json(file, own, Overwrite::no);
+        } catch (const WriteError&) {
+            if (!fs::exists(file)) throw;  // otherwise another shard was faster
+        }
+    }
+    const Json other = Json::parse(detail::read_file(file), nullptr, false);
+    for (const auto& [name, value] : own.items())
+        if (!other.is_object() || other.value(name, Json()) != value)
+            throw OptionError(file.string() + ": the directory has the results of a run with other " + name +
+                              "; choose another directory, or --new-run");
+}
+
+void complete_shard(const fs::path& out_folder, const Shard& shard, const RunIdentity& run,
+                    const Json& counts) {
+    Json json = json_of(run);
     json.update(counts);
-    write_json(folder_ / "complete.json", json, Overwrite::yes);
+    write_json(records_folder(out_folder) / shard.name() / "complete.json", json, Overwrite::yes);
 }
 
 RunIdentity read_run(const fs::path& out_folder) {

@@ -1,13 +1,16 @@
 #pragma once
 /// \file
-/// The records of a batch over a list: what every attempt at a shard has begun and ended, so that any machine can go on.
+/// The records of a batch: what every attempt has begun and ended, so that any machine can go on.
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "asset/io/locked_file.hpp"
+#include "cli/batch/plan.hpp"
 #include "cli/batch/shard.hpp"
 #include "cli/process/json.hpp"
 
@@ -16,12 +19,12 @@ namespace faqem::cli {
 /// What the results of a run depend on besides the models. All shards of an output directory have the same.
 struct RunIdentity {
     std::uint64_t shards = 1;
-    std::string options;  ///< detail::options_key() and the format
+    std::string options;  ///< BatchContext::options_key
     std::string version;
     std::string list;  ///< hash of the file
 };
 
-/// What has become of a model in all attempts, for its present hash, options and version.
+/// What has become of a model in all attempts, for its present hash and options.
 struct ModelHistory {
     std::string end;            ///< `done` or `refused`; empty: neither
     std::uint64_t bytes = 0;    ///< of the output, if done
@@ -30,43 +33,48 @@ struct ModelHistory {
     std::string reason;         ///< message of the last end
 };
 
-/// A model as the records know it: an attempt with other values does not count.
-struct ModelKey {
-    std::string id, hash, options;
-};
-
-/// The ledger of one attempt at a shard: a new file of JSON lines in `.faqem-batch/I-of-N/` of the output directory.
-/// Several attempts may run at the same time, since each writes its own file only; no lock is needed.
+/// The ledger of one attempt: a new file of JSON lines in `.faqem-batch/NAME/` of the output directory. Several attempts
+/// may run at the same time, since each writes its own file only; no lock is needed.
 class Ledger {
 public:
-    /// Begins an attempt. The first one of a run writes `.faqem-batch/run.json`.
-    /// \param replaces_run  whether another run may have been there
-    /// \throws OptionError  the directory has the results of another run; the message says in what it differs
-    /// \throws WriteError   the files cannot be written
-    Ledger(const std::filesystem::path& out_folder, const Shard& shard, const RunIdentity& run,
-           bool replaces_run);
+    /// Begins an attempt.
+    /// \param name   of the shard; `directory` if there is no list
+    /// \param reads  whether other attempts count
+    /// \throws WriteError  the files cannot be written
+    Ledger(const std::filesystem::path& out_folder, const std::string& name, bool reads);
 
-    /// What earlier attempts, and others that run now, have recorded. Lines that are cut are ignored.
-    ModelHistory history(const ModelKey& model) const;
+    /// What earlier attempts, and others that run now, have recorded about a model. Lines that are cut are ignored, and
+    /// those of another hash or other options.
+    ModelHistory history(const BatchFile& model) const;
+    /// What they have recorded about the result, whatever the model was then; nothing if it was never begun.
+    std::optional<EarlierResult> earlier_result(const BatchFile& model) const;
 
     /// Records that a model begins. \throws WriteError
-    void begin(const ModelKey& model);
+    void begin(const BatchFile& model);
     /// Records the end of a model. \param event  `done`, `refused`, `crashed`, `poisoned` or `interrupted`
     /// \param details  more members of the line
     /// \throws WriteError
-    void end(const ModelKey& model, const std::string& event, const Json& details);
-    /// Records that no model of the shard is left. \param counts  numbers of models by their end \throws WriteError
-    void complete(const Json& counts) const;
+    void end(const BatchFile& model, const std::string& event, const Json& details);
 
 private:
-    void append(const Json& line);
-    void read_attempts();
+    void append(const BatchFile& model, const std::string& event, const Json& details);
+    void read_line(const Json& json, std::vector<std::string>& open);
 
-    std::filesystem::path folder_, file_;
-    RunIdentity run_;
+    std::filesystem::path file_;
     detail::Descriptor out_;
     std::map<std::string, ModelHistory> histories_;  // by key_text()
+    std::map<std::string, EarlierResult> results_;   // by BatchFile::out_name
 };
+
+/// Begins an attempt at a shard of a run: the first one of a run writes `.faqem-batch/run.json`.
+/// \param replaces  whether another run may have been there
+/// \throws OptionError  the directory has the results of another run; the message says in what it differs
+/// \throws WriteError   the file cannot be written
+void join_run(const std::filesystem::path& out_folder, const RunIdentity& run, bool replaces);
+
+/// Records that no model of a shard is left. \param counts  numbers of models by their end \throws WriteError
+void complete_shard(const std::filesystem::path& out_folder, const Shard& shard, const RunIdentity& run,
+                    const Json& counts);
 
 /// The run of an output directory. \throws ReadError, InputError  there is none, or its file is damaged
 RunIdentity read_run(const std::filesystem::path& out_folder);

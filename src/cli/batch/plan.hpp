@@ -12,6 +12,16 @@
 
 namespace faqem::cli {
 
+/// What the records of a batch over a directory say about a result.
+struct EarlierResult {
+    std::string inputs;   ///< modification_stamp() of the model and the files it refers to
+    std::string options;  ///< BatchFile::options_id
+    std::string written;  ///< modification_stamp() of the result; empty: none was written
+    std::uint64_t faces_in = 0, faces_out = 0;
+    /// The stamp of the file that was there when an attempt began the result, if no attempt has ended since.
+    std::optional<std::string> replaced = {};
+};
+
 /// One model of a batch.
 struct BatchFile {
     std::filesystem::path in, out;
@@ -22,6 +32,8 @@ struct BatchFile {
     std::string hash = {};    ///< model_hash() that the input must have; empty: any
     bool alone = false;       ///< no other model may use memory at the same time
     std::optional<Options> options = {};  ///< instead of those of the batch
+    std::string options_id = {};          ///< of everything except the input files that the result depends on
+    std::optional<EarlierResult> earlier = {};  ///< that may be skipped or replaced
 };
 
 /// Finds the files of a directory and its subdirectories that have the extension of a readable format, ignoring case.

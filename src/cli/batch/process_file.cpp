@@ -55,10 +55,10 @@ private:
     std::uint64_t all_, threads_, granted_ = 0;
 };
 
-/// Returns whether the output file was written by this batch: it matches the record, or an interrupted run
-/// began it.
-bool is_own_result(const BatchFile& file, const std::optional<BatchEntry>& entry) {
-    return entry && (entry->result.empty() || entry->result == modification_stamp({file.out}));
+/// Whether a batch has written the file that is there: it is the recorded one, or an attempt without an end changed it.
+bool is_own_result(const EarlierResult& earlier, const std::string& present) {
+    return present == earlier.written ||
+           (earlier.replaced && (present.empty() || present != *earlier.replaced));
 }
 
 struct Result {
@@ -69,14 +69,10 @@ struct Result {
     Json record = {};  // what only a ledger has
 };
 
-Result skipped_result(const BatchEntry& entry) {
-    return {exit_ok, "skipped", "up to date", entry.faces_in, entry.faces_out, {}};
-}
-
 Result cancelled_result() { return {exit_cancelled, "cancelled", "cancelled", 0, 0, {}}; }
 
 /// \param overwrite  set to yes when the result is about to be written
-Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchEntry entry,
+Result simplify_and_save(const BatchFile& file, const BatchContext& work, const std::string& inputs,
                          Overwrite& overwrite) {
     const Options& options = file.options ? *file.options : work.options;
     SimplifiedAsset simplified = detail::simplify_file(
@@ -90,15 +86,12 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, BatchE
         result.message = rejection_message(result.code, file.in, file.out, report);
         return result;
     }
-    entry.faces_in = report.faces_in;
-    entry.faces_out = report.faces_out;
-    if (work.record) work.record->add(file.out_name, entry);
     detail::save_result(simplified, file.out, options, std::exchange(overwrite, Overwrite::yes));
     result.warnings = report.warnings;
-    entry.result = modification_stamp({file.out});
-    if (work.record) work.record->add(file.out_name, entry);
     std::error_code error;
     result.record = {{"bytes", fs::file_size(file.out, error)},
+                     {"inputs", inputs},
+                     {"written", modification_stamp({file.out})},
                      {"peak_rss_bytes", peak_memory()},
                      {"time_limit", report.stop == StopReason::reached_time_limit}};
     return result;
@@ -118,16 +111,17 @@ Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemor
         throw InputError(file.in.string(), "", "is not the model of the list: its SHA-256 is another one");
     std::vector<fs::path> inputs = detail::referenced_files(file.in, detail::References::readable);
     inputs.insert(inputs.begin(), file.in);
-    const BatchEntry entry = {modification_stamp(inputs), work.options_key, "", 0, 0};
-    const std::optional<BatchEntry> before =
-        work.record && work.resume ? work.record->find(file.out_name) : std::optional<BatchEntry>();
-    const bool is_own = is_own_result(file, before);
-    if (is_own && !before->result.empty() && before->inputs == entry.inputs &&
-        before->options == entry.options)
-        return skipped_result(*before);
+    const std::string stamp = modification_stamp(inputs);
+    if (file.earlier) {
+        const EarlierResult& earlier = *file.earlier;
+        const std::string present = modification_stamp({file.out});
+        if (!present.empty() && present == earlier.written && stamp == earlier.inputs &&
+            file.options_id == earlier.options)
+            return {exit_ok, "skipped", "up to date", earlier.faces_in, earlier.faces_out, {}};
+        if (is_own_result(earlier, present)) overwrite = Overwrite::yes;
+    }
     std::error_code error;
     fs::create_directories(file.out.parent_path(), error);
-    if (is_own) overwrite = Overwrite::yes;
     check_output(file.out, overwrite);
     memory.reserve(detail::estimated_document_memory(file.in, memory.all()));
     const std::uint64_t loading = detail::estimated_model_memory(file.in, memory.all());
@@ -136,7 +130,7 @@ Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemor
                                                            file.options ? *file.options : work.options));
     if (is_interrupted()) return cancelled_result();
     watch = {};
-    return simplify_and_save(file, work, entry, overwrite);
+    return simplify_and_save(file, work, stamp, overwrite);
 } catch (const std::bad_alloc& problem) {
     if (memory.is_part()) throw;
     return failed_result(problem);
@@ -169,7 +163,7 @@ Json process_batch_file(const BatchFile& file, const BatchContext& work, const B
 std::string printed_line(const BatchFile& file, const Json& members) {
     Json line = {{"path", file.name}, {"result", file.out_name}};
     line.update(members);
-    for (const char* own : {"record", "alone", "killed"}) line.erase(own);  // not for users
+    for (const char* own : {"record", "killed"}) line.erase(own);  // not for users
     return json_line(line);
 }
 

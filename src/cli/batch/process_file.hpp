@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "cli/batch/plan.hpp"
-#include "cli/batch/record.hpp"
 #include "cli/files/input_model.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/process/json.hpp"
@@ -21,9 +20,7 @@ struct BatchContext {
     std::string options_key;  ///< everything except the input files that results depend on
     Strictness strictness = Strictness::lenient;
     bool strict_target = false;
-    bool resume = false;
-    std::uint64_t max_memory = 0;   ///< bytes, of all models at the same time
-    BatchRecord* record = nullptr;  ///< null: a batch over a list, which has a Ledger
+    std::uint64_t max_memory = 0;  ///< bytes, of all models at the same time
 };
 
 /// How one model is to be simplified.
@@ -34,9 +31,8 @@ struct BatchAttempt {
     std::function<std::uint64_t(std::uint64_t)> ask_memory;
 };
 
-/// Simplifies one model as `faqem simplify` does. With BatchContext::resume, up-to-date results are skipped, and results
-/// that the record lists and that were not changed since may be overwritten. Limits the memory of the process to what
-/// is granted.
+/// Simplifies one model as `faqem simplify` does. A result with BatchFile::earlier is skipped if it is up to date, and may
+/// be overwritten if nobody else has changed it. Limits the memory of the process to what is granted.
 /// \return the members of the line that is printed for the model, without its names (see docs/reference.md), and
 /// `record`: what a Ledger has besides. If the memory that was granted is exhausted, and there is more, the member
 /// `retry`, and `overwrite` for the next attempt

@@ -49,7 +49,7 @@ void work_on_models(Channel& channel, const std::vector<BatchFile>& files, const
 struct Slot {
     std::unique_ptr<Worker> worker;
     std::size_t models = 0;  ///< that the process has got
-    bool has_model = false, is_waiting = false, is_cancelled = false;
+    bool has_model = false, has_begun = false, is_waiting = false, is_cancelled = false;
     std::size_t model = 0;
     bool alone = false, overwrite = false;
     detail::Stopwatch watch;  ///< since the process was told something
@@ -85,7 +85,7 @@ private:
         Slot& slot = slots_[i];
         slot.model = next_++;
         slot.has_model = true;
-        slot.is_cancelled = false;
+        slot.has_begun = slot.is_cancelled = false;
         slot.overwrite = workers_.overwrite == Overwrite::yes;
         begin_attempt(i, files_[slot.model].alone);
     }
@@ -93,7 +93,6 @@ private:
     void begin_attempt(std::size_t i, bool alone) {
         Slot& slot = slots_[i];
         slot.alone = alone;
-        if (events_.begun) events_.begun(slot.model);
         if (alone)
             wait_for_all_memory(i);
         else
@@ -107,6 +106,7 @@ private:
     }
 
     void tell_model(Slot& slot) {
+        if (slot.alone) announce(slot);
         if (slot.worker && slot.models >= models_per_process) slot.worker.reset();
         if (!slot.worker) {
             slot.worker = std::make_unique<Worker>(
@@ -115,6 +115,10 @@ private:
         }
         ++slot.models;
         tell(slot, {{"model", slot.model}, {"alone", slot.alone}, {"overwrite", slot.overwrite}});
+    }
+
+    void announce(Slot& slot) {
+        if (!std::exchange(slot.has_begun, true)) events_.begun(slot.model);
     }
 
     static void tell(Slot& slot, const Json& message) {
@@ -165,6 +169,7 @@ private:
         if (!message) {
             on_death(i);
         } else if (message->contains("memory")) {
+            announce(slot);
             memory_.release(i);
             // After a signal no model begins: the process sees it and needs no memory.
             memory_.request(i, is_interrupted() ? 0 : message->at("memory").get<std::uint64_t>());
@@ -211,7 +216,6 @@ private:
         slot.worker.reset();
         remove_leftovers_of(slot);
         Json line = line_without_result(exit_internal, "failed", files_[slot.model].in.string() + ": " + how);
-        line["alone"] = slot.alone;
         line["killed"] = is_killed;
         end_model(i, line);
     }
@@ -226,6 +230,7 @@ private:
         const NextStep next = events_.ended(slot.model, members);
         if (next == NextStep::again_alone) {
             slot.worker.reset();
+            slot.has_begun = false;
             return begin_attempt(i, true);
         }
         slot.has_model = false;

@@ -27,9 +27,9 @@ enum class NextStep {
 
 /// Called by process_batch(), in this process.
 struct BatchEvents {
-    /// A model begins. May be empty.
+    /// A model begins, or begins anew: it is about to be loaded.
     std::function<void(std::size_t model)> begun;
-    /// A model has ended. \param members  as of process_batch_file()
+    /// A model has ended, perhaps without having begun. \param members  as of process_batch_file()
     std::function<NextStep(std::size_t model, const Json& members)> ended;
 };
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "asset/scene/messages.hpp"
-#include "cli/batch/run_shard.hpp"
+#include "cli/batch/batch_run.hpp"
 #include "cli/batch/run_summary.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
@@ -48,7 +48,7 @@ void check_outputs_unprotected(const std::vector<BatchFile>& files) {
     check_models_unprotected(results);
 }
 
-/// The state that all models share, without a record.
+/// The state that all models share.
 BatchContext make_context(const BatchArguments& arguments, std::size_t jobs) {
     BatchContext work;
     work.options = make_options(arguments.options);
@@ -67,7 +67,6 @@ BatchContext make_context(const BatchArguments& arguments, std::size_t jobs) {
                        (arguments.strict_target ? " strict-target" : "");
     work.strictness = arguments.strictness();
     work.strict_target = arguments.strict_target;
-    work.resume = arguments.resume;
     work.max_memory = arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3;
     return work;
 }
@@ -116,53 +115,27 @@ private:
     ProgressBar bar_{Bar::shown};
 };
 
-int run_folder(const BatchArguments& arguments) {
-    const std::string& out = arguments.out;
+int run_models(const BatchArguments& arguments, const std::string& out) {
+    RunArguments run{arguments.list, out, extension_of_format(arguments.format)};
+    if (!arguments.shard.empty()) run.shard = parse_shard(arguments.shard);
+    run.resumes = arguments.resume;
+    run.redoes = arguments.force;
+    run.replaces_run = arguments.new_run;
     std::size_t others = 0;
-    const std::vector<BatchFile> files =
-        plan_batch(arguments.in, out, extension_of_format(arguments.format), others);
-    const WorkerOptions workers = make_workers(arguments, files.size(), make_options(arguments.options));
-    BatchContext work = make_context(arguments, workers.jobs);
-    check_outputs_unprotected(files);
-    check_unprotected(BatchRecord::path_in(out));
-    make_folder(out);
-    BatchRecord record(out);
-    work.record = &record;
-    install_signal_handlers();
-    BatchOutput output(files.size());
-    ExitCode code = exit_ok;  // exit_cancelled if a model was not done because of a signal
-    process_batch(files, work, workers, {nullptr, [&](std::size_t i, const Json& members) {
-                                             const auto one = members.at("code").get<ExitCode>();
-                                             // The kernel kills a process when the memory of the machine is exhausted.
-                                             if (one == exit_internal && members.value("killed", false) &&
-                                                 !members.value("alone", false))
-                                                 return NextStep::again_alone;
-                                             if (one == exit_cancelled)
-                                                 code = exit_cancelled;
-                                             else if (one != exit_ok && code == exit_ok)
-                                                 code = exit_batch_incomplete;
-                                             output.print(printed_line(files[i], members));
-                                             return NextStep::go_on;
-                                         }});
-    output.end(others);
-    return code;
-}
-
-int run_list(const BatchArguments& arguments, const std::string& out) {
-    ShardArguments shard{arguments.list, out, extension_of_format(arguments.format)};
-    if (!arguments.shard.empty()) shard.shard = parse_shard(arguments.shard);
-    shard.redoes = arguments.force;
-    shard.replaces_run = arguments.new_run;
-    const std::vector<BatchFile> files = models_of_shard(shard, arguments.options);
+    const std::vector<BatchFile> files = arguments.list.empty()
+                                             ? plan_batch(arguments.in, out, run.extension, others)
+                                             : models_of_shard(run, arguments.options);
     WorkerOptions workers = make_workers(arguments, files.size(), make_options(arguments.options));
-    workers.overwrite = Overwrite::yes;  // the records say whose results are in the directory
+    // The records of a list say whose results are in the directory.
+    if (!arguments.list.empty()) workers.overwrite = Overwrite::yes;
     const BatchContext work = make_context(arguments, workers.jobs);
     check_outputs_unprotected(files);
+    make_folder(out);
     install_signal_handlers();
     BatchOutput output(files.size());
     const ExitCode code =
-        run_shard(files, shard, work, workers, [&](const std::string& line) { output.print(line); });
-    output.end();
+        run_batch(files, run, work, workers, [&](const std::string& line) { output.print(line); });
+    output.end(others);
     return code;
 }
 
@@ -194,8 +167,7 @@ int run(const BatchArguments& arguments) {
         throw OptionError("--shard and --new-run need --list");
     if (arguments.missing) return print_missing(arguments, out_of_list);
     if (arguments.merge) return merge(out_of_list);
-    if (!arguments.list.empty()) return run_list(arguments, out_of_list);
-    return run_folder(arguments);
+    return run_models(arguments, arguments.list.empty() ? arguments.out : out_of_list);
 }
 
 }  // namespace

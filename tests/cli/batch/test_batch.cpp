@@ -1,5 +1,3 @@
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -265,10 +263,10 @@ TEST_CASE("batch --resume redoes a result whose record is truncated") {
     const Folder folder;
     make_models(folder);
     REQUIRE(run(folder, batch + "--jobs 1").code == 0);
-    std::string record = read(folder / "out/.faqem-batch.jsonl");
+    const fs::path record = fs::directory_iterator(folder / "out/.faqem-batch/directory")->path();
     // Only the first entry of this result remains, which says that it was begun, so that it may be
     // overwritten.
-    write(folder / "out/.faqem-batch.jsonl", record.substr(0, record.size() - 20));
+    fs::resize_file(record, fs::file_size(record) - 20);
     const Outcome outcome = run(folder, batch + "--resume");
     CHECK(outcome.code == 0);
     int done = 0;
@@ -300,17 +298,29 @@ TEST_CASE("batch exits with 8 after a signal and can be resumed") {
     CHECK(lines_of(outcome).size() == 3);
 }
 
-TEST_CASE("batch exits with 7 if another batch uses the output directory") {
+TEST_CASE("batch --resume keeps a file that was there before an attempt that did not end") {
     const Folder folder;
     make_models(folder);
-    fs::create_directory(folder / "out");
-    const int record = open((folder / "out/.faqem-batch.jsonl").c_str(), O_RDWR | O_CREAT, 0666);
-    REQUIRE(flock(record, LOCK_EX) == 0);
-    const Outcome outcome = run(folder, batch);
-    CHECK(outcome.code == 7);
-    CHECK(outcome.err.find("another batch") != std::string::npos);
-    close(record);
-    CHECK(run(folder, batch).code == 0);
+    REQUIRE(run(folder, batch + "--jobs 1").code == 0);
+    const auto file_record = [&] {
+        return fs::directory_iterator(folder / "out/.faqem-batch/directory")->path();
+    };
+    std::string lines = read(file_record());
+    // The process was killed after the first model, the largest, had begun.
+    const auto started = nlohmann::json::parse(lines.substr(0, lines.find('\n')));
+    REQUIRE(started["event"] == "started");
+    CHECK(started["replaced"] == "");
+    SECTION("a file that is newer than the start may be the result") {
+        write(file_record(), started.dump() + "\n");
+        CHECK(status(run(folder, batch + "--resume"), started["id"]) == "done");
+    }
+    SECTION("a file that is the one of the start is another's") {
+        fs::remove(file_record());
+        fs::remove(folder / "out" / started["result"].get<std::string>());
+        write(folder / "out" / started["result"].get<std::string>(), "precious");
+        CHECK(status(run(folder, batch), started["id"]) == "failed");
+        CHECK(status(run(folder, batch + "--resume"), started["id"]) == "failed");
+    }
 }
 
 TEST_CASE("batch completes with a memory limit below the estimate of each model") {

@@ -1,0 +1,224 @@
+#include "cli/batch/batch_run.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "cli/batch/model_list.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/files/sha256.hpp"
+#include "faqem/detail/options/option_table.hpp"
+#include "faqem/error.hpp"
+#include "faqem/version.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Attempts that crash, and attempts without an end, after which a model is given up. A machine that goes away is rarely
+/// the fault of the model.
+constexpr std::uint32_t max_crashes = 2, max_unended = 5;
+
+/// Identifies the options of a model in a record.
+std::string short_hash(std::string_view text) { return hexadecimal(sha256(text)).substr(0, 16); }
+
+/// Adds the options of a model, with the names of the command.
+void set_own_options(BatchFile& file, const ListedModel& model, GivenOptions given) {
+    for (const auto& [name, value] : model.options.items()) {
+        const detail::OptionRow& row = detail::named_option(name);
+        if (!(row.entry_points & detail::in_batch)) throw OptionError(name + ": is no option of faqem batch");
+        given.emplace_back(&row, value.is_string()    ? value.get<std::string>()
+                                 : value.is_boolean() ? (value.get<bool>() ? "on" : "off")
+                                                      : value.dump());
+    }
+    file.options = make_options(given);
+}
+
+bool is_inside(const fs::path& path, const fs::path& folder) {
+    const fs::path relative = fs::weakly_canonical(path).lexically_relative(fs::weakly_canonical(folder));
+    return !relative.empty() && *relative.begin() != "..";
+}
+
+BatchFile file_of(const ListedModel& model, const RunArguments& arguments, const GivenOptions& given) {
+    const auto fail = [&](const std::string& what) {
+        throw InputError(arguments.list.string(), model.id, what);
+    };
+    BatchFile file;
+    file.name = model.id;
+    file.in = model.input;
+    file.bytes = model.bytes;
+    file.hash = model.hash;
+    file.out_name = model.output.empty() ? default_output(model.id, arguments.extension) : model.output;
+    const fs::path out = fs::path(file.out_name).lexically_normal();
+    if (out.is_absolute() || out.empty() || *out.begin() == ".." || *out.begin() == ".")
+        fail("the output '" + file.out_name + "' is outside the output directory");
+    file.out = arguments.out_folder / out;
+    if (is_inside(file.in, arguments.out_folder))
+        fail("the input " + file.in.string() + " is inside the output directory");
+    try {
+        if (!model.options.is_null()) set_own_options(file, model, given);
+        check_extension(file.out, {".glb", ".gltf", ".vrm", ".obj", ".ply", ".stl"});
+    } catch (const OptionError& error) {
+        throw OptionError(arguments.list.string() + ": " + model.id + ": " + error.what());
+    }
+    return file;
+}
+
+/// Whether a code says that the model itself is the reason, so that another attempt would end in the same way.
+bool is_final(ExitCode code) {
+    return code != exit_cancelled && code != exit_cannot_write && code != exit_internal;
+}
+
+class BatchRun {
+public:
+    BatchRun(const std::vector<BatchFile>& files, const RunArguments& arguments, const BatchContext& work,
+             const std::function<void(const std::string&)>& print)
+        : arguments_(arguments),
+          has_list_(!arguments.list.empty()),
+          models_(files.size()),
+          print_(print),
+          ledger_(arguments.out_folder, has_list_ ? arguments.shard.name() : "directory",
+                  has_list_ ? !arguments.redoes : arguments.resumes) {
+        if (has_list_) {
+            run_ = {arguments.shard.count, work.options_key, std::string(version()),
+                    file_hash(arguments.list)};
+            join_run(arguments.out_folder, run_, arguments.replaces_run);
+        }
+        for (BatchFile file : files) {
+            file.options_id =
+                short_hash(work.options_key + (file.options ? detail::options_key(*file.options) : ""));
+            has_list_ ? add_by_history(std::move(file)) : add(std::move(file));
+        }
+    }
+
+    ExitCode run(const BatchContext& work, const WorkerOptions& workers) {
+        process_batch(todo_, work, workers,
+                      {[this](std::size_t i) { begin(i); },
+                       [this](std::size_t i, const Json& line) { return end(i, line); }});
+        if (!has_list_) return code_;
+        if (done_ + refused_ + poisoned_ < models_) return exit_try_again;
+        complete_shard(
+            arguments_.out_folder, arguments_.shard, run_,
+            {{"done", done_}, {"refused", refused_}, {"poisoned", poisoned_}, {"models", models_}});
+        return exit_ok;
+    }
+
+private:
+    void add(BatchFile&& file, std::uint32_t crashes = 0) {
+        if (!has_list_) file.earlier = ledger_.earlier_result(file);
+        file.alone = crashes > 0;
+        todo_.push_back(std::move(file));
+        crashes_.push_back(crashes);
+        has_begun_.push_back(false);
+    }
+
+    /// Decides by its history what is to be done with a model.
+    void add_by_history(BatchFile&& file) {
+        const ModelHistory history = ledger_.history(file);
+        std::error_code error;
+        if (history.end == "done" && fs::file_size(file.out, error) == history.bytes && !error)
+            ++done_;
+        else if (history.end == "refused")
+            ++refused_;
+        else if (history.crashes >= max_crashes)
+            poison(file, history.reason);
+        else if (history.unended >= max_unended)
+            poison(file, std::to_string(history.unended) + " attempts have begun it and recorded no end");
+        else
+            add(std::move(file), history.crashes);
+    }
+
+    void poison(const BatchFile& file, const std::string& reason) {
+        ++poisoned_;
+        ledger_.end(file, "poisoned", {{"message", reason}});
+        print_(printed_line(file, {{"status", "poisoned"}, {"code", exit_internal}, {"message", reason}}));
+    }
+
+    void begin(std::size_t i) {
+        has_begun_[i] = true;
+        ledger_.begin(todo_[i]);
+    }
+
+    NextStep end(std::size_t i, const Json& line) {
+        const BatchFile& file = todo_[i];
+        const auto code = line.at("code").get<ExitCode>();
+        if (code == exit_internal) {
+            record(file, "crashed", line);
+            // Without a list only what the kernel kills is tried again: it does so when the machine has no memory left.
+            if (++crashes_[i] < max_crashes && (has_list_ || line.value("killed", false)))
+                return NextStep::again_alone;
+            if (has_list_) {
+                poison(file, line.at("message"));
+                return NextStep::go_on;
+            }
+        } else if (code != exit_ok) {
+            if (has_list_ && code == exit_cancelled && !has_begun_[i]) return NextStep::go_on;
+            record(file, is_final(code) ? "refused" : "interrupted", line);
+            refused_ += is_final(code);
+        } else if (line.at("status") == "done") {
+            record(file, "done", line);
+            ++done_;
+        }
+        if (code == exit_cancelled)
+            code_ = exit_cancelled;
+        else if (code != exit_ok && code_ == exit_ok)
+            code_ = exit_batch_incomplete;
+        print_(printed_line(file, line));
+        // Where one file cannot be written, others cannot either.
+        return has_list_ && code == exit_cannot_write ? NextStep::stop : NextStep::go_on;
+    }
+
+    /// \param line  of process_batch_file()
+    void record(const BatchFile& file, const std::string& event, Json line) {
+        const Json more = line.value("record", Json());
+        for (const char* other : {"record", "status", "killed"}) line.erase(other);
+        line["input_bytes"] = file.bytes;
+        if (more.is_object()) line.update(more);
+        ledger_.end(file, event, line);
+    }
+
+    const RunArguments& arguments_;
+    bool has_list_;
+    std::uint64_t models_, done_ = 0, refused_ = 0, poisoned_ = 0;
+    const std::function<void(const std::string&)>& print_;
+    Ledger ledger_;
+    RunIdentity run_;
+    std::vector<BatchFile> todo_;
+    std::vector<std::uint32_t> crashes_;
+    std::vector<bool> has_begun_;
+    ExitCode code_ = exit_ok;
+};
+
+}  // namespace
+
+std::vector<BatchFile> models_of_shard(const RunArguments& arguments, const GivenOptions& given) {
+    std::vector<BatchFile> files;
+    std::set<std::string> ids;
+    std::map<std::string, std::string> owners;  // by output
+    read_list(
+        arguments.list, [&](const std::string& id) { return arguments.shard.contains(id); },
+        [&](ListedModel&& model) {
+            files.push_back(file_of(model, arguments, given));
+            if (!ids.insert(model.id).second)
+                throw InputError(arguments.list.string(), model.id, "two models have this id");
+            const auto [owner, is_new] =
+                owners.emplace(files.back().out.lexically_normal().string(), model.id);
+            if (!is_new)
+                throw InputError(arguments.list.string(), model.id,
+                                 "has the same output as " + owner->second + ": " + files.back().out_name);
+        });
+    std::sort(files.begin(), files.end(), [](const BatchFile& a, const BatchFile& b) {
+        return a.bytes != b.bytes ? a.bytes > b.bytes : a.name < b.name;
+    });
+    return files;
+}
+
+ExitCode run_batch(const std::vector<BatchFile>& files, const RunArguments& arguments,
+                   const BatchContext& work, const WorkerOptions& workers,
+                   const std::function<void(const std::string&)>& print) {
+    return BatchRun(files, arguments, work, print).run(work, workers);
+}
+
+}  // namespace faqem::cli
