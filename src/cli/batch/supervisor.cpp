@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,8 +150,12 @@ private:
             owners.push_back(i);
         }
         if (polled.empty()) return next_ < files_.size();
+        if (workers_.until_eof && !is_interrupted()) polled.push_back({STDIN_FILENO, POLLIN, 0});
         const int ready = ::poll(polled.data(), polled.size(), poll_milliseconds);
-        for (std::size_t k = 0; k < polled.size(); ++k) {
+        if (char byte; polled.size() > owners.size() && polled.back().revents != 0 &&
+                       ::read(STDIN_FILENO, &byte, 1) <= 0)
+            std::raise(SIGTERM);
+        for (std::size_t k = 0; k < owners.size(); ++k) {
             Slot& slot = slots_[owners[k]];
             if (ready > 0 && polled[k].revents != 0)
                 on_message(owners[k]);

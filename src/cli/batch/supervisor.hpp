@@ -16,6 +16,7 @@ struct WorkerOptions {
     std::uint32_t jobs = 1;  ///< processes at a time
     double end_after = 0;    ///< seconds that a model may take before its process is killed
     Overwrite overwrite = Overwrite::no;
+    bool until_eof = false;  ///< the end of standard input counts as SIGTERM
 };
 
 /// What a batch does after a model.

@@ -34,7 +34,7 @@ struct BatchArguments : SimplifyArguments {
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
     std::uint64_t max_array = 1000;
     double end_after = 0;  ///< seconds; 0: the default
-    bool resume = false, force = false, new_run = false, missing = false, merge = false;
+    bool until_eof = false, resume = false, force = false, new_run = false, missing = false, merge = false;
 };
 
 /// Checks before the first model that no result, with the files beside it, is an input of the batch or belongs
@@ -78,6 +78,7 @@ WorkerOptions make_workers(const BatchArguments& arguments, std::size_t models, 
     workers.end_after = arguments.end_after > 0 ? arguments.end_after
                         : options.max_seconds   ? 2 * *options.max_seconds + 60
                                                 : 3600;
+    workers.until_eof = arguments.until_eof;
     workers.overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
     return workers;
 }
@@ -200,6 +201,9 @@ CommandInfo batch_command() {
          text_option("--list", "FILE", arguments->list, "Simplify the models of a list; of faqem list"),
          text_option("--shard", "I/N", arguments->shard,
                      "Only a part of the list; the first is 0/N; auto: of an array job"),
+         rare(flag_option(
+             "--until-eof", arguments->until_eof,
+             "End as after a signal when standard input ends; for programs that start the batch")),
          rare(flag_option("--new-run", arguments->new_run,
                           "Replace the run of OUTDIR; which had another list, options or N")),
          rare(flag_option("--missing", arguments->missing,

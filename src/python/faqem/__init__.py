@@ -81,6 +81,8 @@ _modules = {
 def __getattr__(name: str) -> object:
     if name == "__version__":
         value = importlib.import_module("._library", __name__).version()
+    elif name == "batch":
+        value = importlib.import_module(".batch", __name__)
     elif name in _modules:
         value = getattr(importlib.import_module("." + _modules[name], __name__), name)
     else:
@@ -90,4 +92,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_modules, "__version__"])
+    return sorted([*globals(), *_modules, "__version__", "batch"])

@@ -21,6 +21,19 @@ from .errors import Error, InternalError, OptionError
 Comparable = Union[Model, "tuple[ArrayLike, ArrayLike]", Path]
 
 
+def program() -> str:
+    """Returns the file of the command."""
+    return str(pathlib.Path(__file__).with_name("faqem"))
+
+
+def raise_unless_ok(code: int, said: str) -> None:
+    """Raises the exception that belongs to an exit code, with what the command said to standard error."""
+    if code < 0:
+        raise InternalError(f"the command was ended by signal {-code}: {said.strip()}")
+    if code > 0:
+        raise exceptions.get(code, Error)(said.strip() or f"exit code {code}")
+
+
 def command(*arguments: str | os.PathLike[str]) -> str:
     """Runs the command faqem, for example command("render", "statue.glb", "statue.png").
 
@@ -29,16 +42,12 @@ def command(*arguments: str | os.PathLike[str]) -> str:
     Returns the standard output. Warnings of the command go to standard error. Raises the exception that belongs to the
     exit code, with the message of the command; Error for codes that the functions of the module do not have.
     """
-    program = pathlib.Path(__file__).with_name("faqem")
     words = [os.fspath(argument) for argument in arguments]
     if any("\0" in word for word in words):
         raise OptionError("an argument of the command contains a zero byte")
-    done = subprocess.run([str(program), *words], stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    done = subprocess.run([program(), *words], stdin=subprocess.DEVNULL, capture_output=True, check=False)
     said = done.stderr.decode(errors="replace")
-    if done.returncode < 0:
-        raise InternalError(f"the command was ended by signal {-done.returncode}: {said.strip()}")
-    if done.returncode > 0:
-        raise exceptions.get(done.returncode, Error)(said.strip() or f"exit code {done.returncode}")
+    raise_unless_ok(done.returncode, said)
     sys.stderr.write(said)
     return done.stdout.decode(errors="replace")
 
