@@ -13,7 +13,7 @@ namespace {
 
 // One vertex at which the rounded values are equal connects two facets, so that those that differ only by rounding do not
 // divide a smooth surface.
-constexpr double steps = 64;
+constexpr double normal_steps = 64;
 
 template <std::size_t N>
 Facets facets_by(const Part& part, const std::vector<std::array<float, N>>& values) {
@@ -25,7 +25,7 @@ Facets facets_by(const Part& part, const std::vector<std::array<float, N>>& valu
     for (std::size_t v = 0; v < vertex.size(); ++v) {
         const Vec3& p = part.positions[v];
         std::array<double, 3 + N> key{p[0], p[1], p[2]};
-        for (std::size_t k = 0; k < N; ++k) key[3 + k] = std::round(steps * values[v][k]) + 0.0;
+        for (std::size_t k = 0; k < N; ++k) key[3 + k] = std::round(normal_steps * values[v][k]) + 0.0;
         vertex[v] = vertices.insert(key);
     }
     engine::UnionFind sets(vertices.values().size());
