@@ -38,7 +38,7 @@ std::uint64_t mode_of(const Json& primitive) {
     return unsigned_member(primitive, "mode", TINYGLTF_MODE_TRIANGLES);
 }
 
-bool is_triangle_primitive(const Json& primitive) {
+bool has_triangles(const Json& primitive) {
     return mode_of(primitive) >= TINYGLTF_MODE_TRIANGLES &&
            member(primitive, "attributes").contains("POSITION");
 }
@@ -50,7 +50,7 @@ std::vector<CustomAttribute> custom_attributes(const Json& mesh, const Json& acc
     std::map<std::string, std::size_t> uses;
     std::size_t primitives = 0;
     for (const Json& primitive : member(mesh, "primitives")) {
-        if (!is_triangle_primitive(primitive)) continue;
+        if (!has_triangles(primitive)) continue;
         ++primitives;
         for (const auto& [name, index] : primitive["attributes"].items()) {
             if (name.empty() || name[0] != '_') continue;
@@ -77,7 +77,7 @@ PartLayout layout_of(const Json& mesh, const Json& accessors) {
     layout.custom = custom_attributes(mesh, accessors);
     std::set<std::string> names, target_names;
     for (const Json& primitive : member(mesh, "primitives")) {
-        if (!is_triangle_primitive(primitive)) continue;
+        if (!has_triangles(primitive)) continue;
         for (const auto& [name, accessor] : primitive["attributes"].items()) names.insert(name);
         const Json& targets = member(primitive, "targets");
         for (const Json& target : targets)
@@ -228,7 +228,7 @@ std::vector<Triangle> triangles_of(const std::vector<Index>& v, std::uint64_t mo
 double position_spacing(const Json& mesh, const Json& accessors) {
     std::optional<double> spacing;
     for (const Json& primitive : member(mesh, "primitives")) {
-        if (!is_triangle_primitive(primitive)) continue;
+        if (!has_triangles(primitive)) continue;
         const double own = integer_step(accessors[index_member(primitive["attributes"], "POSITION")]);
         if (spacing.value_or(own) != own) return 0;
         spacing = own;
@@ -303,7 +303,7 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
         const Json& primitive = primitives[p];
         const std::uint64_t mode = mode_of(primitive);
         const std::string at = child_path(where + "/primitives", p);
-        if (!is_triangle_primitive(primitive)) {
+        if (!has_triangles(primitive)) {
             if (mode >= TINYGLTF_MODE_TRIANGLES)
                 loaded.warnings.push_back(at + ": has no positions and was left out");
             continue;
@@ -343,7 +343,7 @@ void read_vertex_bits(const LoadedGltf& loaded, Asset& asset) {
                &accessors = member(loaded.source->document, "accessors");
     for (const Json& mesh : meshes) {
         for (const Json& primitive : member(mesh, "primitives")) {
-            if (!is_triangle_primitive(primitive)) continue;
+            if (!has_triangles(primitive)) continue;
             for (const auto& [name, accessor] : primitive["attributes"].items()) {
                 if (integer_step(accessors[accessor.get<Index>()]) == 0) continue;
                 if (name == "NORMAL" || name == "TANGENT") asset.normal_bits = standard.normal_bits;
