@@ -191,7 +191,8 @@ TEST_CASE("batch does not read its results as models and does not overwrite its 
 TEST_CASE("batch exits with 3 if the input directory is missing or has no models") {
     const Folder folder;
     CHECK(run(folder, "batch nowhere out").code == 3);
-    fs::create_directory(folder / "in");
+    fs::create_directories(folder / "in/.faqem-set/new");  // of a run that was killed
+    write(folder / "in/.faqem-set/new/a.glb", "");
     CHECK(run(folder, "batch in out").code == 3);
     CHECK(!fs::exists(folder / "out"));
 }
