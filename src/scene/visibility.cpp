@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "asset/scene/measured_instances.hpp"
@@ -13,6 +12,7 @@
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/detail/geometry/vertex_faces.hpp"
 #include "faqem/error.hpp"
+#include "render/camera.hpp"
 
 namespace faqem::detail {
 
@@ -116,18 +116,6 @@ private:
     std::vector<bool> is_double_sided_;
 };
 
-// Unit vectors along a spiral, evenly distributed over the sphere. None is parallel to an axis.
-std::vector<Vector3> directions() {
-    std::vector<Vector3> result;
-    const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-    for (std::size_t i = 0; i < direction_count; ++i) {
-        const double z = 1 - (2 * static_cast<double>(i) + 1) / direction_count;
-        const double radius = std::sqrt(1 - z * z), angle = golden * static_cast<double>(i);
-        result.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-    }
-    return result;
-}
-
 // Samples the visibility of the surface of one instance.
 class VisibilitySampler {
 public:
@@ -229,7 +217,7 @@ private:
     const Occluders& occluders_;
     VertexFaces around_;
     double diagonal_;
-    std::vector<Vector3> directions_ = directions();
+    std::vector<Vector3> directions_ = render::even_directions(direction_count);
     std::vector<Index> patch_;  // by face; no_index: large face without a patch
     std::vector<double> patch_visibility_;
 };
