@@ -6,6 +6,7 @@
 
 #include "asset/scene/measured_instances.hpp"
 #include "faqem/detail/geometry/surface.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -20,17 +21,11 @@ PartScale scale_of(const Eigen::Matrix4d& transform) {
 }
 
 std::vector<Vec3> box_corners(const std::vector<Vec3>& points) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : points) box.extend(engine::to_eigen(p));
     std::vector<Vec3> corners;
-    if (points.empty()) return corners;
-    Vec3 low = points.front(), high = low;
-    for (const Vec3& p : points) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
-    }
-    for (unsigned i = 0; i < 8; ++i)
-        corners.push_back({i & 1u ? high[0] : low[0], i & 2u ? high[1] : low[1], i & 4u ? high[2] : low[2]});
+    for (int i = 0; i < 8 && !box.isEmpty(); ++i)
+        corners.push_back(engine::to_array(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))));
     return corners;
 }
 

@@ -1,8 +1,6 @@
-#include <algorithm>
-#include <array>
+#include <Eigen/Dense>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -10,7 +8,6 @@
 #include <utility>
 
 #include "asset/file_format.hpp"
-#include "asset/scene/affine.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "asset/scene/messages.hpp"
@@ -21,6 +18,7 @@
 #include "cli/process/interrupt.hpp"
 #include "cli/process/json.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -63,23 +61,15 @@ ImageInfo image_info(const Image& image) {
     return result;
 }
 
-/// The determinant of the linear part of a transform.
-double volume_scale(const std::array<double, 16>& m) {
-    return m[0] * (m[5] * m[10] - m[9] * m[6]) - m[4] * (m[1] * m[10] - m[9] * m[2]) +
-           m[8] * (m[1] * m[6] - m[5] * m[2]);
-}
-
 /// The totals of a scene that is too large to be flattened: counts of all instances, the box of their boxes, and areas
 /// by the mean scale of each instance.
 MeshInfo sum_of_instances(const Asset& asset, const std::vector<PartInfo>& parts,
                           const std::vector<Instance>& all) {
     MeshInfo sum;
-    Vec3 low, high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
+    Eigen::AlignedBox3d box;
     for (const Instance& instance : all) {
         const MeshInfo& mesh = parts[instance.part].mesh;
-        const auto& m = instance.transform;
+        const Eigen::Affine3d transform(Eigen::Map<const Eigen::Matrix4d>(instance.transform.data()));
         sum.faces += mesh.faces;
         sum.degenerate_faces += mesh.degenerate_faces;
         sum.vertices += mesh.vertices;
@@ -87,21 +77,14 @@ MeshInfo sum_of_instances(const Asset& asset, const std::vector<PartInfo>& parts
         sum.boundary_edges += mesh.boundary_edges;
         sum.nonmanifold_edges += mesh.nonmanifold_edges;
         sum.euler += mesh.euler;
-        sum.area += mesh.area * std::pow(std::abs(volume_scale(m)), 2.0 / 3);
+        sum.area += mesh.area * std::pow(std::abs(transform.linear().determinant()), 2.0 / 3);
         if (asset.parts[instance.part].triangles.empty()) continue;
-        for (unsigned corner = 0; corner < 8; ++corner) {
-            Vec3 p;
-            for (unsigned k = 0; k < 3; ++k) p[k] = (corner >> k) & 1u ? mesh.box_max[k] : mesh.box_min[k];
-            p = detail::transformed_point(m, p);
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], p[k]);
-                high[k] = std::max(high[k], p[k]);
-            }
-        }
+        const Eigen::AlignedBox3d own(engine::to_eigen(mesh.box_min), engine::to_eigen(mesh.box_max));
+        box.extend(own.transformed(transform));
     }
-    sum.box_min = low;
-    sum.box_max = high;
-    sum.diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    sum.box_min = engine::to_array(box.min());
+    sum.box_max = engine::to_array(box.max());
+    sum.diagonal = box.diagonal().norm();
     return sum;
 }
 
