@@ -30,17 +30,6 @@ std::uint64_t fixed_bytes(UnencodedResult result, ModelFormat format) {
     return total - std::min(added, total);
 }
 
-std::vector<std::size_t> smallest_images(const TriedImages& tried) {
-    std::vector<std::size_t> result;
-    for (const std::vector<TriedImage>& image : tried) {
-        const auto smallest =
-            std::min_element(image.begin(), image.end(),
-                             [](const TriedImage& a, const TriedImage& b) { return a.bytes < b.bytes; });
-        result.push_back(static_cast<std::size_t>(smallest - image.begin()));
-    }
-    return result;
-}
-
 }  // namespace
 
 ModelSize fit_images(UnencodedResult& result, const Options& options, const RunContext& context,

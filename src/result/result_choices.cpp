@@ -55,10 +55,11 @@ public:
         most_bytes_ += least_.bytes;
     }
 
-    std::uint64_t least_bytes() const { return least_.bytes; }
+    /// The smallest encodings.
+    const Allocation& least() const { return least_; }
     std::uint64_t most_bytes() const { return most_bytes_; }
 
-    // \param bytes  not less than least_bytes()
+    // \param bytes  not less than those of least()
     // \param other  errors that do not depend on the images
     Allocation within(std::uint64_t bytes, const PictureDifference& other) const {
         Allocation result;
@@ -221,9 +222,9 @@ std::vector<ResultChoice> result_choices(std::span<const TriedFaces> faces, cons
             return r == 0 ? first
                           : static_cast<std::uint64_t>(std::ceil(factor * static_cast<double>(first)));
         };
-        if (allocator.least_bytes() > bytes) break;
+        if (allocator.least().bytes > bytes) break;
         const std::uint64_t most = rounded(faces.front().bytes), least = rounded(faces.back().bytes);
-        double geometry = static_cast<double>(std::min(most, bytes - allocator.least_bytes()));
+        double geometry = static_cast<double>(std::min(most, bytes - allocator.least().bytes));
         for (; geometry >= static_cast<double>(least); geometry *= geometry_ratio) {
             const auto taken = static_cast<std::uint64_t>(geometry);
             const std::optional<std::uint64_t> count =
@@ -251,9 +252,13 @@ std::vector<ResultChoice> result_choices(std::span<const TriedFaces> faces, cons
     return result;
 }
 
+std::vector<std::size_t> smallest_images(const TriedImages& images) {
+    return ImageAllocator(images).least().chosen;
+}
+
 std::vector<ImagesPoint> images_curve(const TriedImages& images, std::size_t count) {
     const ImageAllocator allocator(images);
-    const std::uint64_t least = allocator.least_bytes(), most = allocator.most_bytes();
+    const std::uint64_t least = allocator.least().bytes, most = allocator.most_bytes();
     std::vector<ImagesPoint> result;
     for (std::size_t i = 0; i < count; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(count - 1);

@@ -74,6 +74,10 @@ std::uint64_t as_first_rounding(std::span<const TriedRounding> roundings, std::s
 std::vector<ResultChoice> result_choices(std::span<const TriedFaces> faces, const TriedImages& images,
                                          std::span<const TriedRounding> roundings, std::uint64_t bytes);
 
+/// By image: the encoding with the fewest bytes and, of several, the least error.
+/// \param images  as for result_choices()
+std::vector<std::size_t> smallest_images(const TriedImages& images);
+
 /// The expected errors of the images alone for growing numbers of bytes, at most `count` of them.
 /// \param images  as for result_choices()
 /// \param count   at least 2
