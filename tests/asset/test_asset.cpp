@@ -40,27 +40,6 @@ TEST_CASE("the format is detected from the content before the file name") {
     CHECK(load(folder / "text.GLTF").parts.empty());
 }
 
-TEST_CASE("unknown formats, folders and missing files are rejected") {
-    const TemporaryFolder folder;
-    put(folder / "a.txt", "hello");
-    CHECK(contains(message_of<UnsupportedError>([&] { load(folder / "a.txt"); }), "a.txt"));
-    CHECK(contains(message_of<ReadError>([&] { load(folder / "gone.glb"); }), "gone.glb"));
-    CHECK_THROWS_AS(load(folder.path()), ReadError);
-    CHECK_THROWS_AS(save(Asset{}, folder / "a.xyz"), UnsupportedError);
-    CHECK_THROWS_AS(save(Asset{}, folder / "a.off"), UnsupportedError);
-    CHECK_FALSE(std::filesystem::exists(folder / "a.xyz"));
-}
-
-TEST_CASE("saving does not overwrite an existing file by default") {
-    const TemporaryFolder folder;
-    const Asset asset = load_glb(square_gltf());
-    save(asset, folder / "a.glb");
-    const std::string before = get(folder / "a.glb");
-    CHECK_THROWS_AS(save(asset, folder / "a.glb"), WriteError);
-    CHECK(get(folder / "a.glb") == before);
-    CHECK_NOTHROW(save(asset, folder / "a.glb", Overwrite::yes));
-}
-
 TEST_CASE("an empty asset can be saved and loaded") {
     const TemporaryFolder folder;
     save(Asset{}, folder / "a.glb");

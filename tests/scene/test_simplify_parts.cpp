@@ -210,20 +210,6 @@ TEST_CASE("small components are pruned from every part except its largest one") 
     CHECK(simplified.report.faces_out <= simplified.report.target_faces);
 }
 
-TEST_CASE("pruned components of a scene are ignored by max_error") {
-    const Part dusty = with_speck(bumpy(20), 60);
-    Asset asset;
-    asset.parts = {dusty};
-    Options options{.bake = {.kind = Bake::none}};
-    options.max_error = model_units(0.2);
-    options.topology.prune = model_units(2);
-    const SimplifiedParts simplified = simplify_parts(asset, options);
-    CHECK(simplified.report.components_pruned == 1);
-    REQUIRE(simplified.report.max_error);
-    CHECK(simplified.report.max_error->within());
-    CHECK(simplified.report.faces_out < 600);
-}
-
 TEST_CASE("cancelling the simplification returns an asset without parts") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(20)};

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "faqem/compare.hpp"
-#include "faqem/error.hpp"
 #include "faqem/levels.hpp"
 #include "support/brute_force.hpp"
 #include "support/catch.hpp"
@@ -220,16 +219,6 @@ TEST_CASE("the distance is zero for originals without area and infinite if only 
     const detail::DistanceReference original(test::cube().view());
     CHECK(detail::distance(original, no_faces, 1, detail::MeasureMode::full, {}).bound ==
           std::numeric_limits<double>::infinity());
-}
-
-TEST_CASE("invalid input is refused with max_error as without it") {
-    TriangleMesh mesh = test::grid(3);
-    mesh.triangles[4][1] = 99;
-    CHECK_THROWS_AS(simplify(mesh.view(), within(model_units(1))), InputError);
-    mesh = test::grid(3);
-    mesh.positions[5][0] = std::nan("");
-    CHECK_THROWS_AS(simplify(mesh.view(), within(model_units(1))), InputError);
-    CHECK_THROWS_AS(simplify(mesh.view(), within(model_units(0))), OptionError);
 }
 
 TEST_CASE("an error search does not depend on the number of threads and its history gives the result") {

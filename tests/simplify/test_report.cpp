@@ -69,24 +69,18 @@ TEST_CASE("the JSON report contains every count") {
                          {"stretch", 1.25},
                          {"samples", {{"history", 30}, {"approximate", 20}, {"closest", 10}}},
                          {"uncertain_texels", 5}});
-    CHECK(json["preset"] == "stmw");
-    CHECK(json["faces_in"] == 1'000'000'007);
-    CHECK(json["faces_out"] == 2);
-    CHECK(json["vertices_in"] == 3);
-    CHECK(json["vertices_out"] == 4);
-    CHECK(json["target_faces"] == 5);
-    CHECK(json["stop_reason"] == "cancelled");
-    CHECK(json["collapses"] == 6);
+    const auto counts = nlohmann::json::parse(R"({"preset": "stmw", "stop_reason": "cancelled",
+        "faces_in": 1000000007, "faces_out": 2, "vertices_in": 3, "vertices_out": 4, "target_faces": 5,
+        "collapses": 6, "faces_dropped": 9, "components_deleted": 10, "virtual_edges": 11,
+        "components_pruned": 12, "faces_pruned": 13, "vertices_hidden": 14})");
+    for (const auto& [key, value] : counts.items()) {
+        CAPTURE(key);
+        CHECK(json[key] == value);
+    }
     CHECK(json["refusals"]["link"] == 7);
     CHECK(json["refusals"].size() == refusal_kinds);
     CHECK(json["rungs"]["without_link"] == 8);
     CHECK(json["rungs"].size() == rung_kinds);
-    CHECK(json["faces_dropped"] == 9);
-    CHECK(json["components_deleted"] == 10);
-    CHECK(json["virtual_edges"] == 11);
-    CHECK(json["components_pruned"] == 12);
-    CHECK(json["faces_pruned"] == 13);
-    CHECK(json["vertices_hidden"] == 14);
     CHECK(json["warnings"][0] == "a \"quoted\" line\n");
     CHECK(json["seconds"]["weld"] == 0.25);
     CHECK(json["peak_rss_bytes"] > 0);

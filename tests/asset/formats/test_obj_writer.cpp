@@ -265,14 +265,3 @@ TEST_CASE("the OBJ writer reports what it leaves out", "[obj_writer]") {
         CHECK(any_contains(losses, what));
     }
 }
-
-TEST_CASE("an existing OBJ, MTL or image file is not replaced by default and nothing is written",
-          "[obj_writer]") {
-    for (const char* existing : {"a.obj", "a.mtl", "a_1.png"}) {
-        const TemporaryFolder folder;
-        put(folder / existing, "old");
-        CHECK_THROWS_AS(save(textured(), folder / "a.obj", Overwrite::no), WriteError);
-        CHECK(get(folder / existing) == "old");
-        CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 1);
-    }
-}

@@ -42,14 +42,6 @@ TEST_CASE("several pages and parts do not depend on the number of threads") {
     REQUIRE(images.size() >= 3);
     for (const std::uint32_t threads : {2u, 5u}) {
         options.threads = threads;
-        double last = 0;
-        options.progress = [&](Phase phase, double fraction) {
-            if (phase == Phase::map) {
-                CHECK(fraction >= last);
-                last = fraction;
-            }
-            return Continue::yes;
-        };
         const SimplifiedAsset again = bake(asset, simplified, options);
         REQUIRE(again.asset.images.size() == images.size());
         for (std::size_t i = 0; i < images.size(); ++i)
@@ -58,7 +50,6 @@ TEST_CASE("several pages and parts do not depend on the number of threads") {
             CHECK(again.asset.parts[i].normals == first.asset.parts[i].normals);
             CHECK(again.asset.parts[i].uvs == first.asset.parts[i].uvs);
         }
-        CHECK(last == 1);
     }
 }
 
