@@ -6,12 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "asset/image/codecs.hpp"
 #include "asset/image/image_checks.hpp"
 #include "asset/image/image_plugin.hpp"
-#include "asset/image/jpeg.hpp"
-#include "asset/image/png_reader.hpp"
-#include "asset/image/png_writer.hpp"
-#include "asset/image/webp.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"

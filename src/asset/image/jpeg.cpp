@@ -4,7 +4,7 @@
 // callers. Functions that call setjmp() therefore have no object with a destructor, and none is created between
 // them and libjpeg.
 
-#include "asset/image/jpeg.hpp"
+#include "asset/image/codecs.hpp"
 
 #include <array>
 #include <csetjmp>

@@ -3,7 +3,7 @@
 // libpng reports an error by a jump over the frames of its callers. Functions that call setjmp() therefore have
 // no object with a destructor, and none is created between them and libpng.
 
-#include "asset/image/png_reader.hpp"
+#include "asset/image/codecs.hpp"
 
 #include <png.h>
 

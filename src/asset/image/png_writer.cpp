@@ -1,6 +1,6 @@
 // Encoding of PNG files with libdeflate.
 
-#include "asset/image/png_writer.hpp"
+#include "asset/image/codecs.hpp"
 
 #include <libdeflate.h>
 

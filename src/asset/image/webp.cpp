@@ -1,6 +1,6 @@
 // Decoding and encoding of WebP files with libwebp.
 
-#include "asset/image/webp.hpp"
+#include "asset/image/codecs.hpp"
 
 #include <webp/decode.h>
 #include <webp/demux.h>

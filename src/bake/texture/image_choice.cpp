@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "asset/image/jpeg.hpp"
-#include "asset/image/png_writer.hpp"
+#include "asset/image/codecs.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -6,8 +6,7 @@
 #include <cstring>
 #include <unordered_set>
 
-#include "asset/image/jpeg.hpp"
-#include "asset/image/png_writer.hpp"
+#include "asset/image/codecs.hpp"
 #include "bake/texture/image_choice.hpp"
 
 namespace faqem::detail {

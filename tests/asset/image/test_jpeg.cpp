@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "asset/image/codecs.hpp"
 #include "asset/image/image.hpp"
-#include "asset/image/jpeg.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 #include "support/image_builder.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "asset/image/codecs.hpp"
 #include "asset/image/image.hpp"
-#include "asset/image/png_writer.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 #include "support/image_builder.hpp"
