@@ -11,13 +11,13 @@ SAME_AS_SIMPLIFY = {"lod", "batch", "truncate"}
 
 
 def options_of_tool(tool):
-    """Returns command -> options, from the manual page."""
-    manual = subprocess.run([tool, "man"], check=True, capture_output=True, text=True).stdout.replace("\\-", "-")
-    commands = {}
-    for section in re.split(r"^\.SS ", manual.split(".SH EXIT STATUS")[0], flags=re.M)[1:]:
-        name = re.match(r"\\fBfaqem (\S+)\\fR", section).group(1)
-        commands[name] = set(re.findall(r"^\\fB.*?(--[a-z-]+)\\fR", section, flags=re.M)) - {"--help", "--help-all"}
-    return commands
+    """Returns command -> options, from the help of all commands."""
+    def output(*arguments):
+        return subprocess.run([tool, *arguments], check=True, capture_output=True, text=True).stdout
+
+    names = re.findall(r"^  ([a-z]+)  ", output("--help").split("Commands:")[1].split("\n\n")[0], flags=re.M)
+    return {name: set(re.findall(r"^  (?:-\w, )?(--[a-z-]+)", output(name, "--help-all"), flags=re.M)) -
+            {"--help", "--help-all"} for name in names}
 
 
 def options_of_page(page):

@@ -85,7 +85,7 @@ SMALL = {
     "include/faqem/detail/simplify/simplify",
     "src/asset/gltf/gltf",
     "src/cli/commands/commands",
-    "src/cli/commands/completion_and_man",
+    "src/cli/commands/completion_and_profiles",
     # What the wheel replaces in other libraries.
     "src/python/native/glibc",
     "src/python/native/tinygltf",

@@ -17,6 +17,5 @@ CommandInfo render_command();
 CommandInfo report_command();
 CommandInfo profiles_command();
 CommandInfo completion_command();
-CommandInfo man_command();
 
 }  // namespace faqem::cli

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Commands and options as plain data. The parser, the manual page, completion scripts, suggestions and the keys of
+/// Commands and options as plain data. The parser, help, completion scripts, suggestions and the keys of
 /// profiles are made from it.
 
 #include <functional>

@@ -9,7 +9,6 @@
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/shell/completion.hpp"
-#include "cli/shell/man_page.hpp"
 #include "cli/shell/parser.hpp"
 #include "cli/shell/suggestion.hpp"
 #include "faqem/error.hpp"
@@ -128,9 +127,6 @@ TEST_CASE("an option that is added to the table is in the command, its messages,
     CHECK_THROWS_WITH(extended.run({"simplify", "--w-novelty=4"}), "--w-novelty must be in [0, 3]");
     CHECK(suggestion(extended.tree, {"simplify", "--w-noveltee"}) == "--w-novelty");
 
-    CHECK(contains_text(
-        man_page(extended.tree, "1"),
-        "\\fB\\-\\-w\\-novelty\\fR \\fIW\\fR\nWeight of the novelty term; in [0, 3]; default: 1.5"));
     CHECK(contains_text(bash_completion(extended.tree), "--w-novelty"));
     CHECK(contains_text(zsh_completion(extended.tree), "'--w-novelty[Weight of the novelty term"));
 

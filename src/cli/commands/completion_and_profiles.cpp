@@ -8,8 +8,6 @@
 #include "cli/options/builtin_profiles.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/shell/completion.hpp"
-#include "cli/shell/man_page.hpp"
-#include "faqem/version.hpp"
 
 namespace faqem::cli {
 
@@ -39,13 +37,6 @@ CommandInfo profiles_command() {
             {},
             [name] {
                 std::cout << (name->empty() ? profile_list() : profile_file(builtin_profile(*name)));
-                return exit_ok;
-            }};
-}
-
-CommandInfo man_command() {
-    return {"man", "Print the manual page", {"faqem man | man -l -"}, {}, {}, [] {
-                std::cout << man_page(command_tree(), version());
                 return exit_ok;
             }};
 }
