@@ -82,8 +82,10 @@ TEST_CASE("a limit that the smallest result exceeds is refused with the size of 
     const Outcome none = run(folder, "simplify in.glb out.glb --max-bytes 0");
     CHECK(none.code == 10);
     CHECK(none.err.find(before) != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "out.glb"));
     const Outcome outcome = run(folder, "simplify in.glb out.glb --max-bytes 300");
     REQUIRE(outcome.code == 10);
+    CHECK(outcome.err.find("max_bytes allows 300") != std::string::npos);
     const std::size_t at = outcome.err.find(before);
     REQUIRE(at != std::string::npos);
     const std::string bytes = std::to_string(std::stoul(outcome.err.substr(at + before.size())));

@@ -72,15 +72,6 @@ TEST_CASE("--max-bytes does not depend on the name of the result") {
     CHECK(read(folder / "OUTPUT.GLB") == read(folder / "out.glb"));
 }
 
-TEST_CASE("simplify --max-bytes keeps an image format that was specified") {
-    const Folder folder;
-    faqem::save(noisy_sheet(20), folder / "in.glb");
-    const std::string command = "simplify in.glb out.glb --ratio 0.5 --max-bytes 80000 --image-format png";
-    REQUIRE(run(folder, command).code == 0);
-    CHECK(fs::file_size(folder / "out.glb") <= 80000);
-    CHECK(faqem::load(folder / "out.glb").images[0].mime_type == "image/png");
-}
-
 TEST_CASE("simplify --max-bytes reduces only faces if there are no images") {
     const Folder folder;
     faqem::save(sheet(60, 0.2), folder / "in.ply");
@@ -99,15 +90,4 @@ TEST_CASE("simplify --max-bytes counts all files of a model") {
         CHECK(bytes_in(folder / "to") <= 50000);
         fs::remove_all(folder / "to");
     }
-}
-
-TEST_CASE("simplify --max-bytes exits with 10 and writes no model if no result fits") {
-    const Folder folder;
-    faqem::save(sheet(20), folder / "in.glb");
-    const Outcome outcome = run(folder, "simplify in.glb out.glb --max-bytes 200");
-    CHECK(outcome.code == 10);
-    CHECK(outcome.err.find("max_bytes allows 200") != std::string::npos);
-    CHECK_FALSE(fs::exists(folder / "out.glb"));
-    CHECK(run(folder, "simplify in.glb out.glb --max-bytes 0").code == 10);
-    CHECK(run(folder, "simplify in.glb out.glb --max-bytes 1MB --max-error 1%").code == 2);
 }
