@@ -68,7 +68,7 @@ TEST_CASE("zsh completes commands, options and values") {
         "compdef() { }\n_describe() { print -rl -- $commands }\n_arguments() { print -rl -- \"$@\" }\n"
         "source ./_faqem\n";
     const WordSet commands = lines_of("zsh -f", folder, beginning + "words=(faqem s) CURRENT=2\n_faqem\n");
-    CHECK(commands.size() == 12);
+    CHECK(commands.size() == 11);
     CHECK(commands.count("info:Count and measure the contents of a file"));
     const WordSet options =
         lines_of("zsh -f", folder, beginning + "words=(faqem simplify -) CURRENT=3\n_faqem\n");
