@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "asset/file_format.hpp"
 #include "faqem/error.hpp"
 #include "result/image_trials.hpp"
 
@@ -31,6 +33,13 @@ std::uint64_t fixed_bytes(UnencodedResult result, ModelFormat format) {
 }
 
 }  // namespace
+
+ModelSize model_size(const Asset& asset, ModelFormat format) {
+    constexpr std::size_t name_length = 64;
+    const std::string_view extension = result_format(format, format).extension;
+    const EncodedModel model = encode_model(asset, std::string(name_length, 'm').append(extension));
+    return {model.bytes() - model.image_bytes(), model.image_bytes()};
+}
 
 ModelSize fit_images(UnencodedResult& result, const Options& options, const RunContext& context,
                      std::uint64_t bytes) try {

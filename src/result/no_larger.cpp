@@ -10,7 +10,6 @@
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/error.hpp"
 #include "result/fit_images.hpp"
-#include "result/model_size.hpp"
 #include "result/picture_meter.hpp"
 #include "scene/part_reports.hpp"
 #include "scene/resolved_options.hpp"

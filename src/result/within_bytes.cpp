@@ -11,7 +11,6 @@
 #include "faqem/error.hpp"
 #include "result/best_picture.hpp"
 #include "result/fit_images.hpp"
-#include "result/model_size.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/simplify_parts.hpp"
 

@@ -6,10 +6,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "bake/atlas/per_triangle.hpp"
 #include "bake/page/page_request.hpp"
 #include "bake/page/texel_values.hpp"
 
 namespace faqem::detail {
+
+/// By texel of a page: nonzero if its centre is in a triangle, or if the centre of a triangle is in it. The
+/// gutter is not among them: it is read at the edges of triangles only, with small weights.
+/// Complexity: O(texels + triangles).
+std::vector<std::uint8_t> shown_texels(const Atlas& atlas);
 
 /// Encodes texels in the images of a page. Different texels can be written concurrently.
 class PageCanvas {

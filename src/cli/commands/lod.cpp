@@ -72,31 +72,6 @@ struct Outputs {
     fs::path manifest;
 };
 
-/// Checks the options of --textures shared. The library checks them too; these messages name the command's
-/// options.
-void check_shared_textures(const LodArguments& a, const Options& options) {
-    if (a.level_textures() != LevelTextures::shared) return;
-    if (!a.history.empty())
-        throw OptionError(
-            "--history: cannot be used with --textures shared, where only the finest level is simplified "
-            "from the original");
-    const Bake kind = options.bake.kind;
-    if (kind != Bake::automatic && kind != Bake::atlas)
-        throw OptionError("--textures shared: requires --bake auto or atlas");
-    if (options.topology.group_boundaries == GroupBoundaries::preserved)
-        throw OptionError(
-            "--keep-groups: cannot be used with --textures shared, where the new atlas may merge materials");
-}
-
-/// Checks the options of --max-bytes.
-void check_max_bytes(const LodArguments& a, const Outputs& outputs, const Options& options) {
-    if (!options.max_bytes) return;
-    if (a.level_textures() == LevelTextures::shared)
-        throw OptionError(
-            "--max-bytes: cannot be used with --textures shared, where levels have the same images");
-    if (outputs.is_file) throw OptionError("--max-bytes: cannot be used with one file of all levels");
-}
-
 /// Removes in the end the directories of a path that did not exist before and are still empty.
 struct NewFolders {
     explicit NewFolders(fs::path folder) {
@@ -305,9 +280,9 @@ int run(LodArguments arguments) {
     std::vector<Level> levels;
     for (const std::string& text : arguments.levels)
         levels.push_back(parse_level(text, arguments.view_settings));
-    check_shared_textures(arguments, options);
     const Outputs outputs(arguments);
-    check_max_bytes(arguments, outputs, options);
+    if (options.max_bytes && outputs.is_file)
+        throw OptionError("--max-bytes: cannot be used with one file of all levels");
     options.format = format_of_output(outputs.models[0]);
     const NewFolders folders(outputs.is_file ? "" : arguments.out);
     arguments.overwrite = prepare_outputs(arguments, outputs);

@@ -1,4 +1,4 @@
-#include "bake/page/shown_texels.hpp"
+#include "bake/page/page_canvas.hpp"
 
 #include <numeric>
 

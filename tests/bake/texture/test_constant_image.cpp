@@ -1,4 +1,4 @@
-#include "bake/texture/constant_image.hpp"
+#include "bake/texture/page_material.hpp"
 
 #include "asset/scene/material_textures.hpp"
 #include "support/catch.hpp"
