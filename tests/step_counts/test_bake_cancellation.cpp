@@ -35,7 +35,7 @@ TEST_CASE("cancellation is checked often during the layout of single triangles")
     std::vector<AtlasTriangle> cells(mesh.triangles.size());
     for (std::size_t f = 0; f < cells.size(); ++f) {
         const double leg = 2 + static_cast<double>(f % 17);
-        cells[f] = {0, {leg, leg}, f};
+        cells[f] = {0, {leg, leg}, f, no_index};
     }
     const std::uint64_t packing =
         longest_silence([&](const engine::RunContext& context) { pack_triangles(cells, 4096, context); });

@@ -7,16 +7,11 @@
 #include <vector>
 
 #include "bake/atlas/point2.hpp"
+#include "bake/atlas/triangle_pairs.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
-
-/// The triangle across an edge, and its corner opposite this edge.
-struct AdjacentTriangle {
-    Index triangle = no_index;
-    std::uint8_t corner = 0;
-};
 
 /// A triangle to be placed on a page.
 struct PageTriangle {

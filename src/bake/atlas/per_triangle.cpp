@@ -5,6 +5,8 @@
 #include <limits>
 #include <tuple>
 
+#include "bake/atlas/triangle_pairs.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -32,9 +34,11 @@ std::uint32_t block_size_for(double shorter_leg) {
     return block_size;
 }
 
-// The hypotenuses of the two triangles of a cell are shifted against each other by (m, m) texels. m = 2 is
-// enough for bilinear reads of level 0; larger margins reduce mixing on coarser levels.
-std::uint32_t margin_of(std::uint32_t block_size) { return block_size + std::max(2u, block_size); }
+// The hypotenuses of two triangles that are not partners are shifted against each other by (m, m) texels.
+// m = 2 is enough for bilinear reads of level 0; larger margins reduce mixing on coarser levels.
+std::uint32_t margin_of(std::uint32_t block_size, bool has_shared_hypotenuse) {
+    return block_size + (has_shared_hypotenuse ? 0 : std::max(2u, block_size));
+}
 
 // Rounds to four size classes per octave and to a multiple of the block size.
 std::uint32_t cell_size_class(double x, std::uint32_t block_size) {
@@ -49,14 +53,14 @@ std::uint32_t cell_side(double leg, std::uint32_t block_size, std::uint32_t marg
     return side;
 }
 
-CellShape cell_shape(const std::array<double, 2>& legs, double scale) {
+CellShape cell_shape(const std::array<double, 2>& legs, double scale, bool has_shared_hypotenuse) {
     const double a = legs[0] * scale, b = legs[1] * scale;
     CellShape shape;
     if (!(std::max(a, b) >= 0.75)) return shape;
     shape.is_single_texel = false;
     shape.is_transposed = a < b;
     shape.block_size = block_size_for(std::min(a, b));
-    shape.margin = margin_of(shape.block_size);
+    shape.margin = margin_of(shape.block_size, has_shared_hypotenuse);
     shape.width = cell_side(std::max(a, b), shape.block_size, shape.margin);
     shape.height = cell_side(std::min(a, b), shape.block_size, shape.margin);
     return shape;
@@ -67,6 +71,7 @@ struct Unit {
     CellShape shape;
     Index first = no_index, second = no_index;
     std::uint64_t order = 0;
+    bool has_shared_hypotenuse = false;
 };
 
 // Places the corners of the first or the second triangle of a cell; the second is rotated by 180 degrees.
@@ -102,19 +107,33 @@ class ShelfPacking {
 public:
     ShelfPacking(std::span<const AtlasTriangle> triangles, double scale, const engine::RunContext& context)
         : triangles_(triangles), scale_(scale) {
-        std::vector<Unit> single;
-        for (std::size_t i = 0; i < triangles.size(); ++i)
-            single.push_back(
-                {cell_shape(triangles[i].legs, scale), static_cast<Index>(i), no_index, triangles[i].order});
+        std::vector<Unit> unpaired;
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const auto t = static_cast<Index>(i);
+            const AtlasTriangle& a = triangles[i];
+            if (a.partner != no_index) {
+                const AtlasTriangle& b = triangles[a.partner];
+                const std::array<double, 2> legs = {shared_side(a.legs[0], b.legs[0]),
+                                                    shared_side(a.legs[1], b.legs[1])};
+                const CellShape shape = cell_shape(legs, scale, true);
+                if (!shape.is_single_texel) {
+                    if (t < a.partner) units_.push_back({shape, t, a.partner, a.order, true});
+                    continue;
+                }
+                units_.push_back({shape, t, no_index, a.order, false});
+                continue;
+            }
+            unpaired.push_back({cell_shape(a.legs, scale, false), t, no_index, a.order, false});
+        }
         context.check_now();
-        std::sort(single.begin(), single.end(), [](const Unit& a, const Unit& b) {
+        std::sort(unpaired.begin(), unpaired.end(), [](const Unit& a, const Unit& b) {
             return std::tuple(a.shape.key(), a.order, a.first) < std::tuple(b.shape.key(), b.order, b.first);
         });
-        for (std::size_t i = 0; i < single.size(); ++i) {
-            Unit unit = single[i];
-            const bool two = !unit.shape.is_single_texel && i + 1 < single.size() &&
-                             unit.shape.key() == single[i + 1].shape.key();
-            if (two) unit.second = single[++i].first;
+        for (std::size_t i = 0; i < unpaired.size(); ++i) {
+            Unit unit = unpaired[i];
+            const bool two = !unit.shape.is_single_texel && i + 1 < unpaired.size() &&
+                             unit.shape.key() == unpaired[i + 1].shape.key();
+            if (two) unit.second = unpaired[++i].first;
             units_.push_back(unit);
         }
         context.check_now();
@@ -152,7 +171,8 @@ public:
         Atlas result{width, height, std::vector<TrianglePlacement>(triangles_.size()), {}, scale_};
         place_on_shelves(width, height, [&](std::size_t i, std::uint32_t x, std::uint32_t y) {
             const Unit& unit = units_[i];
-            result.cells.push_back({x, y, unit.shape.width, unit.shape.height, unit.first, unit.second});
+            result.cells.push_back({x, y, unit.shape.width, unit.shape.height, unit.first, unit.second,
+                                    unit.has_shared_hypotenuse});
             for (Index t : {unit.first, unit.second})
                 if (t != no_index)
                     result.placements[t] =

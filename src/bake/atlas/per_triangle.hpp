@@ -20,13 +20,16 @@ inline constexpr std::uint32_t max_block_size = 16;
 
 /// Input triangle of the per-triangle atlas. It becomes a right triangle on the page.
 struct AtlasTriangle {
-    /// The corner that gets the right angle: the one with the largest angle.
+    /// The corner that gets the right angle: opposite the edge to the partner, else with the largest angle.
     std::uint8_t right_angle_corner = 0;
     /// Wanted lengths in texels of the edges from `right_angle_corner` to the next corner and to the one
     /// after it.
     std::array<double, 2> legs = {0, 0};
     /// Sort key. Triangles with close values look alike, and are placed close to each other.
     std::uint64_t order = 0;
+    /// The triangle across the edge opposite `right_angle_corner`, with consistent winding; `no_index`: none.
+    /// Symmetric: partners name each other. They share this edge on the page.
+    Index partner = no_index;
 };
 
 /// Position of a triangle on the page. The UVs of its corners are in texels; the centre of texel (i, j) is at
@@ -37,14 +40,16 @@ struct TrianglePlacement {
     std::array<std::uint32_t, 2> legs = {0, 0};
 };
 
-/// A rectangle of texels that belongs to one triangle, or to two with a margin between them.
+/// A rectangle of texels that belongs to one or two triangles.
 struct AtlasCell {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
     Index first = no_index, second = no_index;  ///< triangles; the second is rotated by 180 degrees
+    /// The triangles are partners and share their hypotenuse. Otherwise there is a margin between them.
+    bool has_shared_hypotenuse = false;
 };
 
 /// A page. Cells do not overlap. Every texel that a bilinear read inside a triangle touches is in the
-/// triangle's cell, on the triangle's side of it.
+/// triangle's cell and, unless the cell is shared by partners, on the triangle's side of the cell.
 struct Atlas {
     std::uint32_t width = 0, height = 0;        ///< powers of two
     std::vector<TrianglePlacement> placements;  ///< by triangle
@@ -53,9 +58,10 @@ struct Atlas {
 };
 
 /// Packs triangles into rectangular cells, and the cells on shelves.
-/// The width and the height of a cell are quantized to four size classes per octave. Triangles of equal shape
-/// share cells in twos. Takes the smallest page on which the wanted lengths fit, and then the largest scale
-/// that fits on this page, at most sqrt(2). If the largest page is too small, the scale is below 1.
+/// The width and the height of a cell are quantized to four size classes per octave. Partners share a cell;
+/// other triangles are put into cells in pairs of equal shape. Takes the smallest page on which the wanted
+/// lengths fit, and then the largest scale that fits on this page, at most sqrt(2). If the largest page is
+/// too small, the scale is below 1.
 /// Cells are aligned to a grid of 2^k texels and triangles begin 2^(k-1) texels inside their cell, so that
 /// mip level k reads texels of the triangle's own cell only; k grows with the cell. Cells of one size are in the order of
 /// AtlasTriangle::order, so that levels beyond k mix texels of cells that look alike.

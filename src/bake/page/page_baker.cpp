@@ -76,24 +76,29 @@ void bake_texel(const PageRequest& page, const SampleOrder& order, std::uint32_t
     canvas.write(x, y, sum);
 }
 
-// Bakes a cell. Between its two triangles a texel belongs to one of them.
+// Bakes a cell. Between two triangles that are not partners a texel belongs to one of them. On the shared hypotenuse
+// of partners a texel can have samples of both.
 void bake_piece(const PageRequest& page, const SampleOrder& order, const AtlasCell& cell, PageCanvas& canvas,
                 const RunContext& context) {
     std::vector<TexelProjector> projectors;
     projectors.reserve(2);
     for (const Index triangle : {cell.first, cell.second})
         if (triangle != no_index) projectors.emplace_back(page, triangle);
+    // The two triangles have equal legs and adjacent hypotenuses: the one with the larger barycentric coordinate of
+    // the right-angle corner is closer.
+    const auto projector_at = [&](double x, double y) -> TexelProjector& {
+        const bool is_second = projectors.size() > 1 && projectors[1].right_angle_weight(x, y) >
+                                                            projectors[0].right_angle_weight(x, y);
+        return projectors[is_second ? 1 : 0];
+    };
     for (std::uint32_t y = cell.y; y < cell.y + cell.height; ++y) {
         context.count(std::uint64_t{cell.width} * page.samples * page.samples);
         for (std::uint32_t x = cell.x; x < cell.x + cell.width; ++x) {
-            // The two triangles have equal legs and parallel hypotenuses: the one with the larger barycentric
-            // coordinate of the right-angle corner is closer.
-            const auto weight = [&](std::size_t i) {
-                return projectors[i].right_angle_weight(x + 0.5, y + 0.5);
+            const auto projector_of = [&](const SamplePlace& place) -> TexelProjector& {
+                return cell.has_shared_hypotenuse ? projector_at(x + place.s, y + place.t)
+                                                  : projector_at(x + 0.5, y + 0.5);
             };
-            TexelProjector& closer = projectors[projectors.size() > 1 && weight(1) > weight(0) ? 1 : 0];
-            bake_texel(
-                page, order, x, y, [&](const SamplePlace&) -> TexelProjector& { return closer; }, canvas);
+            bake_texel(page, order, x, y, projector_of, canvas);
         }
     }
 }

@@ -1,11 +1,11 @@
 #include "bake/page/page_layout.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <utility>
 
 #include "bake/atlas/charts.hpp"
+#include "bake/atlas/triangle_pairs.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
@@ -13,25 +13,37 @@ namespace {
 
 using engine::to_eigen;
 
-// Placing so many charts takes several times as long as placing cells of single triangles. These look nearly as good
-// where charts have few faces.
-constexpr std::size_t many_charts = 5000, few_faces_per_chart = 3;
+// With fewer faces, charts have more gutter than the cells of a per-triangle atlas.
+constexpr std::size_t min_mean_faces_per_chart = 3;
 
-AtlasTriangle atlas_triangle(const PageTriangle& triangle, std::uint64_t order) {
-    std::array<double, 3> edges;  // by opposite corner
+std::uint8_t opposite_longest_edge(const PairTriangle& triangle) {
+    const auto longest = std::max_element(triangle.edges.begin(), triangle.edges.end());
+    return static_cast<std::uint8_t>(longest - triangle.edges.begin());
+}
+
+PairTriangle pair_triangle(const PageTriangle& triangle) {
+    PairTriangle result{{}, triangle.adjacent};
     for (std::size_t c = 0; c < 3; ++c) {
         const auto &p = triangle.corners[(c + 1) % 3], &q = triangle.corners[(c + 2) % 3];
-        edges[c] = triangle.density * (to_eigen(p) - to_eigen(q)).norm();
+        result.edges[c] = triangle.density * (to_eigen(p) - to_eigen(q)).norm();
     }
-    const auto c = static_cast<std::size_t>(std::max_element(edges.begin(), edges.end()) - edges.begin());
-    return {static_cast<std::uint8_t>(c), {edges[(c + 2) % 3], edges[(c + 1) % 3]}, order};
+    return result;
 }
 
 std::optional<PageLayout> layout_triangles(const PageMesh& mesh, std::uint32_t texture_size,
                                            const RunContext& context) {
-    std::vector<AtlasTriangle> triangles;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        triangles.push_back(atlas_triangle(mesh.triangles[i], mesh.order[i]));
+    std::vector<PairTriangle> shapes(mesh.triangles.size());
+    std::transform(mesh.triangles.begin(), mesh.triangles.end(), shapes.begin(), pair_triangle);
+    const std::vector<std::uint8_t> corner = pair_triangles(shapes);
+    std::vector<AtlasTriangle> triangles(shapes.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        AtlasTriangle& t = triangles[i];
+        t.right_angle_corner = corner[i] < 3 ? corner[i] : opposite_longest_edge(shapes[i]);
+        t.legs = {shapes[i].edges[(t.right_angle_corner + 2) % 3],
+                  shapes[i].edges[(t.right_angle_corner + 1) % 3]};
+        t.order = mesh.order[i];
+        if (corner[i] < 3) t.partner = shapes[i].adjacent[corner[i]].triangle;
+    }
     std::optional<Atlas> atlas = pack_triangles(triangles, texture_size, context);
     if (!atlas) return std::nullopt;
     PageLayout result{*std::move(atlas), {}, {}, {}};
@@ -67,10 +79,9 @@ std::optional<PageLayout> layout_by_kind(const PageMesh& mesh, Bake kind, std::u
                                          const RunContext& context) {
     if (kind == Bake::per_triangle) return layout_triangles(mesh, texture_size, context);
     const Charts charts = make_charts(mesh.triangles, context);
-    const bool takes_triangles = kind == Bake::automatic && charts.charts.size() > many_charts &&
-                                 mesh.triangles.size() < few_faces_per_chart * charts.charts.size();
-    return takes_triangles ? layout_triangles(mesh, texture_size, context)
-                           : layout_charts(mesh, charts, texture_size, context);
+    const bool has_small_charts = min_mean_faces_per_chart * charts.charts.size() > mesh.triangles.size();
+    return kind == Bake::automatic && has_small_charts ? layout_triangles(mesh, texture_size, context)
+                                                       : layout_charts(mesh, charts, texture_size, context);
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ struct PageLayout {
 };
 
 /// Places the triangles of a page.
-/// \param kind          Bake::atlas, Bake::per_triangle or Bake::automatic: charts, unless they are more than 5,000
-///                      with fewer than three triangles on average
+/// \param kind          Bake::atlas, Bake::per_triangle or Bake::automatic: charts, unless they have fewer than 3
+///                      triangles on average
 /// \param texture_size  largest width and height of the page in texels, a power of two
 /// \return nothing if there are more charts than texels or, for an atlas by triangle, more triangles
 /// \throws whatever `context` throws

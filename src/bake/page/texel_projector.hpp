@@ -88,8 +88,8 @@ public:
     /// off by the dihedral angle.
     engine::Vector3 to_tangent_space(const TexelSample& at, const engine::Vector3& normal) const;
 
-    /// Barycentric coordinate of the right-angle corner at a point of the page. Of the two triangles of a cell
-    /// the one with the larger value is closer to the point.
+    /// Barycentric coordinate of the right-angle corner at a point of the page. The partner with the larger
+    /// value is closer to the point.
     double right_angle_weight(double x, double y) const { return frame_.at(x, y)[right_angle_corner_]; }
 
     /// Index of the part that the triangle belongs to.

@@ -26,6 +26,17 @@ std::vector<AtlasTriangle> random_triangles(std::size_t count, double largest) {
     return result;
 }
 
+// Random triangles, of which every fourth one has its successor as partner.
+std::vector<AtlasTriangle> random_partners(std::size_t count, double largest) {
+    std::vector<AtlasTriangle> result = random_triangles(count, largest);
+    for (std::size_t i = 0; i + 3 < count; i += 4) {
+        result[i].partner = static_cast<Index>(i + 1);
+        result[i + 1].partner = static_cast<Index>(i);
+        result[i + 1].legs = {result[i].legs[0] * 1.1, result[i].legs[1] * 0.9};
+    }
+    return result;
+}
+
 // Texels that bilinear filtering reads in a triangle. Weights within the rounding error are ignored.
 std::set<std::pair<int, int>> texels_read(const TrianglePlacement& placement) {
     std::set<std::pair<int, int>> result;
@@ -47,9 +58,9 @@ std::set<std::pair<int, int>> texels_read(const TrianglePlacement& placement) {
 
 }  // namespace
 
-TEST_CASE("bilinear reads of a triangle use no texels of other triangles") {
+TEST_CASE("bilinear reads of a triangle use no texels of other triangles except its partner") {
     const double largest = GENERATE(3.0, 20.0, 90.0);
-    const auto triangles = random_triangles(300, largest);
+    const auto triangles = GENERATE_COPY(random_triangles(300, largest), random_partners(300, largest));
     const auto atlas = pack_triangles(triangles, 4096);
     REQUIRE(atlas);
     CHECK(std::has_single_bit(atlas->width));
@@ -60,18 +71,40 @@ TEST_CASE("bilinear reads of a triangle use no texels of other triangles") {
         for (const auto& [x, y] : texels_read(atlas->placements[t])) {
             REQUIRE((x >= 0 && y >= 0 && x < int(atlas->width) && y < int(atlas->height)));
             const auto [found, fresh] = owner.insert({{x, y}, t});
-            REQUIRE((fresh || found->second == t));
+            REQUIRE((fresh || found->second == t || triangles[t].partner == found->second));
         }
     }
 }
 
+TEST_CASE("partners share their common edge on the page") {
+    const double largest = GENERATE(0.9, 20.0, 90.0);
+    const auto triangles = random_partners(300, largest);
+    const auto atlas = pack_triangles(triangles, 4096);
+    REQUIRE(atlas);
+    std::size_t joined = 0;
+    for (const AtlasCell& cell : atlas->cells) {
+        if (!cell.has_shared_hypotenuse) continue;
+        ++joined;
+        REQUIRE(triangles[cell.first].partner == cell.second);
+        const TrianglePlacement &a = atlas->placements[cell.first], &b = atlas->placements[cell.second];
+        CHECK(a.legs == b.legs);
+        const std::size_t ra = triangles[cell.first].right_angle_corner,
+                          rb = triangles[cell.second].right_angle_corner;
+        CHECK(a.uv[(ra + 1) % 3] == b.uv[(rb + 2) % 3]);
+        CHECK(a.uv[(ra + 2) % 3] == b.uv[(rb + 1) % 3]);
+        CHECK(a.uv[ra] != b.uv[rb]);
+    }
+    CHECK(joined > 0);
+    if (largest > 50) CHECK(joined == 75);  // no pair is reduced to single texels
+}
+
 TEST_CASE("mip levels up to that of the block size read texels of their own cell only") {
-    const auto triangles = random_triangles(300, 90);
+    const auto triangles = random_partners(300, 90);
     const auto atlas = pack_triangles(triangles, 4096);
     REQUIRE(atlas);
     std::map<std::uint32_t, int> seen;
     for (const AtlasCell& cell : atlas->cells) {
-        if (cell.second == no_index) continue;
+        if (!cell.has_shared_hypotenuse) continue;
         Box2 box;
         for (Index t : {cell.first, cell.second}) {
             for (const Point2& uv : atlas->placements[t].uv) box.add(uv);
