@@ -22,7 +22,7 @@ for group in "$@"; do
     case $group in
         build) ;;
         test)
-            packages="$packages catch2 ccache doxygen file python3-numpy python3-pip zsh chromium $npm"
+            packages="$packages catch2 ccache doxygen file python3-numpy python3-pip chromium $npm"
             ;;
         clang) packages="$packages clang libclang-rt-dev" ;;
         tidy) packages="$packages clang clang-tidy clang-format" ;;

@@ -15,12 +15,11 @@ CommandInfo completion_command() {
     const auto shell = std::make_shared<std::string>();
     return {"completion",
             "Print a completion script for a shell",
-            {"source <(faqem completion bash)", "faqem completion zsh > ~/.zfunc/_faqem"},
-            {positional("SHELL", *shell, "bash or zsh", "bash|zsh")},
+            {"source <(faqem completion bash)"},
+            {positional("SHELL", *shell, "bash", "bash")},
             {},
             [shell] {
-                const CommandTree tree = command_tree();
-                std::cout << (*shell == "bash" ? bash_completion(tree) : zsh_completion(tree));
+                std::cout << bash_completion(command_tree());
                 return exit_ok;
             }};
 }

@@ -128,7 +128,6 @@ TEST_CASE("an option that is added to the table is in the command, its messages,
     CHECK(suggestion(extended.tree, {"simplify", "--w-noveltee"}) == "--w-novelty");
 
     CHECK(contains_text(bash_completion(extended.tree), "--w-novelty"));
-    CHECK(contains_text(zsh_completion(extended.tree), "'--w-novelty[Weight of the novelty term"));
 
     const Folder folder;
     write(folder / "p.json", R"({"faqem-profile": 1, "w-novelty": 1.25})");

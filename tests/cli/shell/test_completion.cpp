@@ -48,34 +48,13 @@ TEST_CASE("bash completes commands, options and values") {
     CHECK(in_bash("info --", 2) == WordSet{"--help", "--help-all", "--json"});
     CHECK(in_bash("simplify --preset ''", 3) == WordSet{"qem", "paper", "stmw", "fast", "balanced", "best"});
     CHECK(in_bash("batch models simplified --format g", 5) == WordSet{"glb", "gltf"});
-    CHECK(in_bash("completion ''", 2) == WordSet{"bash", "zsh"});
+    CHECK(in_bash("completion ''", 2) == WordSet{"bash"});
 }
 
 TEST_CASE("bash completion offers no words for file names") {
     CHECK(in_bash("simplify ''", 2).empty());
     CHECK(in_bash("simplify mod", 2).empty());
     CHECK(in_bash("simplify a.glb b.glb --report ''", 5).empty());
-}
-
-TEST_CASE("zsh completes commands, options and values") {
-    if (std::system("command -v zsh >/dev/null") != 0) {
-        WARN("skipped: zsh was not found");
-        return;
-    }
-    const Folder folder;
-    write(folder / "_faqem", run(folder, "completion zsh").out);
-    const std::string beginning =
-        "compdef() { }\n_describe() { print -rl -- $commands }\n_arguments() { print -rl -- \"$@\" }\n"
-        "source ./_faqem\n";
-    const WordSet commands = lines_of("zsh -f", folder, beginning + "words=(faqem s) CURRENT=2\n_faqem\n");
-    CHECK(commands.size() == 11);
-    CHECK(commands.count("info:Count and measure the contents of a file"));
-    const WordSet options =
-        lines_of("zsh -f", folder, beginning + "words=(faqem simplify -) CURRENT=3\n_faqem\n");
-    CHECK(options.count(
-        "--budget[How the faces are distributed among the meshes of a scene]:value:(scene mesh)"));
-    CHECK(options.count("--force[Overwrite existing files]"));
-    CHECK(options.count("*:argument:_files"));
 }
 
 TEST_CASE("completion rejects other shells") { CHECK(run(Folder(), "completion fish").code == 2); }
