@@ -1,4 +1,4 @@
-#include "result/no_larger.hpp"
+#include "result/size_rules.hpp"
 
 #include <numeric>
 #include <optional>

@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "bake/scene/unencoded_result.hpp"
-#include "result/no_larger.hpp"
-#include "result/within_bytes.hpp"
+#include "result/size_rules.hpp"
 #include "scene/simplify_parts.hpp"
 
 namespace faqem {

@@ -1,4 +1,4 @@
-#include "result/within_bytes.hpp"
+#include "result/size_rules.hpp"
 
 #include <algorithm>
 #include <cstdint>

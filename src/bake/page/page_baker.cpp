@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bake/page/page_canvas.hpp"
-#include "bake/page/sample_order.hpp"
 #include "bake/page/texel_projector.hpp"
 #include "bake/page/texel_values.hpp"
 #include "faqem/engine/mesh/vector.hpp"
@@ -16,6 +15,20 @@ namespace faqem::detail {
 namespace {
 
 using engine::Vector3;
+
+using Places = std::vector<std::array<std::uint32_t, 2>>;
+
+// The first samples, then the others row by row.
+std::vector<SamplePlace> sample_places(std::uint32_t samples, Places places) {
+    for (std::uint32_t row = 0; row < samples; ++row)
+        for (std::uint32_t column = 0; column < samples; ++column)
+            if (std::find(places.begin(), places.end(), std::array{column, row}) == places.end())
+                places.push_back({column, row});
+    std::vector<SamplePlace> result;
+    for (const auto& [column, row] : places)
+        result.push_back({column, row, (column + 0.5) / samples, (row + 0.5) / samples});
+    return result;
+}
 
 // The extension textures at a sample. Samples of another material, on a neighbouring face, have no value for these.
 void sample_layers(const PageRequest& page, const TexelProjector& projector, const TexelSample& at,
@@ -127,6 +140,19 @@ void bake_piece(const PageRequest& page, const SampleOrder& order, const ChartTi
 }
 
 }  // namespace
+
+SampleOrder::SampleOrder(std::uint32_t samples) {
+    const std::uint32_t last = samples - 1, middle = last / 2;
+    std::array<Places, 2> first;
+    if (samples == 1)
+        first = {{{{0, 0}}, {{0, 0}}}};
+    else if (samples == 2)
+        first = {{{{0, 0}, {1, 1}}, {{1, 0}, {0, 1}}}};
+    else
+        first[0] = first[1] = {{middle, middle}, {0, 0}, {last, 0}, {0, last}, {last, last}};
+    first_samples_ = first[0].size();
+    for (std::size_t i = 0; i < 2; ++i) orders_[i] = sample_places(samples, first[i]);
+}
 
 PageImages bake_page(const PageRequest& page, double from, double to, const RunContext& context) {
     PageCanvas canvas(page);

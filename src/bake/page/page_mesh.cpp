@@ -252,8 +252,7 @@ PageDensity relative_density(std::span<const BakePart> parts, const PageMesh& me
     }
     PageDensity result{all.density(), all.density(), no_index};
     for (const auto& [material, texels] : by_material) {
-        if (!(texels.wanted > 0)) continue;
-        if (result.material == no_index || texels.density() < result.lowest) {
+        if (texels.wanted > 0 && (result.material == no_index || texels.density() < result.lowest)) {
             result.lowest = texels.density();
             result.material = material;
         }

@@ -41,8 +41,7 @@ int compare(const CornerValues& corners, std::uint64_t a, std::uint64_t b) {
 std::vector<std::size_t> closed_fans(const TriangleMesh& mesh, std::span<const std::uint64_t> corners) {
     const std::size_t count = corners.size();
     const std::vector<std::size_t> one_fan(count, 0);
-    constexpr std::size_t min_faces = 3;  // of a closed fan
-    if (count < 2 * min_faces) return one_fan;
+    if (count < 6) return one_fan;  // a closed fan has at least three faces
     const auto other_vertex = [&](std::size_t i, std::size_t step) {
         return mesh.triangles[corners[i] / 3][(corners[i] % 3 + step) % 3];
     };

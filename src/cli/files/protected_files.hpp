@@ -1,8 +1,10 @@
 #pragma once
 /// \file
-/// Protection of the input files: nothing that an input of the command is or refers to is overwritten.
+/// Protection of files: nothing that an input of the command, or another model beside an output, is or refers to is
+/// overwritten.
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace faqem::cli {
@@ -27,5 +29,15 @@ void check_unprotected(const std::filesystem::path& file);
 /// For commands that write files while others are not known yet.
 /// \throws OptionError, WriteError  as check_unprotected()
 void check_models_unprotected(const std::vector<std::filesystem::path>& models);
+
+/// Checks files that are written together: the files beside STEM.gltf and STEM.obj have names that both use
+/// (STEM_0.png), so that writing one model could replace an image of the other. For each .gltf and .obj file
+/// among the files, STEM.gltf, STEM.obj and STEM.mtl of its folder are examined if they are not written
+/// themselves.
+/// \param files  paths as they are written
+/// \throws WriteError  an existing file would be overwritten that such a model or library refers to; the
+///                     message names both
+/// Complexity: reads the other models, if one of the files beside the model exists.
+void check_side_files_unshared(std::span<const std::filesystem::path> files);
 
 }  // namespace faqem::cli

@@ -1,4 +1,4 @@
-#include "bake/page/sample_order.hpp"
+#include "bake/page/page_baker.hpp"
 
 #include <set>
 #include <utility>

@@ -1,6 +1,6 @@
 // Files beside a model that another model of the same name needs are not overwritten.
 
-#include "cli/files/side_file_owners.hpp"
+#include "cli/files/protected_files.hpp"
 
 #include <map>
 #include <vector>
