@@ -129,6 +129,8 @@ def run_help(runner):
                 if option == "--output":
                     output = " ".join(output.split()[1:])
                 command = f"faqem {name} {WORDS[name]} {output} {typed}{NEEDS.get(typed, '')}"
+                if option == "--until-eof":  # the standard input must not end
+                    command = f"mkfifo open && {command} <>open"
                 runner.run("each option", command, runner.folder(f"options/{runner.count}"))
     print(f"{len(done)} options")
 

@@ -30,7 +30,7 @@ class Command(unittest.TestCase):
         self.assertEqual(run(sys.executable, "-m", "faqem", "--version")[0], 0)
 
     def test_a_reader_that_closes_the_pipe_ends_it_like_other_programs(self):
-        with subprocess.Popen([sys.executable, "-m", "faqem", "completion", "bash"], stdin=subprocess.PIPE,
+        with subprocess.Popen([sys.executable, "-m", "faqem", "completion"], stdin=subprocess.PIPE,
                               stdout=subprocess.PIPE) as process:
             process.stdout.close()
             process.wait()

@@ -12,13 +12,7 @@
 namespace faqem::cli {
 
 CommandInfo completion_command() {
-    const auto shell = std::make_shared<std::string>();
-    return {"completion",
-            "Print a completion script for a shell",
-            {"source <(faqem completion bash)"},
-            {positional("SHELL", *shell, "bash", "bash")},
-            {},
-            [shell] {
+    return {"completion", "Print a completion script for bash", {"source <(faqem completion)"}, {}, {}, [] {
                 std::cout << bash_completion(command_tree());
                 return exit_ok;
             }};

@@ -283,6 +283,9 @@ int run(LodArguments arguments) {
     const Outputs outputs(arguments);
     if (options.max_bytes && outputs.is_file)
         throw OptionError("--max-bytes: cannot be used with one file of all levels");
+    if (arguments.level_textures() == LevelTextures::shared && !arguments.history.empty())
+        throw OptionError(
+            "--history: cannot be used with --textures shared, whose levels are no run of one mesh");
     options.format = format_of_output(outputs.models[0]);
     const NewFolders folders(outputs.is_file ? "" : arguments.out);
     arguments.overwrite = prepare_outputs(arguments, outputs);

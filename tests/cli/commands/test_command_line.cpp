@@ -8,7 +8,7 @@ TEST_CASE("help and version are printed to stdout with exit code 0") {
     const Folder folder;
     for (const char* arguments :
          {"", "help", "help simplify", "-V", "--help", "--version", "simplify --help", "batch --help",
-          "info --help", "compare --help", "render --help", "completion bash"}) {
+          "info --help", "compare --help", "render --help", "completion"}) {
         const Outcome outcome = run(folder, arguments);
         CHECK(outcome.code == 0);
         CHECK(!outcome.out.empty());
