@@ -15,8 +15,10 @@ python3 -B "$here/../../src/python/backend/faqem_backend.py" wheel "$work/wheels
 "$work/env/bin/pip" install --quiet --disable-pip-version-check --no-index --no-deps "$work"/wheels/faqem-*.whl
 cp "$here/engines.py" "$here/../python"/test_*.py "$work"
 cd "$work"
+injector=$(find "$build/tests" -name '*injector*.so' | head -n 1)
+[ -n "$injector" ] || { echo "$0: $build has no library that injects faults; build the preset test" >&2; exit 1; }
 for engine in ray dask; do
-    timeout 180 "$work/env/bin/python" -B engines.py $engine "$(find "$build/tests" -name '*injector*.so' | head -n 1)"
+    timeout 180 "$work/env/bin/python" -B engines.py $engine "$injector"
 done
 # fsspec came with Dask.
 timeout 180 "$work/env/bin/python" -B -m unittest test_batch
