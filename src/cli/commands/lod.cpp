@@ -3,8 +3,10 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <variant>
 
 #include "asset/file_format.hpp"
+#include "asset/io/encoded_model.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/lod_level.hpp"
 #include "cli/commands/lod_manifest.hpp"
@@ -18,6 +20,7 @@
 #include "cli/process/interrupt.hpp"
 #include "cli/process/progress_bar.hpp"
 #include "cli/process/rejection.hpp"
+#include "cli/process/shown_text.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/error.hpp"
 #include "faqem/save_levels.hpp"
@@ -110,13 +113,19 @@ void write_histories(const LodArguments& a, const std::vector<SimplifiedPartsLev
     write_output(a.history, out.view(), a.overwrite);
 }
 
+/// \param bytes_in  of the input
 /// \param warnings  of the manifest; those of the levels follow, and equal ones are printed once
-void print_summary(const LodArguments& a, const std::vector<WrittenLevel>& levels,
-                   std::vector<std::string> warnings) {
+void print_summary(const LodArguments& a, const Outputs& outputs, std::uint64_t bytes_in,
+                   const std::vector<WrittenLevel>& levels, std::vector<std::string> warnings) {
+    std::uint64_t bytes = outputs.is_file ? fs::file_size(a.out) : 0;
+    for (const WrittenLevel& level : levels) bytes += level.bytes;
     std::ostringstream out;
-    out << a.in << " -> " << a.out << "\n";
+    out << a.in << " -> " << a.out << "\n"
+        << shown_bytes(bytes_in) << " -> " << shown_bytes(bytes) << ", with " << outputs.manifest.string()
+        << "\n";
     for (const WrittenLevel& level : levels) {
-        out << "  " << level.file << ": " << level.faces << " faces, error " << level.error
+        out << "  " << level.file << ": " << level.faces << " faces, "
+            << (outputs.is_file ? "" : shown_bytes(level.bytes) + ", ") << "error " << level.error
             << ", from distance " << switch_distance(level.error, a.view_settings) << "\n";
         if (!level.report) continue;
         for (const std::string& warning : level.report->warnings)
@@ -140,6 +149,10 @@ public:
         warnings_ = source_.warnings;
         append(warnings_, detail::idle_options(source_, options_, typed_names(arguments_.options),
                                                detail::command_spelling));
+        const auto* first = std::get_if<Target>(&levels_.front());
+        if (first && first->kind == Target::Kind::faces && first->value <= 100)
+            warnings_.push_back("the first level has " + arguments_.levels.front() +
+                                " faces; a share has a percent sign: " + arguments_.levels.front() + "%");
         const ExitCode code = arguments_.level_textures() == LevelTextures::shared
                                   ? write_with_shared_texture()
                                   : write_with_separate_textures();
@@ -218,7 +231,7 @@ private:
             const ExitCode rejection = rejection_code(level.result.report, arguments_.strict_target);
             if (rejection == exit_ok) continue;
             std::cerr << "faqem: "
-                      << rejection_message(rejection, arguments_.in, outputs_.manifest, level.result.report)
+                      << rejection_message(rejection, arguments_.in, arguments_.out, level.result.report)
                       << "\n";
             return rejection;
         }
@@ -245,14 +258,19 @@ private:
         const detail::CollectWrites collect(set_);
         const fs::path& file = outputs_.models[written_.size()];
         WrittenLevel& level = written_.emplace_back();
-        level = {file.filename().string(), 0, 0, distance, error, report};
+        level = {.file = file.filename().string(), .distance = distance, .error = error, .report = report};
         for (const Part& part : asset.parts) {
             level.faces += part.triangles.size();
             level.vertices += part.positions.size();
         }
-        if (!outputs_.is_file) return save(asset, file, arguments_.overwrite);
-        one_file_levels_.push_back({std::move(asset), coverage(error)});
-        return {};
+        if (outputs_.is_file) {
+            one_file_levels_.push_back({std::move(asset), coverage(error)});
+            return {};
+        }
+        detail::EncodedModel model = detail::encode_model(asset, file);
+        detail::write_model(model, file.parent_path(), arguments_.overwrite);
+        level.bytes = model.bytes();
+        return std::move(model.losses);
     }
 
     /// Screen coverage below which the level is shown, for each part at its largest scale in the scene.
@@ -304,7 +322,8 @@ int run(LodArguments arguments) {
         code = writer();
     }
     if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";
-    if (code == exit_ok && !arguments.quiet) print_summary(arguments, writer.written(), writer.warnings());
+    if (code == exit_ok && !arguments.quiet)
+        print_summary(arguments, outputs, source.file_bytes, writer.written(), writer.warnings());
     return code;
 }
 

@@ -43,6 +43,7 @@ Json lod_manifest(const std::string& source, double diagonal, const ViewSettings
         // null for the original: it is shown at any screen coverage.
         one["screen_coverage"] =
             from > 0 ? Json(screen_coverage(diagonal, level.error, view_settings)) : Json();
+        if (level.bytes > 0) one["bytes"] = level.bytes;
         if (level.report) one["report"] = Json::parse(to_json(*level.report));
         json["levels"].push_back(std::move(one));
     }

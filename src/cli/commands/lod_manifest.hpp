@@ -22,6 +22,7 @@ struct ViewSettings {
 struct WrittenLevel {
     std::string file;                       ///< name of the file, without its directory
     std::uint64_t faces = 0, vertices = 0;  ///< sums over all parts
+    std::uint64_t bytes = 0;                ///< of the files of the level; 0 in a file of all levels
     double distance = 0, error = 0;         ///< as in SimplifiedAssetLevel
     const Report* report = nullptr;         ///< null for the original; not owned
 };

@@ -5,6 +5,7 @@
 
 #include "cli/commands/lod_level.hpp"
 #include "cli/commands/lod_manifest.hpp"
+#include "cli/process/shown_text.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
@@ -50,12 +51,30 @@ TEST_CASE("lod writes the original, one model per level and a manifest") {
         const faqem::MeshView after{simplified.parts[0].positions, simplified.parts[0].triangles};
         CHECK(faqem::hausdorff(before, after).value <= last_error + 1e-6);
         CHECK(level.contains("report") == (i > 0));
+        CHECK(level["bytes"] == fs::file_size(folder / ("out/" + file)));
     }
     CHECK(json["levels"][0]["faces"] == 1800);
     CHECK(json["levels"][0]["error"] == 0);
     CHECK(json["levels"][0]["screen_coverage"].is_null());
     const std::size_t targets[] = {1800, 900, 180, 50};
     for (std::size_t i = 0; i < 4; ++i) CHECK(close_to(json["levels"][i]["faces"], targets[i]));
+}
+
+TEST_CASE(
+    "lod prints the bytes of the source and of all levels, and warns of a share without its percent sign") {
+    const Folder folder;
+    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    const auto size = [&](const char* file) { return faqem::cli::shown_bytes(fs::file_size(folder / file)); };
+    const Outcome folder_of_files = run(folder, "lod a.glb out --levels 40,4 --without-original --bake none");
+    const std::uint64_t both =
+        fs::file_size(folder / "out/a_LOD0.glb") + fs::file_size(folder / "out/a_LOD1.glb");
+    CHECK(folder_of_files.out.find(size("a.glb") + " -> " + faqem::cli::shown_bytes(both) +
+                                   ", with out/a_LOD.json\n") != std::string::npos);
+    CHECK(folder_of_files.out.find("faces, " + size("out/a_LOD1.glb") + ", error") != std::string::npos);
+    CHECK(folder_of_files.out.find("a share has a percent sign: 40%") != std::string::npos);
+    const Outcome one_file = run(folder, "lod a.glb all.glb --levels 40% --bake none");
+    CHECK(one_file.out.find(" -> " + size("all.glb") + ", with all.json\n") != std::string::npos);
+    CHECK(one_file.out.find("percent sign") == std::string::npos);
 }
 
 TEST_CASE("lod --without-original writes the first level as LOD0") {
@@ -79,7 +98,7 @@ TEST_CASE("at the switch distance the error covers the allowed number of pixels"
     CHECK(switch_distance(0.01, {5, 90, 1000}) == Approx(1));
     CHECK(switch_distance(0, {1, 60, 1080}) == 0);
     const faqem::cli::Json json =
-        lod_manifest("a", 3, {1, 90, 1000}, {{"a_LOD0.glb", 10, 8, 0.009, 0.01, nullptr}});
+        lod_manifest("a", 3, {1, 90, 1000}, {{"a_LOD0.glb", 10, 8, 500, 0.009, 0.01, nullptr}});
     // 3 units are 1.5 times the view height at distance 1, and 0.3 of it at distance 5.
     CHECK(json["levels"][0]["screen_coverage"].get<double>() == Approx(0.3));
 }
@@ -149,7 +168,7 @@ TEST_CASE("lod writes nothing if a level misses its target or maximum error") {
     const Outcome far = run(folder, "lod a.glb out --levels 0.5,error:0.0001% --bake none");
     CHECK(far.code == 6);
     CHECK(far.err.find("faqem: a.glb: max error exceeded: ") == 0);
-    CHECK(far.err.find("; out/a_LOD.json was not written\n") != std::string::npos);
+    CHECK(far.err.find("; out was not written\n") != std::string::npos);
 }
 
 TEST_CASE("lod with a file as output writes all levels to it, and its scene has the finest") {
