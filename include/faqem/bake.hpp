@@ -101,9 +101,9 @@ FAQEM_EXPORT SimplifiedAsset simplify(const Asset& source, const Options& option
 
 /// Loads a model, simplifies it, and saves the result: load(), simplify() and save() within one Options::max_seconds.
 /// \param file       of the model
-/// \param out        file of the result; its extension determines Options::format
+/// \param out        file of the result, another one than `file`; its extension determines Options::format
 /// \param options    as for simplify(const Asset&, const Options&)
-/// \param overwrite  whether existing files may be replaced
+/// \param overwrite  whether existing files may be replaced; that of `out` is looked for before the work
 /// \return the report, with the sizes of the files and the warnings of all steps. If the progress callback cancels,
 ///         nothing is left of the model, or Options::max_error is exceeded, nothing is saved, and Report::bytes_out is 0
 /// \throws OptionError, InputError, UnsupportedError, TimeLimitError, ByteLimitError, WriteError  as the three steps; an

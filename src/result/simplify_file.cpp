@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "asset/file_format.hpp"
 #include "asset/finest_level.hpp"
 #include "asset/io/encoded_model.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/error.hpp"
 #include "result/simplify.hpp"
 
 namespace faqem {
@@ -134,6 +136,11 @@ void detail::save_result(SimplifiedAsset& result, const fs::path& file, const Op
 Report simplify(const fs::path& file, const fs::path& out, const Options& options, Overwrite overwrite) {
     Options own = options;
     own.format = detail::written_format(out).format;
+    std::error_code error;
+    if (fs::equivalent(file, out, error))
+        throw OptionError(out.string() + ": is the model that is simplified");
+    if (overwrite == Overwrite::no && fs::exists(out, error))
+        throw WriteError(out.string() + ": exists; Overwrite::yes replaces it");
     SimplifiedAsset result = detail::simplify_file(file, own, [](const Asset&) {});
     if (may_be_saved(result.report)) detail::save_result(result, out, own, overwrite);
     return std::move(result.report);

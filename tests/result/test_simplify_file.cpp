@@ -183,3 +183,22 @@ TEST_CASE("the report says what holds the bytes of a result that is hardly small
     CHECK(summary.out.find("little saved: meshes that lose no face keep the images") != std::string::npos);
     CHECK(summary.out.find("; less with --texture-size") != std::string::npos);
 }
+
+TEST_CASE("simplify() of files never replaces its input, and looks for an existing result before the work") {
+    const Folder folder;
+    faqem::save(sheet(8), folder / "in.ply");
+    const std::string before = read(folder / "in.ply");
+    CHECK_THROWS_AS(faqem::simplify(folder / "in.ply", folder / "." / "in.ply", {}, faqem::Overwrite::yes),
+                    faqem::OptionError);
+    CHECK(read(folder / "in.ply") == before);
+    write(folder / "out.ply", "mine");
+    faqem::Options options;
+    bool has_begun = false;
+    options.progress = [&](faqem::Phase, double) {
+        has_begun = true;
+        return faqem::Continue::yes;
+    };
+    CHECK_THROWS_AS(faqem::simplify(folder / "in.ply", folder / "out.ply", options), faqem::WriteError);
+    CHECK_FALSE(has_begun);
+    CHECK(read(folder / "out.ply") == "mine");
+}
