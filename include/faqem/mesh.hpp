@@ -98,6 +98,17 @@ std::size_t triple_count(const Array& array, const char* name) {
     return length / 3;
 }
 
+/// Checks the vertex indices of a face. Indices from 2^31 on are shown as the negative ones that they may come from.
+/// \throws InputError  an index is not below the number of vertices
+inline void check_indices(const Triangle& t, std::size_t face, std::size_t vertices) {
+    for (const Index v : t) {
+        if (v < vertices) continue;
+        throw InputError("", "face " + std::to_string(face),
+                         "vertex index " + std::to_string(static_cast<std::int32_t>(v)) +
+                             " is out of range: there are " + std::to_string(vertices) + " vertices");
+    }
+}
+
 }  // namespace detail
 
 /// View of the caller's vertex positions, float or double: packed, interleaved with other data, or

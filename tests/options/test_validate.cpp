@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "faqem/detail/options/option_table.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
@@ -21,6 +22,11 @@ std::string option_complaint(Change change) {
     return testing::message_of<OptionError>([&] { validate(options); });
 }
 
+/// The message for a value outside of a range.
+std::string outside(const std::string& must, double value) {
+    return must + ", not " + detail::number_text(value);
+}
+
 }  // namespace
 
 TEST_CASE("the default options are valid") {
@@ -30,15 +36,16 @@ TEST_CASE("the default options are valid") {
 TEST_CASE("a target ratio must be above 0 and at most 1 and a face count at least 1") {
     for (const double bad : {0.0, -0.1, 1.0000001, not_a_number, test::infinity}) {
         CHECK(option_complaint([&](Options& o) { o.target = ratio(bad); }) ==
-              "target ratio must be in (0, 1]");
+              outside("target ratio must be in (0, 1]", bad));
     }
     CHECK(option_complaint([](Options& o) { o.target = ratio(1); }) == "accepted");
     CHECK(option_complaint([](Options& o) { o.target = ratio(1e-300); }) == "accepted");
-    CHECK(option_complaint([](Options& o) { o.target = faces(0); }) == "target face count must be >= 1");
+    CHECK(option_complaint([](Options& o) { o.target = faces(0); }) ==
+          outside("target face count must be >= 1", 0));
     for (const double bad : {0.5, not_a_number, test::infinity}) {
         CHECK(option_complaint([&](Options& o) {
                   o.target = {Target::Kind::faces, bad};
-              }) == "target face count must be >= 1");
+              }) == outside("target face count must be >= 1", bad));
     }
     CHECK(option_complaint([](Options& o) { o.target = faces(1); }) == "accepted");
     CHECK(option_complaint([](Options& o) { o.target = faces(~0ull); }) == "accepted");
@@ -47,9 +54,9 @@ TEST_CASE("a target ratio must be above 0 and at most 1 and a face count at leas
 TEST_CASE("max_error must be finite and positive in either unit") {
     for (const double bad : {0.0, -1e-9, not_a_number, test::infinity}) {
         CHECK(option_complaint([&](Options& o) { o.max_error = model_units(bad); }) ==
-              "max_error must be finite and > 0");
+              outside("max_error must be finite and > 0", bad));
         CHECK(option_complaint([&](Options& o) { o.max_error = of_diagonal(bad); }) ==
-              "max_error must be finite and > 0");
+              outside("max_error must be finite and > 0", bad));
     }
     CHECK(option_complaint([](Options& o) { o.max_error = model_units(1e-300); }) == "accepted");
     CHECK(option_complaint([](Options& o) { o.max_error = of_diagonal(2); }) == "accepted");
@@ -70,7 +77,8 @@ TEST_CASE("weighted visibility with max_error needs a target") {
 TEST_CASE("the default target is a ratio of 0.1") {
     CHECK(Options{}.target.kind == Target::Kind::unset);
     CHECK(Options{}.target.value == 0.1);
-    CHECK(option_complaint([](Options& o) { o.target.value = 0; }) == "target ratio must be in (0, 1]");
+    CHECK(option_complaint([](Options& o) { o.target.value = 0; }) ==
+          outside("target ratio must be in (0, 1]", 0));
 }
 
 TEST_CASE("weights must be finite and not negative and errors name the weight") {
@@ -81,7 +89,7 @@ TEST_CASE("weights must be finite and not negative and errors name the weight") 
     for (const auto& [member, name] : members) {
         for (const double bad : {-1e-9, not_a_number, test::infinity}) {
             CHECK(option_complaint([&, at = member](Options& o) { o.weights.*at = bad; }) ==
-                  "weights." + name + " must be finite and >= 0");
+                  outside("weights." + name + " must be finite and >= 0", bad));
         }
         CHECK(option_complaint([&, at = member](Options& o) { o.weights.*at = 0; }) == "accepted");
     }
@@ -90,12 +98,12 @@ TEST_CASE("weights must be finite and not negative and errors name the weight") 
 TEST_CASE("weld and virtual edge distances must be in their ranges") {
     for (const double bad : {-1e-9, not_a_number, test::infinity}) {
         CHECK(option_complaint([&](Options& o) { o.topology.weld_distance = bad; }) ==
-              "weld_distance must be finite and >= 0");
+              outside("weld_distance must be finite and >= 0", bad));
     }
     CHECK(option_complaint([](Options& o) { o.topology.weld_distance = 0; }) == "accepted");
     for (const double bad : {0.0, -0.1, 1.1, not_a_number}) {
         CHECK(option_complaint([&](Options& o) { o.topology.virtual_edge_distance = bad; }) ==
-              "virtual_edge_distance must be in (0, 1]");
+              outside("virtual_edge_distance must be in (0, 1]", bad));
     }
     CHECK(option_complaint([](Options& o) { o.topology.virtual_edge_distance = 1; }) == "accepted");
 }
@@ -103,22 +111,23 @@ TEST_CASE("weld and virtual edge distances must be in their ranges") {
 TEST_CASE("baking options must be in their ranges") {
     for (const std::uint32_t bad : {0u, 32u, 100u, 2047u, 32768u, ~0u}) {
         CHECK(option_complaint([&](Options& o) { o.bake.texture_size = bad; }) ==
-              "texture_size must be a power of two in [64, 16384]");
+              outside("texture_size must be a power of two in [64, 16384]", bad));
     }
     for (const double bad : {0.0, 0.124, 8.1, not_a_number}) {
         CHECK(option_complaint([&](Options& o) { o.bake.texel_density = bad; }) ==
-              "texel_density must be in [0.125, 8]");
+              outside("texel_density must be in [0.125, 8]", bad));
     }
     for (const std::uint32_t bad : {0u, 9u}) {
-        CHECK(option_complaint([&](Options& o) { o.bake.samples = bad; }) == "samples must be in [1, 8]");
+        CHECK(option_complaint([&](Options& o) { o.bake.samples = bad; }) ==
+              outside("samples must be in [1, 8]", bad));
     }
     for (const double bad : {-1.0, 181.0, not_a_number}) {
         CHECK(option_complaint([&](Options& o) { o.bake.crease_angle = bad; }) ==
-              "crease_angle must be in [0, 180] degrees");
+              outside("crease_angle must be in [0, 180] degrees", bad));
     }
     for (const std::uint32_t bad : {0u, 101u}) {
         CHECK(option_complaint([&](Options& o) { o.bake.jpeg_quality = bad; }) ==
-              "jpeg_quality must be in [1, 100]");
+              outside("jpeg_quality must be in [1, 100]", bad));
     }
     CHECK(option_complaint([](Options& o) {
               o.bake = {.kind = Bake::none,

@@ -142,7 +142,7 @@ TEST_CASE("TriangleView reads 16-bit, signed, padded and column-major indices") 
 TEST_CASE("simplify refuses negative vertex indices") {
     const std::vector<std::int32_t> triangles = {0, 1, 2, 0, -2, 3};
     const MeshView mesh{corner_positions, {triangles.data(), 2, 3 * sizeof(std::int32_t)}};
-    CHECK_THROWS_WITH(simplify(mesh), "face 1: vertex index 4294967294 is out of range: there are 4");
+    CHECK_THROWS_WITH(simplify(mesh), "face 1: vertex index -2 is out of range: there are 4 vertices");
 }
 
 TEST_CASE("the result of simplify does not depend on the memory layout of the input") {

@@ -2,6 +2,7 @@
 #include <limits>
 #include <vector>
 
+#include "faqem/detail/options/option_table.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/error.hpp"
 #include "faqem/levels.hpp"
@@ -108,6 +109,7 @@ TEST_CASE("a large mesh is not split into blocks after the time limit") {
 TEST_CASE("max_seconds must be finite and positive, and unset for levels") {
     const TriangleMesh mesh = test::icosphere(1);
     for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), test::infinity})
-        CHECK_THROWS_WITH(simplify(mesh.view(), {.max_seconds = bad}), "max_seconds must be finite and > 0");
+        CHECK_THROWS_WITH(simplify(mesh.view(), {.max_seconds = bad}),
+                          "max_seconds must be finite and > 0, not " + detail::number_text(bad));
     CHECK_THROWS_AS(simplify_levels(mesh.view(), {ratio(0.5)}, {.max_seconds = 1}), OptionError);
 }

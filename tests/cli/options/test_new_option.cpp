@@ -124,7 +124,7 @@ TEST_CASE("an option that is added to the table is in the command, its messages,
     extended.run({"simplify", "--w-novelty", "2.5"});
     CHECK(extended.options.weights.uv == 2.5);
     CHECK(options_key(extended.options, extended.rows) != options_key({}, extended.rows));
-    CHECK_THROWS_WITH(extended.run({"simplify", "--w-novelty=4"}), "--w-novelty must be in [0, 3]");
+    CHECK_THROWS_WITH(extended.run({"simplify", "--w-novelty=4"}), "--w-novelty must be in [0, 3], not 4");
     CHECK(suggestion(extended.tree, {"simplify", "--w-noveltee"}) == "--w-novelty");
 
     CHECK(contains_text(bash_completion(extended.tree), "--w-novelty"));

@@ -17,16 +17,6 @@ using engine::Vector3;
 /// Faces whose height is below this fraction of their longest edge have no reliable normal and are left out.
 inline constexpr double min_height_ratio = 1e-12;
 
-inline void check_indices(const Triangle& t, std::size_t f, std::size_t vertices) {
-    for (const Index v : t) {
-        if (v >= vertices) {
-            throw InputError({}, "face " + std::to_string(f),
-                             "vertex index " + std::to_string(v) + " is out of range, there are " +
-                                 std::to_string(vertices) + " vertices");
-        }
-    }
-}
-
 /// Merges equal positions, removes unreferenced ones, and updates the indices of the triangles.
 inline void weld(Surface& s) {
     std::vector<Index> new_index(s.positions.size(), no_index), order;

@@ -51,14 +51,8 @@ inline std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result
     faces.reserve(mesh.triangles.size());
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         Triangle t = mesh.triangles[f];
-        for (Index& v : t) {
-            if (v >= first.size()) {
-                throw InputError({}, "face " + std::to_string(f),
-                                 "vertex index " + std::to_string(v) + " is out of range, there are " +
-                                     std::to_string(first.size()) + " vertices");
-            }
-            v = first[v];
-        }
+        check_indices(t, f, first.size());
+        for (Index& v : t) v = first[v];
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
             ++result.degenerate_faces;
         } else {

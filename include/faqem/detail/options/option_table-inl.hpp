@@ -160,7 +160,7 @@ FAQEM_INLINE OptionValue parse_option_number(std::string_view text, OptionKind k
     }
     if (kind == OptionKind::length && in_percent) value.unit = Length::Unit::diagonal;
     if (!is_in_range(*value.number, range))
-        throw OptionError(shown + " must be " + range_text(kind, range, unit));
+        throw OptionError(shown + " must be " + range_text(kind, range, unit) + ", not " + std::string(text));
     return value;
 }
 
@@ -213,7 +213,8 @@ FAQEM_INLINE void check_options(const Options& options, OptionSpelling spelling,
             if (!(*value.number >= 0 && *value.number < words))
                 throw OptionError(spelling(row) + " is not an enumerator");
         } else if (!is_in_range(*value.number, row.range)) {
-            throw OptionError(spelling(row) + " must be " + range_text(row.kind, row.range, row.unit));
+            throw OptionError(spelling(row) + " must be " + range_text(row.kind, row.range, row.unit) +
+                              ", not " + number_text(*value.number));
         }
     }
     for (const OptionRule& rule : option_rules) {

@@ -108,15 +108,8 @@ inline void restore_locked_positions(const MeshView& mesh, const std::vector<Vec
 }
 
 inline void check_triangles(const MeshView& mesh) {
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        for (const Index v : mesh.triangles[f]) {
-            if (!(v < mesh.positions.size())) {
-                fail("face " + std::to_string(f), "vertex index " + std::to_string(v) +
-                                                      " is out of range: there are " +
-                                                      std::to_string(mesh.positions.size()));
-            }
-        }
-    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+        check_indices(mesh.triangles[f], f, mesh.positions.size());
 }
 
 // Numbers the representatives in input order and maps the triangles to them.
