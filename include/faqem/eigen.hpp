@@ -12,12 +12,12 @@
 FAQEM_NAMESPACE_BEGIN
 
 /// Views matrices as a mesh, for example simplify(eigen_view(V, F)). They are not copied and must outlive the view.
-/// \param vertices   (v, 3) of double or float, in any storage order
+/// \param vertices   (v, 3) of double or float, in any storage order; a matrix, array, Map, Ref or block of one
 /// \param triangles  (f, 3) of int or unsigned with 16 or 32 bits; negative indices are out of range
 /// \throws InputError  a matrix has another number of columns
 template <class Vertices, class Triangles>
-MeshView eigen_view(const Eigen::PlainObjectBase<Vertices>& vertices,
-                    const Eigen::PlainObjectBase<Triangles>& triangles) {
+MeshView eigen_view(const Eigen::DenseBase<Vertices>& vertices,
+                    const Eigen::DenseBase<Triangles>& triangles) {
     const auto view = [](const auto& matrix, const char* name, auto make) {
         const std::size_t size = sizeof *matrix.data(), rows = std::size_t(matrix.rows());
         if (matrix.cols() != 3)
@@ -26,8 +26,8 @@ MeshView eigen_view(const Eigen::PlainObjectBase<Vertices>& vertices,
         return make(matrix.data(), rows, std::size_t(matrix.rowStride()) * size,
                     std::size_t(matrix.colStride()) * size);
     };
-    return {view(vertices, "vertices", [](auto... layout) { return PositionView(layout...); }),
-            view(triangles, "triangles", [](auto... layout) { return TriangleView(layout...); })};
+    return {view(vertices.derived(), "vertices", [](auto... layout) { return PositionView(layout...); }),
+            view(triangles.derived(), "triangles", [](auto... layout) { return TriangleView(layout...); })};
 }
 
 /// Copies positions to a matrix (v, 3). O(v)

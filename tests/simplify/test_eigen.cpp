@@ -14,7 +14,10 @@ TEST_CASE("matrices of Eigen give the result of the arrays, in any storage order
     CHECK(vertices(80, 1) == mesh.positions[80][1]);
     const TriangleMesh expected = simplify(mesh.view(), {.target = ratio(0.5)}).mesh;
     const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows = vertices;
-    for (const MeshView& view : {eigen_view(vertices, triangles), eigen_view(rows, triangles)}) {
+    const Eigen::Map<const Eigen::MatrixXd> map(vertices.data(), vertices.rows(), 3);
+    const Eigen::Ref<const Eigen::MatrixXi> ref = triangles;
+    for (const MeshView& view :
+         {eigen_view(vertices, triangles), eigen_view(rows, triangles), eigen_view(map, ref)}) {
         const TriangleMesh made = simplify(view, {.target = ratio(0.5)}).mesh;
         CHECK(made.positions == expected.positions);
         CHECK(made.triangles == expected.triangles);
