@@ -56,6 +56,8 @@ struct ExtensionTexture {
     std::string extension, name;  ///< as in glTF, e.g. KHR_materials_clearcoat and clearcoatNormalTexture
     TextureRef texture;
     float normal_scale = 1;  ///< scale of a normal map; unused for other textures
+
+    bool operator==(const ExtensionTexture&) const = default;
 };
 
 /// A glTF 2.0 metallic-roughness material. OBJ's Kd, map_Kd and d are converted to it.
@@ -84,6 +86,8 @@ struct Material {
     /// The material has new UVs: textures of the source material that are not listed above do not match them
     /// and are not written.
     bool rebaked = false;
+
+    bool operator==(const Material&) const = default;
 };
 
 /// Displacements of one morph target. Each array is empty or has one entry per vertex.

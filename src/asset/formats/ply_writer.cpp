@@ -10,6 +10,7 @@
 #include "asset/formats/ply.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "asset/scene/position_rounding.hpp"
 
 namespace faqem::detail {
@@ -74,7 +75,12 @@ EncodedModel encode_ply(const Asset& asset, const std::filesystem::path& file) {
     std::vector<std::string>& losses = model.losses;
     losses = flattening_losses(asset, "PLY");
     const Part flat = flatten_for_file(asset);
-    if (!asset.materials.empty()) losses.push_back("PLY cannot hold materials and textures");
+    const auto is_default = [&](Material material) {
+        material.rebaked = false;
+        return material == material_or_default(asset, no_index);
+    };
+    if (!std::all_of(asset.materials.begin(), asset.materials.end(), is_default))
+        losses.push_back("PLY cannot hold materials and textures");
     if (flat.uvs.size() > 1) losses.push_back("PLY cannot hold more than one set of texture coordinates");
 
     PlyVertexLayout layout;

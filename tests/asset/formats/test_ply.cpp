@@ -310,12 +310,14 @@ TEST_CASE("PLY files keep all 256 values of a colour channel", "[ply]") {
 TEST_CASE("the PLY writer reports what it leaves out", "[ply]") {
     const TemporaryFolder folder;
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
-    asset.materials.emplace_back();
+    asset.materials.emplace_back().metallic = 0;
     asset.parts[0].uvs.resize(2, std::vector<Vec2f>(3));
     asset.parts[0].tangents.resize(3);
     asset.parts[0].joints.resize(3);
     asset.parts[0].morph_targets.resize(1);
-    const auto losses = save(asset, folder / "a.ply", Overwrite::no);
+    CHECK_FALSE(any_contains(save(asset, folder / "a.ply", Overwrite::no), "materials"));  // it says nothing
+    asset.materials[0].metallic = 0.5;
+    const auto losses = save(asset, folder / "a.ply", Overwrite::yes);
     for (const char* what : {"materials", "more than one set", "tangents", "skins", "morph targets"})
         CHECK(any_contains(losses, what));
 }
