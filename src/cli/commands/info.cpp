@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -29,7 +30,7 @@ struct PartInfo {
     std::string name;
     MeshInfo mesh;
     std::size_t materials = 0, uv_sets = 0, instances = 0;
-    bool colors = false, skinned = false;
+    bool normals = false, colors = false, skinned = false;
 };
 
 struct ImageInfo {
@@ -43,7 +44,8 @@ struct AssetInfo {
     std::vector<PartInfo> parts;
     std::vector<ImageInfo> images;
     std::size_t materials = 0, instances = 0;
-    MeshInfo scene;  ///< all instances in world space
+    const char* precision = "";  ///< of positions in the file
+    MeshInfo scene;              ///< all instances in world space
     std::vector<std::string> warnings, not_understood;
 };
 
@@ -102,14 +104,19 @@ AssetInfo examine(Asset asset) {
         PartInfo one;
         one.name = part.name;
         one.mesh = info_of(part);
-        one.materials = std::set<Index>(part.face_material.begin(), part.face_material.end()).size();
+        std::set<Index> materials(part.face_material.begin(), part.face_material.end());
+        materials.erase(no_index);
+        one.materials = materials.size();
         one.uv_sets = part.uvs.size();
+        one.normals = !part.normals.empty();
         one.colors = !part.colors.empty();
         one.skinned = !part.joints.empty();
         one.instances = instances_of[p];
         result.parts.push_back(std::move(one));
     }
     for (const Image& image : asset.images) result.images.push_back(image_info(image));
+    constexpr std::array<const char*, 4> precisions = {"unknown", "float", "double", "decimal"};
+    result.precision = precisions[static_cast<std::size_t>(asset.precision.type)];
     result.materials = asset.materials.size();
     result.instances = scene_instances.size();
     if (detail::has_excessive_instances(asset, scene_instances)) {
@@ -129,6 +136,7 @@ Json as_json(const std::string& file, const AssetInfo& asset) {
         one.update(info_json(part.mesh));
         one.update({{"materials", part.materials},
                     {"uv_sets", part.uv_sets},
+                    {"normals", part.normals},
                     {"vertex_colors", part.colors},
                     {"skinned", part.skinned},
                     {"instances", part.instances}});
@@ -144,6 +152,7 @@ Json as_json(const std::string& file, const AssetInfo& asset) {
         images.push_back(std::move(one));
     }
     return {{"file", file},
+            {"precision", asset.precision},
             {"parts", std::move(parts)},
             {"materials", asset.materials},
             {"images", std::move(images)},
@@ -160,24 +169,27 @@ std::string point_text(const Vec3& p) {
 }
 
 void print_mesh(std::ostream& out, const MeshInfo& mesh) {
-    out << mesh.faces << " faces, " << mesh.vertices << " vertices, " << mesh.components
-        << (mesh.components == 1 ? " component, " : " components, ") << mesh.boundary_edges
-        << " boundary edges, " << mesh.nonmanifold_edges << " non-manifold edges";
-    if (mesh.degenerate_faces > 0) out << ", " << mesh.degenerate_faces << " degenerate faces";
+    using detail::pluralized;
+    out << pluralized(mesh.faces, "face") << ", " << mesh.vertices << " vertices, "
+        << pluralized(mesh.components, "component") << ", "
+        << pluralized(mesh.boundary_edges, "boundary edge") << ", "
+        << pluralized(mesh.nonmanifold_edges, "non-manifold edge");
+    if (mesh.degenerate_faces > 0) out << ", " << pluralized(mesh.degenerate_faces, "degenerate face");
     out << "\n    box " << point_text(mesh.box_min) << " to " << point_text(mesh.box_max) << ", diagonal "
         << mesh.diagonal << ", area " << mesh.area << "\n";
 }
 
 void print_text(const std::string& file, const AssetInfo& asset) {
+    using detail::pluralized;
     std::ostringstream out;
-    out << file << "\n";
+    out << file << " (positions: " << asset.precision << ")\n";
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         const PartInfo& part = asset.parts[p];
         out << "part " << p << (part.name.empty() ? "" : " '" + part.name + "'") << ": ";
         print_mesh(out, part.mesh);
-        out << "    " << part.materials << " materials, " << part.uv_sets << " UV sets"
-            << (part.colors ? ", colours" : "") << (part.skinned ? ", skin" : "") << ", " << part.instances
-            << " instances\n";
+        out << "    " << pluralized(part.materials, "material") << ", " << pluralized(part.uv_sets, "UV set")
+            << (part.normals ? ", normals" : "") << (part.colors ? ", colours" : "")
+            << (part.skinned ? ", skin" : "") << ", " << pluralized(part.instances, "instance") << "\n";
     }
     for (std::size_t i = 0; i < asset.images.size(); ++i) {
         const ImageInfo& image = asset.images[i];
@@ -187,7 +199,8 @@ void print_text(const std::string& file, const AssetInfo& asset) {
             out << image.width << " x " << image.height << ", " << image.bytes << " bytes\n";
         if (!image.error.empty()) out << image.error << "\n";
     }
-    out << "scene (" << asset.instances << " instances, " << asset.materials << " materials): ";
+    out << "scene (" << pluralized(asset.instances, "instance") << ", "
+        << pluralized(asset.materials, "material") << "): ";
     print_mesh(out, asset.scene);
     for (const std::string& warning : asset.warnings) out << "warning: " << warning << "\n";
     for (const std::string& what : asset.not_understood) out << "not understood: " << what << "\n";

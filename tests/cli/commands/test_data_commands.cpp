@@ -20,6 +20,8 @@ TEST_CASE("info prints counts and measures of meshes and images") {
     CHECK(part["boundary_edges"] == 20);
     CHECK(part["nonmanifold_edges"] == 0);
     CHECK(part["uv_sets"] == 1);
+    CHECK(part["normals"] == false);
+    CHECK(info["precision"] == "float");
     CHECK(part["area"].get<double>() == Approx(4));
     CHECK(part["box_min"] == nlohmann::json({-1.0, -1.0, 0.0}));
     CHECK(info["total"]["faces"] == 50);
