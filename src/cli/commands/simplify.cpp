@@ -74,11 +74,15 @@ void print_bytes(std::ostream& out, const Report& report) {
     std::uint64_t images = 0;
     for (const ResultImage& image : report.images) images += image.bytes;
     images = std::min(images, report.bytes_out);
-    std::uint64_t geometry = report.buffer_views.empty() ? report.bytes_out - images : 0;
-    for (const ResultView& view : report.buffer_views)
-        if (view.content.find("animation") == std::string::npos) geometry += view.bytes;
+    std::uint64_t geometry = report.buffer_views.empty() ? report.bytes_out - images : 0, animation = 0;
+    for (const ResultView& view : report.buffer_views) {
+        const bool is_animation = view.content.find("animation") != std::string::npos;
+        (is_animation ? animation : geometry) += view.bytes;
+    }
     out << shown_bytes(report.bytes_in) << " -> " << shown_bytes(report.bytes_out) << " (geometry "
-        << shown_bytes(geometry) << ", images " << shown_bytes(images) << ")\n";
+        << shown_bytes(geometry) << ", images " << shown_bytes(images);
+    if (animation > 0) out << ", animation " << shown_bytes(animation);
+    out << ")\n";
 }
 
 /// \param diagonal  of the input, scene units
