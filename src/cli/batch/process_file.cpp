@@ -122,7 +122,7 @@ Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemor
     }
     std::error_code error;
     fs::create_directories(file.out.parent_path(), error);
-    check_output(file.out, overwrite);
+    check_output(file.out, overwrite, "--resume skips what is up to date, --force overwrites it");
     memory.reserve(detail::estimated_document_memory(file.in, memory.all()));
     const std::uint64_t loading = detail::estimated_model_memory(file.in, memory.all());
     require_memory(file.in, loading, memory.all());

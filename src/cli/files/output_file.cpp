@@ -76,7 +76,7 @@ void check_different(const fs::path& file, const fs::path& other) {
 
 }  // namespace
 
-void check_output(const fs::path& file, Overwrite overwrite) {
+void check_output(const fs::path& file, Overwrite overwrite, const std::string& advice) {
     std::error_code error;
     check_unprotected(file);
     if (const detail::FileFormat* format = detail::format_by_name(file);
@@ -91,7 +91,7 @@ void check_output(const fs::path& file, Overwrite overwrite) {
     if (fs::exists(file, error) && !fs::is_regular_file(file, error))
         throw WriteError(file.string() + ": is not a regular file");
     if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error))) {
-        throw WriteError(file.string() + ": the file exists; use --force to overwrite it");
+        throw WriteError(file.string() + ": the file exists; " + advice);
     }
     if (access(folder.c_str(), W_OK) != 0)
         throw WriteError(file.string() + ": the directory is not writable");

@@ -17,9 +17,11 @@ namespace faqem::cli {
 /// it may be overwritten. Other files beside a model are checked when it is saved. Removes the temporary
 /// files that dead processes left in the directory, and completes or restores a set of files that one
 /// replaced only in part. Thread-safe.
+/// \param advice  what the message says about a file that exists
 /// \throws OptionError  the file is an input
 /// \throws WriteError   any other condition is violated
-void check_output(const std::filesystem::path& file, Overwrite overwrite);
+void check_output(const std::filesystem::path& file, Overwrite overwrite,
+                  const std::string& advice = "use --force to overwrite it");
 
 /// Calls check_output() for the files of a command, before the work starts, which may take hours. At a terminal it asks
 /// once whether those that exist may be overwritten.

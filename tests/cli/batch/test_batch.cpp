@@ -205,7 +205,10 @@ TEST_CASE("batch overwrites existing files only with --force") {
     for (const char* resume : {"", "--resume"}) {
         const Outcome outcome = run(folder, batch + resume);
         CHECK(outcome.code == 9);
-        CHECK(lines_of(outcome).at("a.glb")["code"] == 7);
+        const nlohmann::json line = lines_of(outcome).at("a.glb");
+        CHECK(line["code"] == 7);
+        CHECK(line["message"] ==
+              "out/a.glb: the file exists; --resume skips what is up to date, --force overwrites it");
         CHECK(read(folder / "out/a.glb") == "precious");
     }
     CHECK(run(folder, batch + "--force").code == 0);
