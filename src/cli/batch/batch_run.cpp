@@ -82,8 +82,7 @@ public:
           ledger_(arguments.out_folder, has_list_ ? arguments.shard.name() : "directory",
                   has_list_ ? !arguments.redoes : arguments.resumes) {
         if (has_list_) {
-            run_ = {arguments.shard.count, work.options_key, std::string(version()),
-                    file_hash(arguments.list)};
+            run_ = {arguments.shard.count, work.options_key, std::string(version()), arguments.list_hash};
             join_run(arguments.out_folder, run_, arguments.replaces_run);
         }
         for (BatchFile file : files) {
@@ -193,11 +192,11 @@ private:
 
 }  // namespace
 
-std::vector<BatchFile> models_of_shard(const RunArguments& arguments, const GivenOptions& given) {
+std::vector<BatchFile> models_of_shard(RunArguments& arguments, const GivenOptions& given) {
     std::vector<BatchFile> files;
     std::set<std::string> ids;
     std::map<std::string, std::string> owners;  // by output
-    read_list(
+    arguments.list_hash = read_list(
         arguments.list, [&](const std::string& id) { return arguments.shard.contains(id); },
         [&](ListedModel&& model) {
             files.push_back(file_of(model, arguments, given));

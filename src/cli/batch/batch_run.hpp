@@ -19,18 +19,19 @@ struct RunArguments {
     std::filesystem::path out_folder;
     std::string extension;  ///< of outputs that the list does not name, with the dot
     Shard shard = {};
+    std::string list_hash = {};  ///< SHA-256 of the list, which models_of_shard() sets
     bool resumes =
         false;  ///< without a list: results that are up to date are skipped; with one they are always
     bool redoes = false;        ///< with a list: also models that are done
     bool replaces_run = false;  ///< with a list: the directory may have the results of another run
 };
 
-/// The models of a shard, by decreasing size of the input, then by id.
+/// The models of a shard, by decreasing size of the input, then by id. Reads the list once.
 /// \param given  options of the command line, which those of a model take precedence over
 /// \throws ReadError, InputError  as read_list(); two models of the shard have the same id or output, an output is outside
 /// the output directory, or an input is inside it
 /// \throws OptionError  an option of a model is unknown, or its value wrong; the message names the model
-std::vector<BatchFile> models_of_shard(const RunArguments& arguments, const GivenOptions& given);
+std::vector<BatchFile> models_of_shard(RunArguments& arguments, const GivenOptions& given);
 
 /// Simplifies models, and records what becomes of each.
 /// \param files  of plan_batch() or models_of_shard(); those of a shard that have an end already are left out

@@ -1,11 +1,13 @@
 #include "cli/batch/model_list.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "cli/files/sha256.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -13,6 +15,8 @@ namespace faqem::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array<std::uint8_t, 1> line_end = {'\n'};
 
 /// The id of a line that begins with it, as list_line() writes it; nothing if it does not, or has an escape.
 std::optional<std::string> leading_id(std::string_view line) {
@@ -87,14 +91,17 @@ private:
 
 }  // namespace
 
-void read_list(const fs::path& list, const std::function<bool(const std::string& id)>& wanted,
-               const std::function<void(ListedModel&&)>& take) {
+std::string read_list(const fs::path& list, const std::function<bool(const std::string& id)>& wanted,
+                      const std::function<void(ListedModel&&)>& take) {
     std::ifstream in(list, std::ios::binary);
     if (!in || fs::is_directory(list)) throw ReadError(list.string(), "", "cannot read");
     std::optional<TableReader> table;
     const bool is_table = list.extension() == ".csv";
     std::uint64_t number = 0;
+    Sha256 hash;
     for (std::string line; std::getline(in, line);) {
+        hash.add({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
+        if (!in.eof()) hash.add(line_end);
         ++number;
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.empty()) continue;
@@ -116,6 +123,7 @@ void read_list(const fs::path& list, const std::function<bool(const std::string&
         }
     }
     if (in.bad()) throw ReadError(list.string(), "", "cannot read");
+    return hexadecimal(hash.finish());
 }
 
 std::string list_line(const ListedModel& model, const fs::path& folder) {

@@ -26,11 +26,13 @@ struct ListedModel {
 /// `local_path`.
 /// \param wanted  tells from its id whether a model is needed: the others are only searched for their id
 /// \param take    receives each wanted model, in the order of the list
+/// \return the SHA-256 of the file, as 64 hexadecimal digits
 /// \throws ReadError   the file cannot be read
 /// \throws InputError  a line is no JSON object, lacks a member, or has one of another type; the message has its number
-/// Complexity: O(size of the list) time, O(length of the longest line) memory.
-void read_list(const std::filesystem::path& list, const std::function<bool(const std::string& id)>& wanted,
-               const std::function<void(ListedModel&&)>& take);
+/// Complexity: reads the file once, in O(size of the list) time, O(length of the longest line) memory.
+std::string read_list(const std::filesystem::path& list,
+                      const std::function<bool(const std::string& id)>& wanted,
+                      const std::function<void(ListedModel&&)>& take);
 
 /// Returns a line of a list, with its end.
 /// \param folder  of the list; the path of the input is written relative to it

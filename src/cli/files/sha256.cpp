@@ -98,12 +98,6 @@ std::string hexadecimal(const Digest& digest) {
     return text;
 }
 
-std::string file_hash(const std::filesystem::path& file) {
-    Sha256 hash;
-    add_file(hash, file);
-    return hexadecimal(hash.finish());
-}
-
 std::string model_hash(const std::filesystem::path& model) {
     Sha256 hash;
     add_file(hash, model);

@@ -34,9 +34,6 @@ Digest sha256(std::string_view text);
 /// A digest as 64 hexadecimal digits.
 std::string hexadecimal(const Digest& digest);
 
-/// The hash of a file, as 64 hexadecimal digits. \throws ReadError
-std::string file_hash(const std::filesystem::path& file);
-
 /// The hash of a model: of its bytes, followed by those of the files that it refers to and that can be read, in the
 /// order of References::readable. \return 64 hexadecimal digits
 /// \throws ReadError  the model cannot be read

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/files/sha256.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 #include "support/format_support.hpp"
@@ -186,6 +187,21 @@ TEST_CASE("a table with sha256 and local_path is a list") {
     CHECK(lines[0]["id"] == "0123");
     CHECK(lines[0]["input"] == "in/m0.ply");
     CHECK(run(folder, shard_words).code == 0);
+}
+
+TEST_CASE("a list is read once, so that it may come from a pipe") {
+    const Folder folder;
+    make_list(folder);
+    const std::string in = (folder / "in/m0.ply").string();
+    for (const std::string end : {"\n", ""}) {
+        const std::string list = R"({"id":"a","input":")" + in + "\"}" + end;
+        write(folder / "models.jsonl", list);
+        REQUIRE(std::system(("cd '" + folder.path().string() + "' && cat models.jsonl | '" + tool_path +
+                             "' batch --list /dev/stdin out --new-run --bake none >/dev/null 2>&1")
+                                .c_str()) == 0);
+        CHECK(Json::parse(read(folder / "out/.faqem-batch/run.json"))["list"] ==
+              faqem::cli::hexadecimal(faqem::cli::sha256(list)));
+    }
 }
 
 TEST_CASE("lists that cannot be right are errors before the first model") {
