@@ -90,6 +90,7 @@ Result simplify_and_save(const BatchFile& file, const BatchContext& work, const 
     result.warnings = report.warnings;
     std::error_code error;
     result.record = {{"bytes", fs::file_size(file.out, error)},
+                     {"input_bytes", report.bytes_in},
                      {"inputs", inputs},
                      {"written", modification_stamp({file.out})},
                      {"peak_rss_bytes", peak_memory()},

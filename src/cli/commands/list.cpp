@@ -73,8 +73,7 @@ int run(const ListArguments& arguments) {
     std::string lines;
     const fs::path folder = fs::path(arguments.out).parent_path();
     for (ListedModel& model : models) {
-        model.hash = model_hash(model.input);
-        model.bytes = fs::file_size(model.input);
+        model.hash = model_hash(model.input, &model.bytes);
         lines += list_line(model, folder);
     }
     if (arguments.out.empty()) {

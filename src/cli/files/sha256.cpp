@@ -98,11 +98,12 @@ std::string hexadecimal(const Digest& digest) {
     return text;
 }
 
-std::string model_hash(const std::filesystem::path& model) {
+std::string model_hash(const std::filesystem::path& model, std::uint64_t* bytes) {
     Sha256 hash;
     add_file(hash, model);
     for (const std::filesystem::path& file : detail::referenced_files(model, detail::References::readable))
         add_file(hash, file);
+    if (bytes) *bytes = hash.size();
     return hexadecimal(hash.finish());
 }
 

@@ -16,6 +16,8 @@ using Digest = std::array<std::uint8_t, 32>;
 class Sha256 {
 public:
     void add(std::span<const std::uint8_t> bytes);
+    /// Number of bytes that were added.
+    std::uint64_t size() const { return size_; }
     /// Returns the digest of all bytes. The object must not be used afterwards.
     Digest finish();
 
@@ -35,9 +37,11 @@ Digest sha256(std::string_view text);
 std::string hexadecimal(const Digest& digest);
 
 /// The hash of a model: of its bytes, followed by those of the files that it refers to and that can be read, in the
-/// order of References::readable. \return 64 hexadecimal digits
+/// order of References::readable.
+/// \param bytes  receives the size of these files, if not null
+/// \return 64 hexadecimal digits
 /// \throws ReadError  the model cannot be read
 /// Complexity: reads each file once, in pieces.
-std::string model_hash(const std::filesystem::path& model);
+std::string model_hash(const std::filesystem::path& model, std::uint64_t* bytes = nullptr);
 
 }  // namespace faqem::cli

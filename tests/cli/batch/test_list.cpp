@@ -189,6 +189,21 @@ TEST_CASE("a table with sha256 and local_path is a list") {
     CHECK(run(folder, shard_words).code == 0);
 }
 
+TEST_CASE("the bytes of a model in lists and records are those of its files together") {
+    const Folder folder;
+    fs::create_directories(folder / "in");
+    faqem::save(sheet(10), folder / "in/a.obj");  // with its library and image
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "in")) bytes += entry.file_size();
+    REQUIRE(bytes > fs::file_size(folder / "in/a.obj"));
+    REQUIRE(run(folder, "list in -o models.jsonl").code == 0);
+    CHECK(json_lines(read(folder / "models.jsonl")).at(0)["bytes"] == bytes);
+    write(folder / "models.jsonl", R"({"id":"a","input":"in/a.obj"})");
+    REQUIRE(run(folder, shard_words).code == 0);
+    REQUIRE(run(folder, "batch --merge out").code == 0);
+    CHECK(json_lines(read(folder / "out/batch.jsonl")).at(0)["input_bytes"] == bytes);
+}
+
 TEST_CASE("a list is read once, so that it may come from a pipe") {
     const Folder folder;
     make_list(folder);
