@@ -14,13 +14,12 @@ set(faqem_libraries_faqem Threads)
 set(faqem_libraries_header_only Threads)
 set(faqem_libraries_openmesh OpenMesh)
 set(faqem_libraries_openmesh_header_only OpenMesh)
-set(faqem_libraries_asset Threads PNG JPEG WebP libdeflate tinygltf)  # and faqem_decoders, those it was built with
+set(faqem_libraries_asset Threads PNG JPEG WebP libdeflate)  # and faqem_decoders, those it was built with
 set(faqem_libraries_bake "")
 
 # For each library: its CMake package, its target, and its Debian package. Some are searched for by their header and
 # library instead of their CMake packages: Debian's OpenImageIO package requires programs of another Debian package and
-# lists include directories that are not installed, Debian 12 has no packages for libdeflate and libwebp, and the target of tinygltf
-# has two names.
+# lists include directories that are not installed, and Debian 12 has no packages for libdeflate and libwebp.
 set(faqem_find_Threads Threads)
 set(faqem_target_Threads Threads::Threads)
 set(faqem_debian_Threads libc6-dev)
@@ -55,8 +54,6 @@ set(faqem_debian_libdeflate libdeflate-dev)
 # Of the image plugin, not of a component.
 set(faqem_target_OpenImageIO faqem::openimageio)
 set(faqem_debian_OpenImageIO libopenimageio-dev)
-set(faqem_target_tinygltf faqem::tinygltf)
-set(faqem_debian_tinygltf libtinygltf-dev)
 
 # Targets that the project that uses faqem has already found are used, for example static libraries.
 function(faqem_find_openimageio problem)
@@ -142,8 +139,6 @@ function(faqem_find_libraries missing)
             continue()
         elseif(library STREQUAL "OpenImageIO")
             faqem_find_openimageio(problem)
-        elseif(library STREQUAL "tinygltf")
-            faqem_find_by_header(tinygltf tiny_gltf.h tinygltf::tinygltf TinyGLTF::TinyGLTF)
         elseif(library STREQUAL "WebP")
             faqem_find_webp()
         elseif(library STREQUAL "libdeflate")
@@ -169,16 +164,6 @@ function(faqem_find_libraries missing)
     if(packages)
         list(JOIN packages " " packages)
         set(message "faqem needs these libraries:${sentences}\nOn Debian: sudo apt-get install ${packages}\nElsewhere: add the folders that contain them to CMAKE_PREFIX_PATH.")
-    endif()
-
-    # Debian's Draco library exports symbols of another tinygltf with another memory layout. Making Draco a dependency
-    # of tinygltf puts tinygltf first on every link line, so that its symbols are used. Draco must be the shared library:
-    # the members of its static archive would be linked before any shared library.
-    if(TARGET draco::draco AND TARGET faqem::tinygltf)
-        get_target_property(linked faqem::tinygltf INTERFACE_LINK_LIBRARIES)
-        if(NOT "draco::draco" IN_LIST linked)
-            target_link_libraries(faqem::tinygltf INTERFACE draco::draco)
-        endif()
     endif()
     set(${missing} "${message}" PARENT_SCOPE)
 endfunction()

@@ -17,7 +17,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfaqem-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}\n Headers, libraries, CMake package and pkg-config files.")
 # Each is needed by one component of the CMake package. The component faqem needs none of them.
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libeigen3-dev, libopenmesh-dev, libtinygltf-dev, \
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libeigen3-dev, libopenmesh-dev, \
 libpng-dev, libjpeg62-turbo-dev, libwebp-dev, libdeflate-dev")
 foreach(library IN LISTS faqem_decoders)
     string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS ", ${faqem_debian_${library}}")

@@ -1,5 +1,5 @@
 # The pkg-config files faqem (C++20 library for arrays) and faqem-c (C interface). The components that depend
-# on tinygltf and image libraries are available only through CMake.
+# on image libraries are available only through CMake.
 
 # faqem_install_pc(NAME DESCRIPTION LIBS) installs NAME.pc.
 function(faqem_install_pc faqem_pc_name faqem_pc_description faqem_pc_libs)

@@ -16,7 +16,7 @@ npm=""
 command -v npm >/dev/null 2>&1 || npm=npm
 
 packages="build-essential cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libopenmesh-dev \
-libtinygltf-dev libpng-dev libjpeg62-turbo-dev libwebp-dev libdeflate-dev libopenimageio-dev \
+libpng-dev libjpeg62-turbo-dev libwebp-dev libdeflate-dev libopenimageio-dev \
 libdraco-dev libmeshoptimizer-dev libcli11-dev"
 for group in "$@"; do
     case $group in
@@ -28,7 +28,7 @@ for group in "$@"; do
         tidy) packages="$packages clang clang-tidy clang-format" ;;
         docs) packages="$packages doxygen python3" ;;
         wheel)
-            packages="build-essential cmake ninja-build libeigen3-dev nlohmann-json3-dev libtinygltf-dev libpng-dev \
+            packages="build-essential cmake ninja-build libeigen3-dev nlohmann-json3-dev libpng-dev \
 libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-dev python3 $npm"
             ;;
         fresh) packages="debootstrap ccache" ;;

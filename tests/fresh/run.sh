@@ -72,8 +72,8 @@ subproject() {
 }
 
 case $release in
-    bookworm) runtime="libtinygltf2d libdraco7 libmeshoptimizer2d libpng16-16" ;;
-    trixie) runtime="libtinygltf6d libdraco8 libmeshoptimizer2d libpng16-16t64" ;;
+    bookworm) runtime="libdraco7 libmeshoptimizer2d libpng16-16" ;;
+    trixie) runtime="libdraco8 libmeshoptimizer2d libpng16-16t64" ;;
 esac
 runtime="$runtime libjpeg62-turbo libwebp7 libwebpdemux2 libdeflate0"
 echo "fresh: Debian $release from $mirror"
@@ -89,7 +89,7 @@ step "arrays in C, component c" consumer c "$runtime"
 step "templates, component core" consumer templates libeigen3-dev
 step "halfedges, component openmesh" consumer halfedges libopenmesh-dev
 step "textured, component bake" consumer textured \
-    "libpng-dev libjpeg62-turbo-dev libwebp-dev libdeflate-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev"
+    "libpng-dev libjpeg62-turbo-dev libwebp-dev libdeflate-dev libdraco-dev libmeshoptimizer-dev"
 step "arrays, component header_only" consumer arrays_header_only libeigen3-dev
 step "halfedges, component openmesh_header_only" consumer halfedges_header_only "libopenmesh-dev libeigen3-dev"
 step "faqem::faqem by add_subdirectory" subproject

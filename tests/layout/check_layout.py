@@ -64,7 +64,7 @@ ORDER = [
 OF_PART = {"src/asset/gltf": "src/asset", "src/asset/formats": "src/asset"}
 # Public headers that the engine may include: plain data.
 PLAIN = {"export.hpp", "mesh.hpp", "option_types.hpp", "options.hpp", "report.hpp", "history.hpp", "progress.hpp", "error.hpp"}
-LIBRARIES = re.compile(r"Eigen|OpenMesh|tiny_gltf|OpenImageIO|png\.h|jpeglib|webp/|libdeflate|nlohmann|CLI")
+LIBRARIES = re.compile(r"Eigen|OpenMesh|OpenImageIO|png\.h|jpeglib|webp/|libdeflate|nlohmann|CLI")
 MAX_SUBJECTS = 20
 MAX_LINES = 450
 MIN_LINES = 40
@@ -88,7 +88,6 @@ SMALL = {
     "src/cli/commands/completion_and_profiles",
     # What the wheel replaces in other libraries.
     "src/python/native/glibc",
-    "src/python/native/tinygltf",
     "src/cli/report/embedded_files",       # the texts are generated at build time
     # Compiled in one build only.
     "src/asset/gltf/read/meshopt",

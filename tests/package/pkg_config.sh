@@ -19,7 +19,7 @@ pkg-config --exact-version="$("$prefix/bin/faqem" --version | sed 's/^faqem //')
 
 "$cxx" -std=c++20 -M "$consumers/arrays.cpp" $(pkg-config --cflags faqem) | tr ' ' '\n' >"$work/headers"
 grep -q faqem/simplify.hpp "$work/headers"
-if grep -E 'OpenMesh|Eigen|OpenImageIO|png|jpeglib|webp|libdeflate|tiny_gltf|nlohmann|nanoflann|CLI|faqem/engine' "$work/headers"; then
+if grep -E 'OpenMesh|Eigen|OpenImageIO|png|jpeglib|webp|libdeflate|nlohmann|nanoflann|CLI|faqem/engine' "$work/headers"; then
     echo "faqem/simplify.hpp includes these headers of other libraries or of the engine"
     exit 1
 fi

@@ -32,6 +32,14 @@ std::string string_member(const Json& object, const char* key) {
     return value.is_string() ? value.get<std::string>() : std::string();
 }
 
+std::uint64_t primitive_mode(const Json& primitive) {
+    return unsigned_member(primitive, "mode", triangle_list);
+}
+
+bool has_triangles(const Json& primitive) {
+    return primitive_mode(primitive) >= triangle_list && member(primitive, "attributes").contains("POSITION");
+}
+
 Index texture_image(const Json& texture) {
     Index image = index_member(texture, "source");
     const Json& extensions = member(texture, "extensions");

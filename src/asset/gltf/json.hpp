@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// JSON helpers of the glTF reader and writer. The document is kept as JSON in addition to the tinygltf
-/// model, which cannot represent everything (integers above 32 bits, unknown members), because unmodified
-/// members must be preserved.
+/// JSON helpers of the glTF reader and writer. The document is kept as JSON, because unmodified members must be
+/// preserved.
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -36,6 +36,13 @@ inline constexpr ImageExtension image_extensions[] = {{"EXT_texture_webp", "imag
                                                       {"EXT_texture_avif", "image/avif"},
                                                       {"MSFT_texture_dds", "image/vnd-ms.dds"}};
 
+/// glTF constants of wrap modes, by Wrap, and of filters.
+inline constexpr std::array<std::uint32_t, 3> wrap_modes = {10497, 33648, 33071};
+inline constexpr std::uint32_t gl_nearest = 9728, gl_linear = 9729;
+
+/// glTF constants of primitives: those of triangles, and the largest one.
+inline constexpr std::uint64_t triangle_list = 4, triangle_fan = 6;
+
 /// object[key], or null if `object` is not an object or has no such key.
 const Json& member(const Json& object, const char* key);
 
@@ -50,6 +57,12 @@ std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t
 
 /// The string stored under `key`, or an empty string.
 std::string string_member(const Json& object, const char* key);
+
+/// The mode of a primitive.
+std::uint64_t primitive_mode(const Json& primitive);
+
+/// Whether a primitive has triangles and positions.
+bool has_triangles(const Json& primitive);
 
 /// The image of a texture; if it has none, the first of one of its extensions; no_index: none.
 Index texture_image(const Json& texture);

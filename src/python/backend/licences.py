@@ -14,7 +14,6 @@ _PACKAGES = {
     "libpng": "libpng-dev",
     "libwebp": "libwebp-dev",
     "nlohmann-json": "nlohmann-json3-dev",
-    "tinygltf": "libtinygltf-dev",
     "zlib": "zlib1g-dev",
 }
 

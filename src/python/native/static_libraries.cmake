@@ -1,7 +1,6 @@
 # Libraries for the wheel, linked statically, so that it runs on machines without them. Included after project() by the
 # preset wheel (CMAKE_PROJECT_faqem_INCLUDE): faqem uses the targets that exist already, and finds static archives for
-# the others. Debian 12 offers no archives of tinygltf, which is compiled from its header, and of meshoptimizer, which is
-# compiled from Debian's source package.
+# the others. Debian 12 offers no archive of meshoptimizer, which is compiled from Debian's source package.
 set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(faqem_native ${CMAKE_CURRENT_LIST_DIR})
@@ -12,15 +11,6 @@ add_link_options(-static-libstdc++ -Wl,--wrap=hypot,--wrap=arc4random,--wrap=std
 add_library(faqem_glibc STATIC ${faqem_native}/glibc.cpp)
 link_libraries(faqem_glibc)
 
-find_path(FAQEM_TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
-add_library(faqem_tinygltf STATIC ${faqem_native}/tinygltf.cpp)
-target_include_directories(faqem_tinygltf SYSTEM PUBLIC ${FAQEM_TINYGLTF_INCLUDE_DIR})
-target_compile_features(faqem_tinygltf PRIVATE cxx_std_20)
-# faqem sets its own callbacks for images.
-target_compile_definitions(faqem_tinygltf PUBLIC TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_STB_IMAGE_WRITE)
-add_library(tinygltf::tinygltf ALIAS faqem_tinygltf)
-
-# The archive contains another tinygltf, so it follows ours on the link line (faqem-dependencies.cmake).
 find_path(FAQEM_DRACO_INCLUDE_DIR draco/compression/decode.h REQUIRED)
 find_library(FAQEM_DRACO_LIBRARY draco REQUIRED)
 add_library(draco::draco STATIC IMPORTED)

@@ -10,7 +10,6 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint64_t max_mode = 6;  // TRIANGLE_FAN
 constexpr std::uint64_t max_uv_set = 255;
 
 /// The accessor type that an attribute must have; empty for COLOR_n and application-specific attributes.
@@ -79,7 +78,7 @@ void check_variants(const GltfChecker& checker, const Json& primitive, const std
 
 void check_primitive(const GltfChecker& checker, const Json& primitive, const std::string& where) {
     if (!primitive.is_object()) checker.fail(where, "is not an object");
-    if (checker.number(primitive, where, "mode").value_or(4) > max_mode)
+    if (checker.number(primitive, where, "mode").value_or(triangle_list) > triangle_fan)
         checker.fail(child_path(where, "mode"), "is not a primitive mode of glTF 2.0");
     checker.reference(primitive, where, "material", "materials");
     checker.object(primitive, where, "extensions");

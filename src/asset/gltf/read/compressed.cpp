@@ -238,7 +238,7 @@ void check_draco(const GltfChecker& checker, const Json& primitive, const std::s
     const Json& buffer_view = member(checker.document, "bufferViews")[view];
     if (is_fallback_buffer(member(checker.document, "buffers")[index_member(buffer_view, "buffer")]))
         checker.fail(child_path(where, "bufferView"), "refers to a buffer without data");
-    if (unsigned_member(primitive, "mode", 4) != 4)
+    if (primitive_mode(primitive) != triangle_list)
         checker.fail_unsupported(child_path(primitive_where, "mode"),
                                  "triangle strips in Draco data are not supported");
     if (!primitive.contains("indices")) checker.fail(primitive_where, "has Draco data but no indices");

@@ -74,15 +74,14 @@ double mesh_bytes(const Json& document) {
         double vertices = 0, triangles = 0, target_bytes = sizeof(Vec3f);
         std::uint64_t targets = 0;
         for (const Json& primitive : member(mesh, "primitives")) {
-            const std::uint64_t mode = unsigned_member(primitive, "mode", TINYGLTF_MODE_TRIANGLES);
+            if (!has_triangles(primitive)) continue;
             const Json& attributes = primitive["attributes"];
-            if (mode < TINYGLTF_MODE_TRIANGLES || !attributes.contains("POSITION")) continue;
             const double own = count_of(document, attributes["POSITION"]);
             const double corners =
                 primitive.contains("indices") ? count_of(document, primitive["indices"]) : own;
             const Json& own_targets = member(primitive, "targets");
             if (known_vertices.insert(attributes.dump() + own_targets.dump()).second) vertices += own;
-            triangles += mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners;
+            triangles += primitive_mode(primitive) == triangle_list ? corners / 3 : corners;
             transient = std::max({transient, vertex_transient_bytes * own, index_transient_bytes * corners});
             for (const auto& [name, accessor] : attributes.items()) names.insert(name);
             targets = std::max<std::uint64_t>(targets, own_targets.size());

@@ -1,6 +1,5 @@
 #include "asset/gltf/read/load.hpp"
 
-#include <exception>
 #include <limits>
 #include <string_view>
 
@@ -32,18 +31,34 @@ struct FileContext {
 
 bool is_data_uri(const std::string& uri) { return uri.compare(0, 5, "data:") == 0; }
 
-std::vector<std::uint8_t> decode_data_uri(const std::string& uri, const std::string& file,
+/// Decodes base64 (RFC 4648) up to the first other character, such as the padding.
+std::vector<std::uint8_t> decode_base64(std::string_view text) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(text.size() / 4 * 3 + 3);
+    std::size_t bits = 0;
+    int count = 0;  // of bits that are no whole byte yet
+    for (const char c : text) {
+        const std::size_t digit = digits.find(c);
+        if (digit == std::string_view::npos) break;
+        bits = bits << 6 | digit;
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes.push_back(static_cast<std::uint8_t>(bits >> count));
+    }
+    return bytes;
+}
+
+/// Decodes a data URI of any media type: image types are detected from the bytes.
+std::vector<std::uint8_t> decode_data_uri(std::string_view uri, const std::string& file,
                                           const std::string& where) {
-    // The media type is replaced, since tinygltf supports only some; image types are detected from the bytes.
     constexpr std::string_view marker = ";base64,";
     const std::size_t end = uri.find(marker);
-    if (end == std::string::npos || end > uri.find(','))
+    if (end == std::string_view::npos || end > uri.find(','))
         throw UnsupportedError(file, where, "data URIs that are not base64 are not supported");
-    std::vector<std::uint8_t> bytes;
-    std::string media_type;
-    const std::string known = "data:application/octet-stream;base64," + uri.substr(end + marker.size());
-    if (!tinygltf::DecodeDataURI(&bytes, media_type, known, 0, false))
-        throw InputError(file, where, "is not valid base64");
+    std::vector<std::uint8_t> bytes = decode_base64(uri.substr(end + marker.size()));
+    if (bytes.empty()) throw InputError(file, where, "is not valid base64");
     return bytes;
 }
 
@@ -139,50 +154,6 @@ void load_resources(FileContext context, SourceDocument& source) {
     }
 }
 
-/// A copy without extras, which the tinygltf model would expand to 152 bytes per number and nothing reads there.
-/// The recursion is limited by check_json_depth().
-Json without_extras(const Json& from) {
-    if (from.is_array()) {
-        Json copy = Json::array();
-        copy.get_ref<Json::array_t&>().reserve(from.size());
-        for (const Json& element : from) copy.push_back(without_extras(element));
-        return copy;
-    }
-    if (!from.is_object()) return from;
-    Json copy = Json::object();
-    for (const auto& [key, value] : from.items())
-        if (key != "extras" || !value.is_structured()) copy[key] = without_extras(value);
-    return copy;
-}
-
-/// The part of the document that the reader takes from the tinygltf model. The rest, mostly the larger part, is taken from
-/// the document, so that it is parsed once.
-std::string json_for_tinygltf(const Json& document) {
-    Json part = {{"asset", {{"version", "2.0"}}}};
-    for (const char* const key : {"materials", "textures", "samplers"})
-        part[key] = without_extras(member(document, key));
-    return part.dump();
-}
-
-tinygltf::Model parse_with_tinygltf(const Json& document, const std::string& file) {
-    tinygltf::TinyGLTF parser;
-    const std::string json = json_for_tinygltf(document);
-    tinygltf::Model model;
-    std::string errors, warnings;
-    try {
-        if (!parser.LoadASCIIFromString(&model, &errors, &warnings, json.data(),
-                                        static_cast<unsigned>(json.size()), "", tinygltf::NO_REQUIRE))
-            throw InputError(file, "", errors.substr(0, errors.find('\n')));
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw InputError(file, "", error.what());
-    }
-    return model;
-}
-
 /// Removes members that are null, except in extras: the checks take them for absent, and so must all that follows, which
 /// may ask whether there is a member. The recursion is limited by check_json_depth().
 void remove_null_members(Json& value) {
@@ -223,7 +194,6 @@ LoadedGltf load_gltf(std::span<const std::uint8_t> bytes, const fs::path& file) 
     const GltfContainer container = split_gltf(bytes, loaded.file, loaded.warnings);
     const Json& document = loaded.source->document = parse_gltf(container.json, loaded.file);
     load_resources({document, container, file, loaded.warnings}, *loaded.source);
-    loaded.model = parse_with_tinygltf(document, loaded.file);
     decompress(*loaded.source, loaded.file);
     check_sparse(*loaded.source, loaded.file);
     check_instances(*loaded.source, loaded.file);

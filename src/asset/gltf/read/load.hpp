@@ -1,9 +1,6 @@
 #pragma once
 /// \file
-/// Loading of a glTF file to a validated document. tinygltf parses materials, textures and samplers, after they were
-/// validated; everything else is taken from the document.
-
-#include <tiny_gltf.h>
+/// Loading of a glTF file to a validated document.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,7 +18,6 @@ namespace faqem::detail {
 struct LoadedGltf {
     std::string file;                        ///< path for messages
     std::shared_ptr<SourceDocument> source;  ///< has the buffers and images; materials are still empty
-    tinygltf::Model model;                   ///< has the materials, textures and samplers of the document
     std::vector<std::string> warnings;
 };
 

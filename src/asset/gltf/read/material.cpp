@@ -1,11 +1,10 @@
 #include <algorithm>
-
 #include <cmath>
-#include "asset/scene/messages.hpp"
 
 #include "asset/gltf/read/read.hpp"
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "asset/scene/messages.hpp"
 #include "asset/scene/repair.hpp"
 
 namespace faqem::detail {
@@ -21,9 +20,10 @@ Vec2f pair_or(const Json& pair, Vec2f fallback) {
             static_cast<float>(number_or(pair[1], fallback[1]))};
 }
 
-Wrap wrap_of(int mode) {
-    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
-    return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
+Wrap wrap_of(const Json& sampler, const char* key) {
+    const auto mode =
+        std::find(wrap_modes.begin(), wrap_modes.end(), unsigned_member(sampler, key, wrap_modes[0]));
+    return mode == wrap_modes.end() ? Wrap::repeat : static_cast<Wrap>(mode - wrap_modes.begin());
 }
 
 /// Converts a texture info; unset if there is none, or if the texture has no usable image.
@@ -31,18 +31,17 @@ TextureRef texture_ref(const LoadedGltf& loaded, const Json& info) {
     TextureRef ref;
     const Index index = index_member(info, "index");
     if (index == no_index) return ref;
-    const tinygltf::Texture& texture = loaded.model.textures[index];
-    const Index source = texture_image(loaded.source->document["textures"][index]);
-    const auto image = static_cast<std::size_t>(source);
+    const Json& texture = loaded.source->document["textures"][index];
+    const Index image = texture_image(texture);
     // A texture without an image is ignored. Missing images were reported when they were loaded.
-    if (source == no_index || loaded.source->images[image].encoded.empty()) return ref;
-    ref.image = static_cast<Index>(image);
+    if (image == no_index || loaded.source->images[image].encoded.empty()) return ref;
+    ref.image = image;
     ref.uv_set = static_cast<std::uint32_t>(unsigned_member(info, "texCoord", 0));
-    if (texture.sampler >= 0) {
-        const tinygltf::Sampler& sampler = loaded.model.samplers[static_cast<std::size_t>(texture.sampler)];
-        ref.wrap_u = wrap_of(sampler.wrapS);
-        ref.wrap_v = wrap_of(sampler.wrapT);
-        if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) ref.filter = Filter::nearest;
+    if (const Index index_of_sampler = index_member(texture, "sampler"); index_of_sampler != no_index) {
+        const Json& sampler = loaded.source->document["samplers"][index_of_sampler];
+        ref.wrap_u = wrap_of(sampler, "wrapS");
+        ref.wrap_v = wrap_of(sampler, "wrapT");
+        if (unsigned_member(sampler, "magFilter", gl_linear) == gl_nearest) ref.filter = Filter::nearest;
     }
     const Json& transform = member(member(info, "extensions"), "KHR_texture_transform");
     ref.offset = pair_or(member(transform, "offset"), ref.offset);
@@ -67,32 +66,31 @@ std::vector<ExtensionTexture> extension_textures(const LoadedGltf& loaded, const
 }
 
 template <std::size_t N>
-void copy_factors(std::array<float, N>& to, const std::vector<double>& from) {
-    for (std::size_t i = 0; i < N && i < from.size(); ++i) to[i] = static_cast<float>(from[i]);
+void read_factors(const Json& from, std::array<float, N>& to) {
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i].get<float>();
 }
 
-Material read_material(const LoadedGltf& loaded, std::size_t index) {
-    const tinygltf::Material& from = loaded.model.materials[index];
-    const Json& json = loaded.source->document["materials"][index];
+Material read_material(const LoadedGltf& loaded, const Json& json) {
     Material material;
-    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    material.name = from.name;
-    copy_factors(material.base_color, pbr.baseColorFactor);
-    copy_factors(material.emissive, from.emissiveFactor);
-    material.metallic = static_cast<float>(pbr.metallicFactor);
-    material.roughness = static_cast<float>(pbr.roughnessFactor);
+    const Json& pbr = member(json, "pbrMetallicRoughness");
+    const std::string alpha_mode = string_member(json, "alphaMode");
+    material.name = string_member(json, "name");
+    read_factors(member(pbr, "baseColorFactor"), material.base_color);
+    read_factors(member(json, "emissiveFactor"), material.emissive);
+    material.metallic = static_cast<float>(number_or(member(pbr, "metallicFactor"), 1));
+    material.roughness = static_cast<float>(number_or(member(pbr, "roughnessFactor"), 1));
     for (const CoreSlot& slot : core_slots) {
-        const Json& info = member(slot.is_in_pbr ? member(json, "pbrMetallicRoughness") : json, slot.key);
+        const Json& info = member(slot.is_in_pbr ? pbr : json, slot.key);
         material.*slot.texture = texture_ref(loaded, info);
         if (slot.factor)
             material.*slot.factor = static_cast<float>(number_or(member(info, slot.factor_key), 1));
     }
     material.extension_textures = extension_textures(loaded, json);
-    if (from.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
-    if (from.alphaMode == "BLEND") material.alpha_mode = AlphaMode::blend;
-    material.alpha_cutoff = static_cast<float>(from.alphaCutoff);
-    material.double_sided = from.doubleSided;
-    for (const auto& [name, value] : from.extensions) {
+    if (alpha_mode == "MASK") material.alpha_mode = AlphaMode::mask;
+    if (alpha_mode == "BLEND") material.alpha_mode = AlphaMode::blend;
+    material.alpha_cutoff = static_cast<float>(number_or(member(json, "alphaCutoff"), 0.5));
+    material.double_sided = member(json, "doubleSided") == true;
+    for (const auto& [name, value] : member(json, "extensions").items()) {
         if (name == "KHR_materials_unlit")
             material.unlit = true;
         else if (name != "KHR_texture_transform")
@@ -129,14 +127,14 @@ std::uint64_t reset_non_finite(Material& material) {
 
 std::vector<Material> read_materials(LoadedGltf& loaded) {
     std::vector<Material> materials;
-    for (const tinygltf::Material& from : loaded.model.materials) {
-        Material material = read_material(loaded, materials.size());
+    for (const Json& json : member(loaded.source->document, "materials")) {
+        Material material = read_material(loaded, json);
         material.source = static_cast<Index>(materials.size());
         if (const std::uint64_t count = reset_non_finite(material); count != 0)
             loaded.warnings.push_back(child_path("/materials", materials.size()) + ": " +
                                       pluralized(count, "number") +
                                       " too large for a float, reset to the default");
-        if (from.extensions.count("KHR_materials_pbrSpecularGlossiness") != 0)
+        if (member(json, "extensions").contains("KHR_materials_pbrSpecularGlossiness"))
             loaded.warnings.push_back(
                 child_path("/materials", materials.size()) +
                 ": KHR_materials_pbrSpecularGlossiness is passed through, but not interpreted");

@@ -34,15 +34,6 @@ std::string uv_name(std::size_t set) { return "TEXCOORD_" + std::to_string(set);
 std::string joints_name(std::size_t set) { return "JOINTS_" + std::to_string(set); }
 std::string weights_name(std::size_t set) { return "WEIGHTS_" + std::to_string(set); }
 
-std::uint64_t mode_of(const Json& primitive) {
-    return unsigned_member(primitive, "mode", TINYGLTF_MODE_TRIANGLES);
-}
-
-bool has_triangles(const Json& primitive) {
-    return mode_of(primitive) >= TINYGLTF_MODE_TRIANGLES &&
-           member(primitive, "attributes").contains("POSITION");
-}
-
 // The attributes of applications that all triangle primitives store in the same way. Feature ids have no value that
 // stands for none, so that an attribute which some primitives lack cannot be joined.
 std::vector<CustomAttribute> custom_attributes(const Json& mesh, const Json& accessors) {
@@ -210,15 +201,14 @@ std::vector<Index> corners_of(const LoadedGltf& loaded, const Json& primitive, s
 /// which only connect parts of the strip, are left out.
 std::vector<Triangle> triangles_of(const std::vector<Index>& v, std::uint64_t mode) {
     std::vector<Triangle> triangles;
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
+    if (mode == triangle_list) {
         triangles.reserve(v.size() / 3);
         for (std::size_t i = 0; i + 2 < v.size(); i += 3) triangles.push_back({v[i], v[i + 1], v[i + 2]});
         return triangles;
     }
     for (std::size_t i = 0; i + 2 < v.size(); ++i) {
-        const Triangle t = mode == TINYGLTF_MODE_TRIANGLE_FAN
-                               ? Triangle{v[i + 1], v[i + 2], v[0]}
-                               : Triangle{v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]};
+        const Triangle t = mode == triangle_fan ? Triangle{v[i + 1], v[i + 2], v[0]}
+                                                : Triangle{v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]};
         if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
     }
     return triangles;
@@ -301,11 +291,10 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
     const Json& primitives = member(mesh, "primitives");
     for (std::size_t p = 0; p < primitives.size(); ++p) {
         const Json& primitive = primitives[p];
-        const std::uint64_t mode = mode_of(primitive);
+        const std::uint64_t mode = primitive_mode(primitive);
         const std::string at = child_path(where + "/primitives", p);
         if (!has_triangles(primitive)) {
-            if (mode >= TINYGLTF_MODE_TRIANGLES)
-                loaded.warnings.push_back(at + ": has no positions and was left out");
+            if (mode >= triangle_list) loaded.warnings.push_back(at + ": has no positions and was left out");
             continue;
         }
         const auto [entry, is_new] =
@@ -317,7 +306,7 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
         const std::uint64_t count =
             unsigned_member(accessors[index_member(primitive["attributes"], "POSITION")], "count", 0);
         const std::vector<Index> corners = corners_of(loaded, primitive, count, at);
-        if (mode == TINYGLTF_MODE_TRIANGLES) excess += corners.size() % 3;
+        if (mode == triangle_list) excess += corners.size() % 3;
         const Index material = index_member(primitive, "material");
         for (Triangle triangle : triangles_of(corners, mode)) {
             for (Index& corner : triangle) corner = static_cast<Index>(corner + first);

@@ -8,15 +8,10 @@
 namespace faqem::detail {
 namespace {
 
-// glTF constants of filters and wrap modes.
-constexpr int gl_nearest = 9728, gl_linear = 9729;
+// glTF constants of filters.
 constexpr int gl_nearest_mipmap_nearest = 9984, gl_linear_mipmap_linear = 9987;
-constexpr int gl_repeat = 10497, gl_clamp_to_edge = 33071, gl_mirrored_repeat = 33648;
 
-int wrap_number(Wrap wrap) {
-    if (wrap == Wrap::clamp) return gl_clamp_to_edge;
-    return wrap == Wrap::mirror ? gl_mirrored_repeat : gl_repeat;
-}
+std::uint32_t wrap_mode(Wrap wrap) { return wrap_modes[static_cast<std::size_t>(wrap)]; }
 
 Index make_sampler(GltfWriter& writer, const TextureRef& ref) {
     const auto [entry, is_new] = writer.samplers.try_emplace({ref.wrap_u, ref.wrap_v, ref.filter}, no_index);
@@ -25,8 +20,8 @@ Index make_sampler(GltfWriter& writer, const TextureRef& ref) {
         entry->second = append(writer, "samplers",
                                {{"magFilter", smooth ? gl_linear : gl_nearest},
                                 {"minFilter", smooth ? gl_linear_mipmap_linear : gl_nearest_mipmap_nearest},
-                                {"wrapS", wrap_number(ref.wrap_u)},
-                                {"wrapT", wrap_number(ref.wrap_v)}});
+                                {"wrapS", wrap_mode(ref.wrap_u)},
+                                {"wrapT", wrap_mode(ref.wrap_v)}});
     }
     return entry->second;
 }

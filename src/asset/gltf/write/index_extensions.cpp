@@ -12,8 +12,6 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint64_t triangle_list_mode = 4;
-
 /// The numbers in an accessor that an extension refers to; none if it is no accessor of unsigned integers.
 std::optional<std::vector<Index>> referenced_numbers(const GltfWriter& writer, const Json& reference) {
     const Json& accessors = source_array(writer, "accessors");
@@ -59,8 +57,7 @@ Index add_numbers(GltfWriter& writer, const std::vector<Index>& numbers) {
 std::optional<VertexNumbers> unchanged_vertices(const GltfWriter& writer, const Json& source,
                                                 const PrimitiveData& data) {
     const Index position = index_member(member(source, "attributes"), "POSITION");
-    if (position == no_index || unsigned_member(source, "mode", triangle_list_mode) != triangle_list_mode)
-        return std::nullopt;
+    if (position == no_index || primitive_mode(source) != triangle_list) return std::nullopt;
     const std::vector<Vec3> positions = read_vectors<double, 3>(writer.source, position);
     std::vector<Index> corners;
     if (source.contains("indices")) {

@@ -12,7 +12,6 @@
 namespace faqem::detail {
 namespace {
 
-constexpr std::uint64_t first_triangle_mode = 4;
 constexpr const char* variants_name = "KHR_materials_variants";
 
 /// Extensions of primitives and meshes that describe the source vertices or triangles, which may no longer exist.
@@ -20,9 +19,7 @@ constexpr std::array<std::string_view, 6> vertex_extensions = {
     "KHR_draco_mesh_compression", "EXT_mesh_features", "EXT_structural_metadata",
     "CESIUM_primitive_outline",   "EXT_mesh_manifold", "FB_ngon_encoding"};
 
-bool is_triangle_primitive(const Json& primitive) {
-    return unsigned_member(primitive, "mode", 4) >= first_triangle_mode;
-}
+bool is_triangle_primitive(const Json& primitive) { return primitive_mode(primitive) >= triangle_list; }
 
 void warn_mesh(GltfWriter& writer, const std::string& name, const std::string& what) {
     writer.warnings.push_back("mesh '" + name + "': " + what);
