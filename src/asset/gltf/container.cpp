@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <limits>
 #include <system_error>
 
@@ -76,17 +75,23 @@ GltfContainer split_gltf(std::span<const std::uint8_t> bytes, const std::string&
     return container;
 }
 
-std::string read_json_text(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
+std::uint64_t open_json(const std::filesystem::path& file, std::ifstream& in) {
+    in.open(file, std::ios::binary);
     std::array<std::uint8_t, glb_header_bytes + chunk_header_bytes> head = {};
     in.read(reinterpret_cast<char*>(head.data()), head.size());
     const bool is_glb = in && u32_at(head, 0) == glb_magic;
-    std::error_code error;
-    const std::uint64_t file_size = std::filesystem::file_size(file, error);
-    const std::uint64_t size = is_glb ? std::min<std::uint64_t>(u32_at(head, 12), file_size) : file_size;
-    if (error || size > std::numeric_limits<std::uint32_t>::max()) return {};
     in.clear();
     if (!is_glb) in.seekg(0);
+    std::error_code error;
+    const std::uint64_t file_size = std::filesystem::file_size(file, error);
+    if (error) return 0;
+    return is_glb ? std::min<std::uint64_t>(u32_at(head, 12), file_size) : file_size;
+}
+
+std::string read_json_text(const std::filesystem::path& file) {
+    std::ifstream in;
+    const std::uint64_t size = open_json(file, in);
+    if (size > std::numeric_limits<std::uint32_t>::max()) return {};
     std::string text(size, '\0');
     in.read(text.data(), static_cast<std::streamsize>(size));
     text.resize(static_cast<std::size_t>(in.gcount()));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,6 +31,9 @@ inline constexpr int max_json_depth = 64;
 /// \throws UnsupportedError  if the GLB version is not 2
 GltfContainer split_gltf(std::span<const std::uint8_t> bytes, const std::string& file,
                          std::vector<std::string>& warnings);
+
+/// Opens a file at the beginning of its JSON text, without checks. Returns the size of the text, at most that of the file.
+std::uint64_t open_json(const std::filesystem::path& file, std::ifstream& in);
 
 /// Reads the JSON text of a file alone, without checks.
 /// \return empty if the file cannot be read, or if the text has 4 GiB or more, which load() does not support
