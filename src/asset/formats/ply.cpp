@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "asset/formats/byte_colors.hpp"
@@ -70,7 +72,11 @@ struct PlySlots {
     explicit PlySlots(const PlyElement& element) {
         for (const PlyProperty& p : element.properties) {
             of.push_back(vertex_property(p));
-            scale[of.back()] = is_integer_type(p.type) ? 1 / ply_type_range(p.type).high : 1;
+            scale[of.back()] = visit_type(p.type, [](auto number) {
+                return std::is_integral_v<decltype(number)>
+                           ? 1.0 / std::numeric_limits<decltype(number)>::max()
+                           : 1;
+            });
         }
     }
 
@@ -134,7 +140,7 @@ private:
     void check_row_count(const PlyElement& element) {
         std::uint64_t bytes = 0;
         for (const PlyProperty& p : element.properties)
-            bytes += ply_type_size(p.is_list ? p.count_type : p.type);
+            bytes += number_size(p.is_list ? p.count_type : p.type);
         if (bytes && element.count > data_.max_row_count(element.properties.size(), bytes))
             throw InputError(file_, "element " + element.name,
                              "the file is too short for " + pluralized(element.count, "row"));
@@ -163,7 +169,7 @@ private:
         const double size = data_.value(property.count_type);
         if (size < 0) data_.fail("a list has a negative length");
         const auto count = static_cast<std::uint64_t>(size);
-        if (count && count > data_.max_row_count(1, ply_type_size(property.type)))
+        if (count && count > data_.max_row_count(1, number_size(property.type)))
             data_.fail("the file is too short for a list of " + std::to_string(count));
         return count;
     }
@@ -231,7 +237,7 @@ private:
         const auto indices = std::find_if(
             element.properties.begin(), element.properties.end(),
             [](const PlyProperty& p) { return p.name == "vertex_indices" || p.name == "vertex_index"; });
-        if (indices == element.properties.end() || !indices->is_list || !is_integer_type(indices->type))
+        if (indices == element.properties.end() || !indices->is_list || !is_integer(indices->type))
             throw InputError(file_, "element " + element.name,
                              "must have an integer list property vertex_indices");
         return static_cast<std::size_t>(indices - element.properties.begin());
@@ -352,7 +358,7 @@ private:
 
 /// The type of the positions; that of integers is unknown.
 StoredPrecision position_precision(const PlyHeader& header) {
-    const auto has_type = [&](PlyType type) {
+    const auto has_type = [&](NumberType type) {
         const auto is_coordinate = [&](const PlyProperty& p) {
             return p.type == type && !p.is_list && vertex_property(p) <= z;
         };
@@ -360,8 +366,8 @@ StoredPrecision position_precision(const PlyHeader& header) {
             return e.name == "vertex" && std::any_of(e.properties.begin(), e.properties.end(), is_coordinate);
         });
     };
-    if (has_type(PlyType::float64)) return {StoredPrecision::Type::float64};
-    return {has_type(PlyType::float32) ? StoredPrecision::Type::float32 : StoredPrecision::Type::unknown};
+    if (has_type(NumberType::f64)) return {StoredPrecision::Type::float64};
+    return {has_type(NumberType::f32) ? StoredPrecision::Type::float32 : StoredPrecision::Type::unknown};
 }
 
 }  // namespace

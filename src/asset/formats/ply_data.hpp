@@ -12,27 +12,11 @@
 #include <string>
 
 #include "asset/formats/ply_header.hpp"
+#include "asset/io/number_type.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
-
-/// Smallest and largest value of an integer type.
-struct PlyTypeRange {
-    double low, high;
-};
-
-inline PlyTypeRange ply_type_range(PlyType type) {
-    static constexpr std::array<PlyTypeRange, 6> ranges = {{{-128, 127},
-                                                            {0, 255},
-                                                            {-32768, 32767},
-                                                            {0, 65535},
-                                                            {-2147483648.0, 2147483647.0},
-                                                            {0, 4294967295.0}}};
-    return ranges[static_cast<std::size_t>(type)];
-}
-
-inline bool is_integer_type(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
 /// Reads the values of an ASCII PLY file, where each row is a line.
 class PlyAsciiData {
@@ -52,14 +36,8 @@ public:
     }
     [[noreturn]] void fail(const std::string& what) const { in_.fail(what); }
 
-    double value(PlyType type) {
-        if (type == PlyType::float64) return in_.number<double>();
-        if (type == PlyType::float32) return in_.number<float>();
-        const auto value = static_cast<double>(in_.number<std::int64_t>());
-        const PlyTypeRange range = ply_type_range(type);
-        if (value < range.low || value > range.high)
-            in_.fail("a value does not fit the type of its property");
-        return value;
+    double value(NumberType type) {
+        return visit_type(type, [&](auto number) -> double { return in_.number<decltype(number)>(); });
     }
 
 private:
@@ -83,26 +61,8 @@ public:
     std::uint64_t remaining_bytes() const { return static_cast<std::uint64_t>(end_ - at_); }
     [[noreturn]] void fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
 
-    double value(PlyType type) {
-        switch (type) {
-            case PlyType::int8:
-                return take<std::int8_t>();
-            case PlyType::uint8:
-                return take<std::uint8_t>();
-            case PlyType::int16:
-                return take<std::int16_t>();
-            case PlyType::uint16:
-                return take<std::uint16_t>();
-            case PlyType::int32:
-                return take<std::int32_t>();
-            case PlyType::uint32:
-                return take<std::uint32_t>();
-            case PlyType::float32:
-                return take<float>();
-            case PlyType::float64:
-                break;
-        }
-        return take<double>();
+    double value(NumberType type) {
+        return visit_type(type, [&](auto number) -> double { return take<decltype(number)>(); });
     }
 
 private:

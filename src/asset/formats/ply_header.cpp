@@ -13,29 +13,21 @@
 namespace faqem::detail {
 namespace {
 
-PlyType read_type(TextScanner& in) {
-    static constexpr std::array<std::pair<std::string_view, PlyType>, 16> names = {
-        {{"char", PlyType::int8},
-         {"int8", PlyType::int8},
-         {"uchar", PlyType::uint8},
-         {"uint8", PlyType::uint8},
-         {"short", PlyType::int16},
-         {"int16", PlyType::int16},
-         {"ushort", PlyType::uint16},
-         {"uint16", PlyType::uint16},
-         {"int", PlyType::int32},
-         {"int32", PlyType::int32},
-         {"uint", PlyType::uint32},
-         {"uint32", PlyType::uint32},
-         {"float", PlyType::float32},
-         {"float32", PlyType::float32},
-         {"double", PlyType::float64},
-         {"float64", PlyType::float64}}};
+NumberType read_type(TextScanner& in) {
+    // By NumberType, from i8 on.
+    static constexpr std::array<std::array<std::string_view, 2>, 8> names = {{{"char", "int8"},
+                                                                              {"uchar", "uint8"},
+                                                                              {"short", "int16"},
+                                                                              {"ushort", "uint16"},
+                                                                              {"int", "int32"},
+                                                                              {"uint", "uint32"},
+                                                                              {"float", "float32"},
+                                                                              {"double", "float64"}}};
     const std::string_view word = in.word();
-    const auto found =
-        std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == word; });
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&](const auto& entry) { return entry[0] == word || entry[1] == word; });
     if (found == names.end()) in.fail("unknown type " + TextScanner::quoted(word));
-    return found->second;
+    return static_cast<NumberType>(static_cast<std::uint32_t>(NumberType::i8) + (found - names.begin()));
 }
 
 PlyFormat read_format(TextScanner& in) {
@@ -53,8 +45,7 @@ PlyProperty read_property(TextScanner& in) {
     property.is_list = in.accept_word("list");
     if (property.is_list) {
         property.count_type = read_type(in);
-        if (property.count_type == PlyType::float32 || property.count_type == PlyType::float64)
-            in.fail("the length of a list must be an integer");
+        if (!is_integer(property.count_type)) in.fail("the length of a list must be an integer");
     }
     property.type = read_type(in);
     property.name = in.word();
@@ -63,11 +54,6 @@ PlyProperty read_property(TextScanner& in) {
 }
 
 }  // namespace
-
-std::size_t ply_type_size(PlyType type) {
-    static constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
-    return sizes[static_cast<std::size_t>(type)];
-}
 
 PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string& file) {
     PlyHeader header;

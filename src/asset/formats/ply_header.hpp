@@ -9,22 +9,18 @@
 #include <string>
 #include <vector>
 
+#include "asset/io/number_type.hpp"
 #include "asset/io/reference_list.hpp"
 
 namespace faqem::detail {
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-/// Size of a value in a binary file, in bytes.
-std::size_t ply_type_size(PlyType type);
-
 struct PlyProperty {
     std::string name;
-    PlyType type = PlyType::float32;  ///< type of the value, or of the items of a list
+    NumberType type = NumberType::f32;  ///< type of the value, or of the items of a list
     bool is_list = false;
-    PlyType count_type = PlyType::uint8;  ///< type of the length of a list
+    NumberType count_type = NumberType::u8;  ///< type of the length of a list
 };
 
 struct PlyElement {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "faqem/error.hpp"
 
@@ -28,75 +30,50 @@ T load(const std::uint8_t* bytes) {
     return value;
 }
 
-/// Loads an unsigned integer of type u8, u16 or u32.
-std::uint32_t load_unsigned(const std::uint8_t* bytes, ComponentType type) {
-    if (type == ComponentType::u8) return *bytes;
-    return type == ComponentType::u16 ? load<std::uint16_t>(bytes) : load<std::uint32_t>(bytes);
-}
-
 std::vector<std::uint32_t> sparse_indices(const SourceDocument& source, const Json& sparse) {
     const Json& indices = sparse["indices"];
-    const auto type = static_cast<ComponentType>(unsigned_member(indices, "componentType", 0));
     const std::uint8_t* bytes = view_bytes(source, indices, nullptr);
     std::vector<std::uint32_t> result(unsigned_member(sparse, "count", 0));
-    for (std::uint32_t& index : result) {
-        index = load_unsigned(bytes, type);
-        bytes += component_size(static_cast<std::uint64_t>(type));
-    }
+    visit_type(component_type(indices), [&](auto number) {
+        for (std::uint32_t& index : result) {
+            index = static_cast<std::uint32_t>(load<decltype(number)>(bytes));
+            bytes += sizeof number;
+        }
+    });
     return result;
 }
 
-template <class T>
-T from_normalized(double value, double largest) {
-    return static_cast<T>(std::max(value / largest, -1.0));
-}
-
-template <class T>
-T load_number(const std::uint8_t* bytes, ComponentType type, bool is_normalized) {
-    switch (type) {
-        case ComponentType::i8: {
-            const auto value = load<std::int8_t>(bytes);
-            return is_normalized ? from_normalized<T>(value, 127) : static_cast<T>(value);
-        }
-        case ComponentType::u8:
-            return is_normalized ? from_normalized<T>(*bytes, 255) : static_cast<T>(*bytes);
-        case ComponentType::i16: {
-            const auto value = load<std::int16_t>(bytes);
-            return is_normalized ? from_normalized<T>(value, 32767) : static_cast<T>(value);
-        }
-        case ComponentType::u16: {
-            const auto value = load<std::uint16_t>(bytes);
-            return is_normalized ? from_normalized<T>(value, 65535) : static_cast<T>(value);
-        }
-        case ComponentType::u32:
-            return static_cast<T>(load<std::uint32_t>(bytes));
-        case ComponentType::f32:
-            break;
-    }
-    return static_cast<T>(load<float>(bytes));
+template <class T, class Stored>
+T converted(Stored value, bool is_normalized) {
+    constexpr double largest{std::numeric_limits<Stored>::max()};
+    if (std::is_floating_point_v<T> && std::is_integral_v<Stored> && is_normalized)
+        return static_cast<T>(std::max(value / largest, -1.0));
+    return static_cast<T>(value);
 }
 
 const Json& accessor_at(const SourceDocument& source, Index accessor) {
     return member(source.document, "accessors")[accessor];
 }
 
-}  // namespace
-
-std::uint32_t component_size(std::uint64_t type) {
-    switch (type) {
-        case 5120:
-        case 5121:
-            return 1;
-        case 5122:
-        case 5123:
-            return 2;
-        case 5125:
-        case 5126:
-            return 4;
-        default:
-            return 0;
-    }
+/// Writes N numbers for each element of an accessor to `to`.
+template <std::size_t N, class T>
+void copy_elements(const SourceDocument& source, Index index, T fill, T* to) {
+    const Json& accessor = accessor_at(source, index);
+    const std::vector<std::uint8_t> dense = dense_bytes(source, index);
+    const std::size_t components = component_count(string_member(accessor, "type"));
+    const std::uint64_t count = unsigned_member(accessor, "count", 0);
+    const bool is_normalized = member(accessor, "normalized") == true;
+    visit_type(component_type(accessor), [&](auto number) {
+        const std::uint8_t* bytes = dense.data();
+        for (T* const end = to + count * N; to != end; to += N) {
+            std::fill_n(to, N, fill);
+            for (std::size_t c = 0; c < components; ++c, bytes += sizeof number)
+                if (c < N) to[c] = converted<T>(load<decltype(number)>(bytes), is_normalized);
+        }
+    });
 }
+
+}  // namespace
 
 std::uint32_t component_count(const std::string& type) {
     if (type == "SCALAR") return 1;
@@ -107,33 +84,25 @@ std::uint32_t component_count(const std::string& type) {
     return type == "MAT4" ? 16 : 0;
 }
 
-std::uint32_t element_size(std::uint64_t component_type, const std::string& type) {
-    const std::uint32_t component = component_size(component_type);
+std::size_t element_size(const Json& accessor) {
+    const std::string type = string_member(accessor, "type");
+    const std::size_t component = number_size(component_type(accessor));
     if (type.compare(0, 3, "MAT") != 0) return component * component_count(type);
-    const std::uint32_t columns = type == "MAT2" ? 2 : type == "MAT3" ? 3 : 4;
+    const std::size_t columns = type == "MAT2" ? 2 : type == "MAT3" ? 3 : 4;
     return columns * ((columns * component + 3) / 4 * 4);
 }
 
 double integer_step(const Json& accessor) {
-    const bool is_normalized = member(accessor, "normalized") == true;
-    switch (static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0))) {
-        case ComponentType::i8:
-            return is_normalized ? 1.0 / 127 : 1;
-        case ComponentType::u8:
-            return is_normalized ? 1.0 / 255 : 1;
-        case ComponentType::i16:
-            return is_normalized ? 1.0 / 32767 : 1;
-        case ComponentType::u16:
-            return is_normalized ? 1.0 / 65535 : 1;
-        default:
-            return 0;
-    }
+    return visit_type(component_type(accessor), [&](auto number) -> double {
+        if (sizeof number > 2) return 0;
+        return member(accessor, "normalized") == true ? 1.0 / std::numeric_limits<decltype(number)>::max()
+                                                      : 1;
+    });
 }
 
 std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index index) {
     const Json& accessor = accessor_at(source, index);
-    const std::uint64_t size =
-        element_size(unsigned_member(accessor, "componentType", 0), string_member(accessor, "type"));
+    const std::uint64_t size = element_size(accessor);
     const std::uint64_t count = unsigned_member(accessor, "count", 0);
     std::vector<std::uint8_t> dense(count * size);
     if (accessor.contains("bufferView")) {
@@ -158,19 +127,8 @@ std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index index)
 
 template <class T, std::size_t N>
 std::vector<std::array<T, N>> read_vectors(const SourceDocument& source, Index index, T fill) {
-    const Json& accessor = accessor_at(source, index);
-    const std::vector<std::uint8_t> dense = dense_bytes(source, index);
-    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
-    const std::uint32_t step = component_size(static_cast<std::uint64_t>(type));
-    const std::size_t components = component_count(string_member(accessor, "type"));
-    const bool is_normalized = member(accessor, "normalized") == true && type != ComponentType::f32;
-    std::vector<std::array<T, N>> result(unsigned_member(accessor, "count", 0));
-    const std::uint8_t* bytes = dense.data();
-    for (std::array<T, N>& element : result) {
-        element.fill(fill);
-        for (std::size_t c = 0; c < components; ++c, bytes += step)
-            if (c < N) element[c] = load_number<T>(bytes, type, is_normalized);
-    }
+    std::vector<std::array<T, N>> result(unsigned_member(accessor_at(source, index), "count", 0));
+    copy_elements<N>(source, index, fill, result.front().data());
     return result;
 }
 
@@ -179,33 +137,12 @@ template std::vector<std::array<double, 4>> read_vectors<double, 4>(const Source
 template std::vector<Vec2f> read_vectors<float, 2>(const SourceDocument&, Index, float);
 template std::vector<Vec3f> read_vectors<float, 3>(const SourceDocument&, Index, float);
 template std::vector<Vec4f> read_vectors<float, 4>(const SourceDocument&, Index, float);
+template std::vector<std::array<std::uint16_t, 4>> read_vectors<std::uint16_t, 4>(const SourceDocument&,
+                                                                                  Index, std::uint16_t);
 
 std::vector<Index> read_indices(const SourceDocument& source, Index index) {
-    const Json& accessor = accessor_at(source, index);
-    const std::vector<std::uint8_t> dense = dense_bytes(source, index);
-    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
-    const std::uint32_t step = component_size(static_cast<std::uint64_t>(type));
-    std::vector<Index> result(unsigned_member(accessor, "count", 0));
-    const std::uint8_t* bytes = dense.data();
-    for (Index& element : result) {
-        element = load_unsigned(bytes, type);
-        bytes += step;
-    }
-    return result;
-}
-
-std::vector<std::array<std::uint16_t, 4>> read_joints(const SourceDocument& source, Index index) {
-    const Json& accessor = accessor_at(source, index);
-    const std::vector<std::uint8_t> dense = dense_bytes(source, index);
-    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
-    const std::uint32_t step = component_size(static_cast<std::uint64_t>(type));
-    std::vector<std::array<std::uint16_t, 4>> result(unsigned_member(accessor, "count", 0));
-    const std::uint8_t* bytes = dense.data();
-    for (auto& element : result)
-        for (std::uint16_t& joint : element) {
-            joint = static_cast<std::uint16_t>(load_unsigned(bytes, type));
-            bytes += step;
-        }
+    std::vector<Index> result(unsigned_member(accessor_at(source, index), "count", 0));
+    copy_elements<1>(source, index, Index{0}, result.data());
     return result;
 }
 

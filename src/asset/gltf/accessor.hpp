@@ -3,32 +3,36 @@
 /// Layout of glTF accessors, and reading of their elements.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "asset/gltf/source_document.hpp"
+#include "asset/io/number_type.hpp"
 
 namespace faqem::detail {
 
-/// Component types with their glTF constants.
-enum class ComponentType : std::uint32_t {
-    i8 = 5120,
-    u8 = 5121,
-    i16 = 5122,
-    u16 = 5123,
-    u32 = 5125,
-    f32 = 5126
-};
+/// The type of the components of an accessor, or of another object that has one.
+inline NumberType component_type(const Json& accessor) {
+    return static_cast<NumberType>(unsigned_member(accessor, "componentType", 0));
+}
 
-/// Size of a component in bytes; 0 if the type is unknown.
-std::uint32_t component_size(std::uint64_t type);
+/// Whether accessors may have components of a type.
+constexpr bool is_component_type(std::uint64_t type) {
+    return type >= 5120 && type <= 5126 && type != static_cast<std::uint64_t>(NumberType::i32);
+}
+
+/// Whether indices may have a type.
+constexpr bool is_index_type(NumberType type) {
+    return type == NumberType::u8 || type == NumberType::u16 || type == NumberType::u32;
+}
 
 /// Number of components of an accessor type such as "VEC3"; 0 if the type is unknown.
 std::uint32_t component_count(const std::string& type);
 
-/// Size of an element in bytes. Matrix columns are aligned to 4 bytes.
-std::uint32_t element_size(std::uint64_t component_type, const std::string& type);
+/// Size of an element of an accessor in bytes. Matrix columns are aligned to 4 bytes.
+std::size_t element_size(const Json& accessor);
 
 /// Distance of the values that neighbouring integers of an accessor stand for; 0 for floats and 32-bit integers.
 /// \param accessor  its description in the document
@@ -40,7 +44,7 @@ double integer_step(const Json& accessor);
 std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index accessor);
 
 /// Reads the elements of an accessor as vectors. Normalised integers are converted to [0, 1] or [-1, 1].
-/// \tparam T  float or double
+/// \tparam T  float, double, or std::uint16_t for the numbers of joints
 /// \tparam N  number of components, 1 to 4; missing components are set to `fill`, excess ones are dropped
 /// \pre as for dense_bytes()
 template <class T, std::size_t N>
@@ -48,9 +52,6 @@ std::vector<std::array<T, N>> read_vectors(const SourceDocument& source, Index a
 
 /// Reads a SCALAR accessor of unsigned integers. \pre as for dense_bytes()
 std::vector<Index> read_indices(const SourceDocument& source, Index accessor);
-
-/// Reads a VEC4 accessor of unsigned bytes or shorts. \pre as for dense_bytes()
-std::vector<std::array<std::uint16_t, 4>> read_joints(const SourceDocument& source, Index accessor);
 
 /// Checks that the indices of each sparse accessor are strictly increasing and less than its count. This
 /// needs the buffers and is therefore separate from validate_gltf().

@@ -64,9 +64,7 @@ InverseBinds inverse_binds(const SourceDocument& source, const Json& skin) {
     const Index accessor = index_member(skin, "inverseBindMatrices");
     if (accessor == no_index) return result;
     const Json& layout = source.document["accessors"][accessor];
-    if (string_member(layout, "type") != "MAT4" ||
-        unsigned_member(layout, "componentType", 0) != static_cast<std::uint64_t>(ComponentType::f32))
-        return result;
+    if (string_member(layout, "type") != "MAT4" || component_type(layout) != NumberType::f32) return result;
     const std::vector<std::uint8_t> bytes = dense_bytes(source, accessor);
     std::array<float, 16> stored;
     for (std::size_t j = 0; j < result.matrices.size() && bytes.size() >= (j + 1) * sizeof stored; ++j) {

@@ -59,10 +59,10 @@ void check_sparse_layout(const GltfChecker& checker, const Json& sparse, const s
         const std::uint64_t offset = checker.number(part, at, "byteOffset").value_or(0);
         std::uint64_t bytes = size;
         if (key == std::string("indices")) {
-            const auto type = static_cast<ComponentType>(checker.required_number(part, at, "componentType"));
-            if (type != ComponentType::u8 && type != ComponentType::u16 && type != ComponentType::u32)
+            const auto type = static_cast<NumberType>(checker.required_number(part, at, "componentType"));
+            if (!is_index_type(type))
                 checker.fail(child_path(at, "componentType"), "is not an unsigned integer type");
-            bytes = component_size(static_cast<std::uint64_t>(type));
+            bytes = number_size(type);
         }
         check_range(checker, at, view, offset, count, bytes, bytes);
     }
@@ -81,7 +81,7 @@ std::uint64_t declared_buffer_size(const Json& document) {
 void check_accessor(const GltfChecker& checker, const Json& accessor, const std::string& where,
                     std::uint64_t file_bytes) {
     const std::uint64_t component = checker.required_number(accessor, where, "componentType");
-    if (component_size(component) == 0)
+    if (!is_component_type(component))
         checker.fail(child_path(where, "componentType"),
                      "is " + std::to_string(component) + ", which is not a type of glTF 2.0");
     const std::string type = string_member(accessor, "type");
@@ -92,7 +92,7 @@ void check_accessor(const GltfChecker& checker, const Json& accessor, const std:
         checker.fail(child_path(where, "normalized"), "is neither true nor false");
     const std::uint64_t count = checker.required_number(accessor, where, "count");
     if (count == 0) checker.fail(child_path(where, "count"), "is 0");
-    const std::uint64_t size = element_size(component, type);
+    const std::uint64_t size = element_size(accessor);
     const std::uint64_t offset = checker.number(accessor, where, "byteOffset").value_or(0);
 
     if (const auto view = checker.reference(accessor, where, "bufferView", "bufferViews")) {

@@ -29,11 +29,11 @@ void check_attribute_format(const GltfChecker& checker, const std::string& where
         checker.fail(where, "is a " + type + ", " + name + " must be a " + std::string(wanted));
     if (name.starts_with("COLOR_") && type != "VEC3" && type != "VEC4")
         checker.fail(where, "is a " + type + ", " + name + " must be a VEC3 or VEC4");
-    const auto component = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
+    const NumberType component = component_type(accessor);
     const bool is_joints = name.starts_with("JOINTS_");
-    if (is_joints && component != ComponentType::u8 && component != ComponentType::u16)
+    if (is_joints && component != NumberType::u8 && component != NumberType::u16)
         checker.fail(where, "joints must be unsigned bytes or shorts");
-    if (!is_joints && name[0] != '_' && component == ComponentType::u32)
+    if (!is_joints && name[0] != '_' && component == NumberType::u32)
         checker.fail(where, name + " cannot be 32-bit integers");
 }
 
@@ -61,10 +61,8 @@ void check_indices(const GltfChecker& checker, const Json& primitive, const std:
     const auto indices = checker.reference(primitive, where, "indices", "accessors");
     if (!indices) return;
     const Json& accessor = member(checker.document, "accessors")[*indices];
-    const auto component = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
-    const bool is_unsigned =
-        component == ComponentType::u8 || component == ComponentType::u16 || component == ComponentType::u32;
-    if (string_member(accessor, "type") != "SCALAR" || !is_unsigned || member(accessor, "normalized") == true)
+    if (string_member(accessor, "type") != "SCALAR" || !is_index_type(component_type(accessor)) ||
+        member(accessor, "normalized") == true)
         checker.fail(child_path(where, "indices"), "must be unsigned integers");
 }
 

@@ -14,11 +14,11 @@ void check_instance_attribute(const GltfChecker& checker, const std::string& nam
                               const std::string& where) {
     const bool is_rotation = name == "ROTATION";
     if (!is_rotation && name != "TRANSLATION" && name != "SCALE") return;
-    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
+    const NumberType type = component_type(accessor);
     const bool is_normalized = is_rotation && member(accessor, "normalized") == true &&
-                               (type == ComponentType::i8 || type == ComponentType::i16);
+                               (type == NumberType::i8 || type == NumberType::i16);
     if (string_member(accessor, "type") != (is_rotation ? "VEC4" : "VEC3") ||
-        !(type == ComponentType::f32 || is_normalized))
+        !(type == NumberType::f32 || is_normalized))
         checker.fail(where, is_rotation ? "is not a VEC4 of floats or of normalised signed bytes or shorts"
                                         : "is not a VEC3 of floats");
 }

@@ -67,8 +67,8 @@ void set_bytes(SourceDocument& source, Json& accessor, std::vector<std::uint8_t>
 
 /// Converts indices to the given component type; empty if an index is out of its range.
 std::optional<std::vector<std::uint8_t>> encode_indices(const std::vector<std::uint32_t>& corners,
-                                                        ComponentType type) {
-    const std::uint32_t size = component_size(static_cast<std::uint64_t>(type));
+                                                        NumberType type) {
+    const std::size_t size = number_size(type);
     const std::uint64_t end = std::uint64_t{1} << 8 * size;
     if (std::any_of(corners.begin(), corners.end(), [end](std::uint32_t v) { return v >= end; })) return {};
     std::vector<std::uint8_t> bytes(corners.size() * size);
@@ -96,7 +96,7 @@ void decompress_primitive(SourceDocument& source, const Json& primitive, const s
         targets.push_back(index_member(primitive["attributes"], name.c_str()));
         const Json& accessor = accessors[targets.back()];
         attributes.push_back({id.get<std::uint32_t>(),
-                              static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0)),
+                              component_type(accessor),
                               component_count(string_member(accessor, "type")),
                               {}});
     }
@@ -105,8 +105,7 @@ void decompress_primitive(SourceDocument& source, const Json& primitive, const s
         decode_draco(byte_range(source.buffers[index_member(view, "buffer")], view),
                      unsigned_member(accessors[targets.front()], "count", 0),
                      unsigned_member(indices, "count", 0), attributes, file, where);
-    auto typed =
-        encode_indices(corners, static_cast<ComponentType>(unsigned_member(indices, "componentType", 0)));
+    auto typed = encode_indices(corners, component_type(indices));
     if (!typed)
         throw InputError(file, where,
                          std::string(draco_name) + ": has more vertices than the index type can address");

@@ -90,7 +90,7 @@ std::vector<std::uint8_t> decode_meshopt(const Json& extension, std::span<const 
 /// An attribute of a Draco mesh, in the format of its accessor.
 struct DracoAttribute {
     std::uint32_t id = 0;  ///< unique id in the Draco mesh
-    ComponentType type = ComponentType::f32;
+    NumberType type = NumberType::f32;
     std::uint32_t components = 0;     ///< components per vertex
     std::vector<std::uint8_t> bytes;  ///< contiguous elements, set by decode_draco()
 };

@@ -90,24 +90,6 @@ bool convert(const draco::Mesh& mesh, const draco::PointAttribute& from, DracoAt
     return true;
 }
 
-bool convert(const draco::Mesh& mesh, const draco::PointAttribute& from, DracoAttribute& to) {
-    switch (to.type) {
-        case ComponentType::i8:
-            return convert<std::int8_t>(mesh, from, to);
-        case ComponentType::u8:
-            return convert<std::uint8_t>(mesh, from, to);
-        case ComponentType::i16:
-            return convert<std::int16_t>(mesh, from, to);
-        case ComponentType::u16:
-            return convert<std::uint16_t>(mesh, from, to);
-        case ComponentType::u32:
-            return convert<std::uint32_t>(mesh, from, to);
-        case ComponentType::f32:
-            break;
-    }
-    return convert<float>(mesh, from, to);
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> decode_draco(std::span<const std::uint8_t> bytes, std::uint64_t vertices,
@@ -126,8 +108,9 @@ std::vector<std::uint32_t> decode_draco(std::span<const std::uint8_t> bytes, std
         if (from->data_type() == draco::DT_BOOL)
             reader.fail("attribute " + std::to_string(attribute.id) +
                         " has a boolean type, which glTF does not have");
-        if (!convert(*mesh, *from, attribute))
-            reader.fail("attribute " + std::to_string(attribute.id) + " is damaged");
+        const bool is_converted = visit_type(
+            attribute.type, [&](auto number) { return convert<decltype(number)>(*mesh, *from, attribute); });
+        if (!is_converted) reader.fail("attribute " + std::to_string(attribute.id) + " is damaged");
     }
     std::vector<std::uint32_t> result;
     result.reserve(corners);

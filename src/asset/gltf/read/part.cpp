@@ -123,7 +123,7 @@ void append_joints(Part& part, const SourceDocument& source, const Json& attribu
         const Index of_joints = index_member(attributes, joints_name(set).c_str()),
                     of_weights = index_member(attributes, weights_name(set).c_str());
         if (of_joints == no_index || of_weights == no_index) continue;
-        joints.push_back(read_joints(source, of_joints));
+        joints.push_back(read_vectors<std::uint16_t, 4>(source, of_joints));
         repairs.weights += append(weights.emplace_back(), source, of_weights, count, Vec4f{});
     }
     if (joints.size() == 1) {

@@ -42,8 +42,7 @@ bool GltfBufferBuilder::is_equal(const StoredAccessor& stored, const Json& descr
 
 Index GltfBufferBuilder::add_accessor(Json description, std::span<const std::uint8_t> dense,
                                       AccessorUse use) {
-    const std::uint64_t size =
-        element_size(unsigned_member(description, "componentType", 0), string_member(description, "type"));
+    const std::uint64_t size = element_size(description);
     // Only views of vertex attributes have a stride, which must be a multiple of 4. That of triangles is for their
     // compression.
     const std::uint64_t stride = is_vertex_attribute(use)        ? (size + 3) / 4 * 4

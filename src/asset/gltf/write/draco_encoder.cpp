@@ -6,6 +6,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace faqem::detail {
@@ -45,32 +46,20 @@ draco::GeometryAttribute::Type attribute_type(const std::string& name) {
     return draco::GeometryAttribute::GENERIC;
 }
 
-draco::DataType data_type(ComponentType type) {
-    switch (type) {
-        case ComponentType::i8:
-            return draco::DT_INT8;
-        case ComponentType::u8:
-            return draco::DT_UINT8;
-        case ComponentType::i16:
-            return draco::DT_INT16;
-        case ComponentType::u16:
-            return draco::DT_UINT16;
-        case ComponentType::u32:
-            return draco::DT_UINT32;
-        case ComponentType::f32:
-            break;
-    }
-    return draco::DT_FLOAT32;
+draco::DataType data_type(NumberType type) {
+    constexpr std::array types = {draco::DT_INT8,  draco::DT_UINT8,  draco::DT_INT16,  draco::DT_UINT16,
+                                  draco::DT_INT32, draco::DT_UINT32, draco::DT_FLOAT32};
+    return types[static_cast<std::size_t>(type) - static_cast<std::size_t>(NumberType::i8)];
 }
 
 void add_attribute(draco::Mesh& mesh, const DracoValues& values) {
-    const std::uint64_t component = unsigned_member(values.description, "componentType", 0);
-    const std::string type = string_member(values.description, "type");
-    const std::size_t size = element_size(component, type);
+    const Json& accessor = values.description;
+    const std::size_t size = element_size(accessor);
+    const std::uint32_t components = component_count(string_member(accessor, "type"));
     draco::GeometryAttribute attribute;
-    attribute.Init(attribute_type(values.name), nullptr, static_cast<std::int8_t>(component_count(type)),
-                   data_type(static_cast<ComponentType>(component)),
-                   member(values.description, "normalized") == true, static_cast<std::int64_t>(size), 0);
+    attribute.Init(attribute_type(values.name), nullptr, static_cast<std::int8_t>(components),
+                   data_type(component_type(accessor)), member(accessor, "normalized") == true,
+                   static_cast<std::int64_t>(size), 0);
     const int id = mesh.AddAttribute(attribute, true, mesh.num_points());
     for (std::uint32_t i = 0; i < mesh.num_points(); ++i)
         mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values.bytes[i * size]);

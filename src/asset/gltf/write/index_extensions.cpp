@@ -18,10 +18,9 @@ std::optional<std::vector<Index>> referenced_numbers(const GltfWriter& writer, c
     if (!reference.is_number_unsigned() || reference.get<std::uint64_t>() >= accessors.size())
         return std::nullopt;
     const auto index = reference.get<Index>();
-    const auto type = static_cast<ComponentType>(unsigned_member(accessors[index], "componentType", 0));
-    const bool is_unsigned =
-        type == ComponentType::u8 || type == ComponentType::u16 || type == ComponentType::u32;
-    if (string_member(accessors[index], "type") != "SCALAR" || !is_unsigned) return std::nullopt;
+    if (string_member(accessors[index], "type") != "SCALAR" ||
+        !is_index_type(component_type(accessors[index])))
+        return std::nullopt;
     return read_indices(writer.source, index);
 }
 
@@ -46,7 +45,7 @@ Index add_numbers(GltfWriter& writer, const std::vector<Index>& numbers) {
     for (const Index number : numbers)
         for (int shift = 0; shift < (is_short ? 16 : 32); shift += 8)
             bytes.push_back(static_cast<std::uint8_t>(number >> shift));
-    const ComponentType type = is_short ? ComponentType::u16 : ComponentType::u32;
+    const NumberType type = is_short ? NumberType::u16 : NumberType::u32;
     return writer.binary.add_accessor(
         {{"componentType", static_cast<std::uint32_t>(type)}, {"type", "SCALAR"}, {"count", numbers.size()}},
         bytes, AccessorUse::other);

@@ -59,11 +59,11 @@ bool any_has(const std::vector<const Json*>& primitives, const char* key) {
 
 /// Whether the accessor type is allowed only with KHR_mesh_quantization.
 bool is_quantized(const std::string& attribute, const Json& accessor) {
-    const auto type = static_cast<ComponentType>(unsigned_member(accessor, "componentType", 0));
-    if (type == ComponentType::f32) return false;
+    const NumberType type = component_type(accessor);
+    if (type == NumberType::f32) return false;
     if (attribute == "POSITION" || attribute == "NORMAL" || attribute == "TANGENT") return true;
     const bool is_unsigned_normalized =
-        member(accessor, "normalized") == true && (type == ComponentType::u8 || type == ComponentType::u16);
+        member(accessor, "normalized") == true && (type == NumberType::u8 || type == NumberType::u16);
     return attribute.compare(0, 9, "TEXCOORD_") == 0 && !is_unsigned_normalized;
 }
 

@@ -9,15 +9,15 @@ namespace {
 
 /// Integers that a position may be stored as.
 struct StepRange {
-    ComponentType type;
+    NumberType type;
     double low, high;
     double unit;  // spacing of normalised integers
 };
 
-constexpr std::array<StepRange, 4> step_ranges = {{{ComponentType::i16, -32767, 32767, 1.0 / 32767},
-                                                   {ComponentType::u16, 0, 65535, 1.0 / 65535},
-                                                   {ComponentType::i8, -127, 127, 1.0 / 127},
-                                                   {ComponentType::u8, 0, 255, 1.0 / 255}}};
+constexpr std::array<StepRange, 4> step_ranges = {{{NumberType::i16, -32767, 32767, 1.0 / 32767},
+                                                   {NumberType::u16, 0, 65535, 1.0 / 65535},
+                                                   {NumberType::i8, -127, 127, 1.0 / 127},
+                                                   {NumberType::u8, 0, 255, 1.0 / 255}}};
 
 /// Bounds of all positions in steps.
 struct StepBounds {
@@ -91,7 +91,7 @@ MeshGrid choose_grid(const std::vector<const Part*>& parts, const Vec3& origin, 
         unfit = "it extends over more than 65536 steps of the grid";
         return grid;
     }
-    grid = {spacing, {}, ComponentType::u16, false};
+    grid = {spacing, {}, NumberType::u16, false};
     for (std::size_t axis = 0; axis < 3; ++axis)
         grid.origin[axis] = static_cast<std::int64_t>(bounds.low[axis]);
     return grid;

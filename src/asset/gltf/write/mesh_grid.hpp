@@ -19,7 +19,7 @@ struct GltfWriter;
 struct MeshGrid {
     double spacing = 0;                       ///< units of the mesh; 0: positions are floats
     std::array<std::int64_t, 3> origin = {};  ///< in steps
-    ComponentType type = ComponentType::f32;  ///< i8, u8, i16 or u16 if there is a spacing
+    NumberType type = NumberType::f32;        ///< i8, u8, i16 or u16 if there is a spacing
     bool normalized = false;                  ///< the spacing is that of normalised integers
 
     bool is_on() const { return spacing > 0; }

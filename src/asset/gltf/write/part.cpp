@@ -26,7 +26,7 @@ std::span<const std::uint8_t> bytes_of(const std::vector<T>& values) {
     return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
 }
 
-Json accessor_description(ComponentType component, const char* type, std::size_t count) {
+Json accessor_description(NumberType component, const char* type, std::size_t count) {
     return {{"componentType", static_cast<std::uint32_t>(component)}, {"type", type}, {"count", count}};
 }
 
@@ -63,7 +63,7 @@ Index add_vertices(GltfWriter& writer, Json description, const std::vector<T>& v
 /// Writes vectors as normalised integers.
 /// \param integer  gives the integer, as a double, for a component
 template <class T, class Integer, std::size_t N>
-Index add_normalized(GltfWriter& writer, ComponentType type, const std::vector<std::array<float, N>>& values,
+Index add_normalized(GltfWriter& writer, NumberType type, const std::vector<std::array<float, N>>& values,
                      Integer&& integer, AccessorUse use = AccessorUse::vertices) {
     std::vector<std::array<T, N>> integers(values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -77,7 +77,7 @@ Index add_normalized(GltfWriter& writer, ComponentType type, const std::vector<s
 template <std::size_t N>
 Index add_float_vertices(GltfWriter& writer, const std::vector<std::array<float, N>>& values,
                          AccessorUse use = AccessorUse::vertices) {
-    return add_vertices(writer, accessor_description(ComponentType::f32, vector_types[N - 1], values.size()),
+    return add_vertices(writer, accessor_description(NumberType::f32, vector_types[N - 1], values.size()),
                         values, use);
 }
 
@@ -86,7 +86,7 @@ constexpr double unit_16 = 65535;  // 1 as a normalised integer
 /// Writes integer vectors with bounds.
 template <class T, class Value>
 Index add_bounded_integers(GltfWriter& writer, const std::vector<Value>& values, const MeshGrid& grid,
-                           ComponentType type) {
+                           NumberType type) {
     std::vector<std::array<T, 3>> integers;
     integers.reserve(values.size());
     for (const Value& v : values)
@@ -100,7 +100,7 @@ Index add_bounded_integers(GltfWriter& writer, const std::vector<Value>& values,
 
 Index add_positions(GltfWriter& writer, const std::vector<Vec3f>& values, const MeshGrid& grid) {
     if (!grid.is_on()) {
-        Json description = accessor_description(ComponentType::f32, "VEC3", values.size());
+        Json description = accessor_description(NumberType::f32, "VEC3", values.size());
         add_bounds(description, values);
         return add_vertices(writer, std::move(description), values);
     }
@@ -108,16 +108,9 @@ Index add_positions(GltfWriter& writer, const std::vector<Vec3f>& values, const 
     steps.reserve(values.size());
     for (const Vec3f& v : values)
         steps.push_back({grid.step(v[0], 0), grid.step(v[1], 1), grid.step(v[2], 2)});
-    switch (grid.type) {
-        case ComponentType::i8:
-            return add_bounded_integers<std::int8_t>(writer, steps, grid, grid.type);
-        case ComponentType::u8:
-            return add_bounded_integers<std::uint8_t>(writer, steps, grid, grid.type);
-        case ComponentType::i16:
-            return add_bounded_integers<std::int16_t>(writer, steps, grid, grid.type);
-        default:
-            return add_bounded_integers<std::uint16_t>(writer, steps, grid, ComponentType::u16);
-    }
+    return visit_type(grid.type, [&](auto number) {
+        return add_bounded_integers<decltype(number)>(writer, steps, grid, grid.type);
+    });
 }
 
 /// Writes unit vectors, as 16-bit integers with Asset::normal_bits. Compression may round those of new vertices further.
@@ -127,7 +120,7 @@ Index add_directions(GltfWriter& writer, const std::vector<std::array<float, N>>
         return add_float_vertices(writer, values, is_new ? AccessorUse::directions : AccessorUse::vertices);
     writer.needs_quantization = true;
     return add_normalized<std::int16_t>(
-        writer, ComponentType::i16, values, [](float x) { return std::clamp(x, -1.0f, 1.0f) * 32767.0; },
+        writer, NumberType::i16, values, [](float x) { return std::clamp(x, -1.0f, 1.0f) * 32767.0; },
         is_new ? AccessorUse::short_directions : AccessorUse::vertices);
 }
 
@@ -144,7 +137,7 @@ Index add_uvs(GltfWriter& writer, const std::vector<Vec2f>& values, bool is_new)
     if (writer.asset.uv_bits == 0 || (is_compressed && is_new) || !fits || writer.draco)
         return add_float_vertices(writer, values,
                                   is_new ? AccessorUse::texture_coordinates : AccessorUse::vertices);
-    return add_normalized<std::uint16_t>(writer, ComponentType::u16, values,
+    return add_normalized<std::uint16_t>(writer, NumberType::u16, values,
                                          [](float x) { return x * unit_16; });
 }
 
@@ -155,7 +148,7 @@ Index add_colors(GltfWriter& writer, const std::vector<Vec4f>& colors) {
         return std::all_of(color.begin(), color.end(), [](float x) { return x >= 0 && x <= 1; });
     });
     if (!in_range) return add_float_vertices(writer, colors);
-    return add_normalized<std::uint16_t>(writer, ComponentType::u16, colors,
+    return add_normalized<std::uint16_t>(writer, NumberType::u16, colors,
                                          [](float x) { return x * unit_16; });
 }
 
@@ -164,27 +157,27 @@ Index add_joints(GltfWriter& writer, const std::vector<std::array<std::uint16_t,
         return std::all_of(four.begin(), four.end(), [](std::uint16_t joint) { return joint < 256; });
     });
     if (!fits_u8)
-        return add_vertices(writer, accessor_description(ComponentType::u16, "VEC4", joints.size()), joints);
+        return add_vertices(writer, accessor_description(NumberType::u16, "VEC4", joints.size()), joints);
     std::vector<std::array<std::uint8_t, 4>> bytes(joints.size());
     for (std::size_t i = 0; i < joints.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c) bytes[i][c] = static_cast<std::uint8_t>(joints[i][c]);
-    return add_vertices(writer, accessor_description(ComponentType::u8, "VEC4", bytes.size()), bytes);
+    return add_vertices(writer, accessor_description(NumberType::u8, "VEC4", bytes.size()), bytes);
 }
 
 /// Writes indices with 16 bits if they fit, else with 32 bits. The value 65535 is primitive restart.
 Index add_indices(GltfWriter& writer, const PrimitiveData& data, AccessorUse use) {
     if (data.vertices.size() > 65535)
         return writer.binary.add_accessor(
-            accessor_description(ComponentType::u32, "SCALAR", data.corners.size()), bytes_of(data.corners),
+            accessor_description(NumberType::u32, "SCALAR", data.corners.size()), bytes_of(data.corners),
             use);
     const std::vector<std::uint16_t> indices(data.corners.begin(), data.corners.end());
-    return writer.binary.add_accessor(accessor_description(ComponentType::u16, "SCALAR", indices.size()),
+    return writer.binary.add_accessor(accessor_description(NumberType::u16, "SCALAR", indices.size()),
                                       bytes_of(indices), use);
 }
 
 /// Writes morph target displacements. If all are zero, no bytes are stored.
 Index add_displacements(GltfWriter& writer, const std::vector<Vec3f>& values, bool with_bounds) {
-    Json description = accessor_description(ComponentType::f32, "VEC3", values.size());
+    Json description = accessor_description(NumberType::f32, "VEC3", values.size());
     if (with_bounds) add_bounds(description, values);
     if (std::all_of(values.begin(), values.end(), [](const Vec3f& v) { return v == Vec3f{}; }))
         return writer.binary.add_accessor(std::move(description), {}, AccessorUse::vertices);
@@ -199,9 +192,8 @@ Index add_displacement_steps(GltfWriter& writer, const std::vector<Vec3f>& value
         steps.push_back({grid.steps(v[0]), grid.steps(v[1]), grid.steps(v[2])});
         for (const double step : steps.back()) largest = std::max(largest, std::abs(step));
     }
-    const bool fits = largest <= 32767 && (!grid.normalized || grid.type == ComponentType::i16);
-    if (fits && largest > 0)
-        return add_bounded_integers<std::int16_t>(writer, steps, grid, ComponentType::i16);
+    const bool fits = largest <= 32767 && (!grid.normalized || grid.type == NumberType::i16);
+    if (fits && largest > 0) return add_bounded_integers<std::int16_t>(writer, steps, grid, NumberType::i16);
     std::vector<Vec3f> floats;
     const double unit = grid.normalized ? grid.spacing : 1;
     for (const auto& step : steps)
@@ -227,43 +219,27 @@ Json write_morph_targets(GltfWriter& writer, const Part& part, const PrimitiveDa
     return targets;
 }
 
+/// The number that a file stores for a value of a custom attribute.
 template <class T>
-Index add_integers(GltfWriter& writer, const CustomAttribute& attribute, const PrimitiveData& data,
-                   Json description) {
-    const double unit = attribute.normalized ? static_cast<double>(std::numeric_limits<T>::max()) : 1;
-    std::vector<T> values;
-    for (const Index v : data.vertices)
-        for (std::size_t c = 0; c < attribute.components; ++c)
-            values.push_back(static_cast<T>(std::clamp(std::round(attribute.values[v][c] * unit),
-                                                       static_cast<double>(std::numeric_limits<T>::min()),
-                                                       static_cast<double>(std::numeric_limits<T>::max()))));
-    return add_vertices(writer, std::move(description), values);
+T stored_number(double value, bool is_normalized) {
+    if constexpr (std::is_floating_point_v<T>) return static_cast<T>(value);
+    constexpr double low{std::numeric_limits<T>::min()}, high{std::numeric_limits<T>::max()};
+    return static_cast<T>(std::clamp(std::round(value * (is_normalized ? high : 1)), low, high));
 }
 
 Index add_custom(GltfWriter& writer, const CustomAttribute& attribute, const PrimitiveData& data) {
-    const auto component = static_cast<ComponentType>(attribute.component_type);
+    const auto type = static_cast<NumberType>(attribute.component_type);
     Json description =
-        accessor_description(component, vector_types.at(attribute.components - 1), data.vertices.size());
+        accessor_description(type, vector_types.at(attribute.components - 1), data.vertices.size());
     if (attribute.normalized) description["normalized"] = true;
-    switch (component) {
-        case ComponentType::i8:
-            return add_integers<std::int8_t>(writer, attribute, data, description);
-        case ComponentType::u8:
-            return add_integers<std::uint8_t>(writer, attribute, data, description);
-        case ComponentType::i16:
-            return add_integers<std::int16_t>(writer, attribute, data, description);
-        case ComponentType::u16:
-            return add_integers<std::uint16_t>(writer, attribute, data, description);
-        case ComponentType::u32:
-            return add_integers<std::uint32_t>(writer, attribute, data, description);
-        case ComponentType::f32:
-            break;
-    }
-    std::vector<float> values;
-    for (const Index v : data.vertices)
-        for (std::size_t c = 0; c < attribute.components; ++c)
-            values.push_back(static_cast<float>(attribute.values[v][c]));
-    return add_vertices(writer, std::move(description), values);
+    return visit_type(type, [&](auto number) {
+        using T = decltype(number);
+        std::vector<T> values;
+        for (const Index v : data.vertices)
+            for (std::size_t c = 0; c < attribute.components; ++c)
+                values.push_back(stored_number<T>(attribute.values[v][c], attribute.normalized));
+        return add_vertices(writer, std::move(description), values);
+    });
 }
 
 Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData& data, const MeshGrid& grid) {
@@ -334,7 +310,7 @@ bool write_draco(GltfWriter& writer, const Part& part, const PrimitiveData& data
         primitive["attributes"][name] = writer.binary.add_extension_accessor(std::move(description));
     }
     primitive["indices"] = writer.binary.add_extension_accessor(accessor_description(
-        encoded->vertices > 65535 ? ComponentType::u32 : ComponentType::u16, "SCALAR", encoded->corners));
+        encoded->vertices > 65535 ? NumberType::u32 : NumberType::u16, "SCALAR", encoded->corners));
     primitive["extensions"][draco_name] = {
         {"bufferView", writer.binary.add_extension_data(std::move(encoded->bytes))}, {"attributes", numbers}};
     return true;

@@ -86,7 +86,7 @@ bool may_be_scaled(const Json& node) {
 template <std::size_t N>
 Index add_floats(GltfWriter& writer, const std::vector<std::array<float, N>>& values, const char* type,
                  AccessorUse use) {
-    Json description = {{"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
+    Json description = {{"componentType", static_cast<std::uint32_t>(NumberType::f32)},
                         {"type", type},
                         {"count", values.size()}};
     return writer.binary.add_accessor(

@@ -44,8 +44,9 @@ Json start_document(const Json& source) {
 /// Adds min and max if they are missing: they are required for animation times and positions, but some files
 /// do not have them.
 void add_missing_bounds(Json& description, const std::vector<std::uint8_t>& dense) {
-    const auto type = static_cast<ComponentType>(unsigned_member(description, "componentType", 0));
-    if (description.contains("min") || description.contains("max") || type != ComponentType::f32) return;
+    if (description.contains("min") || description.contains("max") ||
+        component_type(description) != NumberType::f32)
+        return;
     const std::size_t components = component_count(string_member(description, "type"));
     std::vector<float> values(dense.size() / sizeof(float));
     if (!values.empty()) std::memcpy(values.data(), dense.data(), values.size() * sizeof(float));
