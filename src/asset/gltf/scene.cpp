@@ -12,22 +12,6 @@ namespace {
 
 using Matrix = std::array<double, 16>;
 
-template <std::size_t N>
-std::array<double, N> number_array(const Json& object, const char* key, std::array<double, N> values) {
-    const Json& array = member(object, key);
-    if (array.is_array() && array.size() == N)
-        for (std::size_t i = 0; i < N; ++i) values[i] = array[i].get<double>();
-    return values;
-}
-
-/// \param scale  instead of that of the node
-Matrix local_transform(const Json& node, const std::optional<std::array<double, 3>>& scale) {
-    if (node.contains("matrix")) return number_array<16>(node, "matrix", identity_transform);
-    return transform_matrix(number_array<3>(node, "translation", {0, 0, 0}),
-                            number_array<4>(node, "rotation", {0, 0, 0, 1}),
-                            scale ? *scale : number_array<3>(node, "scale", {1, 1, 1}));
-}
-
 std::vector<Index> nodes_without_parent(const Json& document) {
     std::vector<Index> roots;
     const Json& nodes = member(document, "nodes");
@@ -72,6 +56,13 @@ std::vector<PlacedNode> placed_below(const Json& document, const std::vector<Ind
 }
 
 }  // namespace
+
+Matrix local_transform(const Json& node, const std::optional<std::array<double, 3>>& scale) {
+    if (node.contains("matrix")) return number_array<16>(node, "matrix", identity_transform);
+    return transform_matrix(number_array<3>(node, "translation", {0, 0, 0}),
+                            number_array<4>(node, "rotation", {0, 0, 0, 1}),
+                            scale ? *scale : number_array<3>(node, "scale", {1, 1, 1}));
+}
 
 Matrix product(const Matrix& a, const Matrix& b) {
     Matrix c = {};

@@ -18,6 +18,20 @@ struct PlacedNode {
     std::array<double, 16> world = {};  ///< column-major matrix from the node to world space
 };
 
+/// The numbers of the array object[key]; `values` if there is none.
+/// \pre the document was validated
+template <std::size_t N>
+std::array<double, N> number_array(const Json& object, const char* key, std::array<double, N> values) {
+    const Json& array = member(object, key);
+    for (std::size_t i = 0; i < N && i < array.size(); ++i) values[i] = array[i].get<double>();
+    return values;
+}
+
+/// The column-major matrix from a node to its parent.
+/// \param scale  instead of that of the node
+std::array<double, 16> local_transform(const Json& node,
+                                       const std::optional<std::array<double, 3>>& scale = {});
+
 /// Product of column-major 4 x 4 matrices. Either may be the transform of a node or of an instance.
 std::array<double, 16> product(const std::array<double, 16>& a, const std::array<double, 16>& b);
 

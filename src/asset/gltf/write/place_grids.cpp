@@ -50,27 +50,15 @@ void retarget_weight_channels(Json& document, Index from, Index to) {
         }
 }
 
-template <std::size_t N>
-std::array<double, N> numbers(const Json& node, const char* key, std::array<double, N> values) {
-    const Json& array = member(node, key);
-    for (std::size_t i = 0; i < N && i < array.size(); ++i) values[i] = array[i].get<double>();
-    return values;
-}
-
 /// Multiplies the transform of a node by that of a grid.
 void scale_node(Json& node, const MeshGrid& grid) {
+    const Matrix m = product(local_transform(node), matrix_of(grid));
     if (node.contains("matrix")) {
-        node["matrix"] = product(numbers<16>(node, "matrix", identity_transform), matrix_of(grid));
+        node["matrix"] = m;
         return;
     }
-    auto translation = numbers<3>(node, "translation", {0, 0, 0}),
-         scale = numbers<3>(node, "scale", {1, 1, 1});
-    if (grid.origin != std::array<std::int64_t, 3>{}) {
-        const Matrix m =
-            product(transform_matrix(translation, numbers<4>(node, "rotation", {0, 0, 0, 1}), scale),
-                    matrix_of(grid));
-        node["translation"] = {m[12], m[13], m[14]};
-    }
+    if (grid.origin != std::array<std::int64_t, 3>{}) node["translation"] = {m[12], m[13], m[14]};
+    auto scale = number_array<3>(node, "scale", {1, 1, 1});
     for (double& s : scale) s *= grid.spacing;
     node["scale"] = scale;
 }
