@@ -74,6 +74,18 @@ Index GltfBufferBuilder::add_accessor(Json description, std::span<const std::uin
     return candidates.back();
 }
 
+Index GltfBufferBuilder::add_indices(const std::vector<Index>& indices, AccessorUse use) {
+    constexpr Index restart = 65535;
+    const bool is_short =
+        std::all_of(indices.begin(), indices.end(), [](Index index) { return index < restart; });
+    if (!is_short)
+        return add_accessor(accessor_description(NumberType::u32, "SCALAR", indices.size()),
+                            bytes_of(indices), use);
+    const std::vector<std::uint16_t> shorts(indices.begin(), indices.end());
+    return add_accessor(accessor_description(NumberType::u16, "SCALAR", shorts.size()), bytes_of(shorts),
+                        use);
+}
+
 Index GltfBufferBuilder::add_extension_accessor(Json description) {
     stored_.push_back({std::move(description), no_index, 0, 0});
     return static_cast<Index>(stored_.size() - 1);

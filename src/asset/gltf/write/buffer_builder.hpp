@@ -2,12 +2,16 @@
 /// \file
 /// Construction of the single binary buffer of an output document, with its views and accessors.
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "asset/gltf/json.hpp"
+#include "asset/io/number_type.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {
@@ -41,6 +45,35 @@ struct VertexBits {
     std::uint32_t uvs = 0;      ///< of texture coordinates from 0 to 1
 };
 
+/// The members of an accessor that it must have.
+inline Json accessor_description(NumberType component, const char* type, std::size_t count) {
+    return {{"componentType", static_cast<std::uint32_t>(component)}, {"type", type}, {"count", count}};
+}
+
+/// The bytes of numbers, or of arrays of numbers.
+template <class T>
+std::span<const std::uint8_t> bytes_of(const std::vector<T>& values) {
+    return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
+}
+
+/// Adds min and max to an accessor. They are written exactly, since readers compare them with the numbers.
+/// \param numbers     of at least one element
+/// \param components  of an element
+template <class T>
+void add_bounds(Json& description, std::span<const T> numbers, std::size_t components) {
+    std::vector<T> low(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(components)),
+        high = low;
+    for (std::size_t i = 0; i < numbers.size(); i += components)
+        for (std::size_t c = 0; c < components; ++c) {
+            low[c] = std::min(low[c], numbers[i + c]);
+            high[c] = std::max(high[c], numbers[i + c]);
+        }
+    for (std::vector<T>* const bound : {&low, &high})
+        for (T& number : *bound) number = static_cast<T>(number + T{0});  // -0 becomes 0
+    description["min"] = std::move(low);
+    description["max"] = std::move(high);
+}
+
 /// Collects accessors and views, and writes them to a buffer. Equal accessors are stored once.
 class GltfBufferBuilder {
 public:
@@ -55,6 +88,9 @@ public:
     /// \param dense        contiguous elements, copied; empty: all elements are zero, and no bytes are stored
     /// \return index of the accessor; that of an earlier one if all members and bytes are equal
     Index add_accessor(Json description, std::span<const std::uint8_t> dense, AccessorUse use);
+
+    /// Adds indices with 16 bits if they fit, else with 32 bits. The value 65535 is primitive restart.
+    Index add_indices(const std::vector<Index>& indices, AccessorUse use);
 
     /// Adds an accessor whose elements are in the data of an extension. It is never shared.
     /// \return index of the accessor

@@ -36,21 +36,6 @@ std::optional<std::vector<Index>> renumbered(const GltfWriter& writer, const Ver
     return numbers;
 }
 
-Index add_numbers(GltfWriter& writer, const std::vector<Index>& numbers) {
-    const Index largest = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
-    // The largest number of a type restarts primitives, and is no vertex.
-    const bool is_short = largest < 0xFFFF;
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(numbers.size() * (is_short ? 2 : 4));
-    for (const Index number : numbers)
-        for (int shift = 0; shift < (is_short ? 16 : 32); shift += 8)
-            bytes.push_back(static_cast<std::uint8_t>(number >> shift));
-    const NumberType type = is_short ? NumberType::u16 : NumberType::u32;
-    return writer.binary.add_accessor(
-        {{"componentType", static_cast<std::uint32_t>(type)}, {"type", "SCALAR"}, {"count", numbers.size()}},
-        bytes, AccessorUse::other);
-}
-
 }  // namespace
 
 std::optional<VertexNumbers> unchanged_vertices(const GltfWriter& writer, const Json& source,
@@ -89,7 +74,7 @@ std::vector<std::string> remap_index_extensions(GltfWriter& writer, const Vertex
     if (!extensions.contains(outline_name)) return valid;
     const auto outline = renumbered(writer, vertices, member(extensions[outline_name], "indices"));
     if (!outline) return valid;
-    extensions[outline_name]["indices"] = add_numbers(writer, *outline);
+    extensions[outline_name]["indices"] = writer.binary.add_indices(*outline, AccessorUse::other);
     valid.emplace_back(outline_name);
     return valid;
 }
@@ -99,6 +84,9 @@ bool remap_manifold(GltfWriter& writer, const VertexNumbers& vertices, std::size
     const Json& joined = member(manifold, "manifoldPrimitive");
     const auto indices = renumbered(writer, vertices, member(joined, "indices"));
     if (!indices || indices->size() != corners) return false;
+    const auto add_numbers = [&](const std::vector<Index>& numbers) {
+        return writer.binary.add_indices(numbers, AccessorUse::other);
+    };
     Json result = manifold;
     for (const auto& [name, accessor] : member(joined, "attributes").items()) {
         if (!member(primitive, "attributes").contains(name)) return false;
@@ -111,10 +99,10 @@ bool remap_manifold(GltfWriter& writer, const VertexNumbers& vertices, std::size
         if (!moved || !values || moved->size() != values->size() ||
             std::any_of(moved->begin(), moved->end(), [&](Index corner) { return corner >= corners; }))
             return false;
-        result["mergeIndices"] = add_numbers(writer, *moved);
-        result["mergeValues"] = add_numbers(writer, *values);
+        result["mergeIndices"] = add_numbers(*moved);
+        result["mergeValues"] = add_numbers(*values);
     }
-    result["manifoldPrimitive"]["indices"] = add_numbers(writer, *indices);
+    result["manifoldPrimitive"]["indices"] = add_numbers(*indices);
     manifold = std::move(result);
     return true;
 }

@@ -21,34 +21,11 @@
 namespace faqem::detail {
 namespace {
 
-template <class T>
-std::span<const std::uint8_t> bytes_of(const std::vector<T>& values) {
-    return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
-}
-
-Json accessor_description(NumberType component, const char* type, std::size_t count) {
-    return {{"componentType", static_cast<std::uint32_t>(component)}, {"type", type}, {"count", count}};
-}
-
 constexpr std::array vector_types = {"SCALAR", "VEC2", "VEC3", "VEC4"};  // by the number of components - 1
 
-/// Adds min and max. They are written exactly, since readers compare them with the floats.
 template <class T>
-void add_bounds(Json& description, const std::vector<std::array<T, 3>>& values) {
-    std::array<T, 3> low = values[0], high = values[0];
-    for (const std::array<T, 3>& value : values)
-        for (std::size_t i = 0; i < 3; ++i) {
-            low[i] = std::min(low[i], value[i]);
-            high[i] = std::max(high[i], value[i]);
-        }
-    if constexpr (std::is_floating_point_v<T>) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            low[i] += T{0};  // -0 becomes 0
-            high[i] += T{0};
-        }
-    }
-    description["min"] = Json(low);
-    description["max"] = Json(high);
+void add_vector_bounds(Json& description, const std::vector<std::array<T, 3>>& values) {
+    add_bounds(description, std::span<const T>(values.front().data(), 3 * values.size()), 3);
 }
 
 template <class T>
@@ -93,7 +70,7 @@ Index add_bounded_integers(GltfWriter& writer, const std::vector<Value>& values,
         integers.push_back({static_cast<T>(v[0]), static_cast<T>(v[1]), static_cast<T>(v[2])});
     Json description = accessor_description(type, "VEC3", integers.size());
     if (grid.normalized) description["normalized"] = true;
-    add_bounds(description, integers);
+    add_vector_bounds(description, integers);
     writer.needs_quantization = true;
     return add_vertices(writer, std::move(description), integers);
 }
@@ -101,7 +78,7 @@ Index add_bounded_integers(GltfWriter& writer, const std::vector<Value>& values,
 Index add_positions(GltfWriter& writer, const std::vector<Vec3f>& values, const MeshGrid& grid) {
     if (!grid.is_on()) {
         Json description = accessor_description(NumberType::f32, "VEC3", values.size());
-        add_bounds(description, values);
+        add_vector_bounds(description, values);
         return add_vertices(writer, std::move(description), values);
     }
     std::vector<std::array<std::int32_t, 3>> steps;
@@ -164,21 +141,10 @@ Index add_joints(GltfWriter& writer, const std::vector<std::array<std::uint16_t,
     return add_vertices(writer, accessor_description(NumberType::u8, "VEC4", bytes.size()), bytes);
 }
 
-/// Writes indices with 16 bits if they fit, else with 32 bits. The value 65535 is primitive restart.
-Index add_indices(GltfWriter& writer, const PrimitiveData& data, AccessorUse use) {
-    if (data.vertices.size() > 65535)
-        return writer.binary.add_accessor(
-            accessor_description(NumberType::u32, "SCALAR", data.corners.size()), bytes_of(data.corners),
-            use);
-    const std::vector<std::uint16_t> indices(data.corners.begin(), data.corners.end());
-    return writer.binary.add_accessor(accessor_description(NumberType::u16, "SCALAR", indices.size()),
-                                      bytes_of(indices), use);
-}
-
 /// Writes morph target displacements. If all are zero, no bytes are stored.
 Index add_displacements(GltfWriter& writer, const std::vector<Vec3f>& values, bool with_bounds) {
     Json description = accessor_description(NumberType::f32, "VEC3", values.size());
-    if (with_bounds) add_bounds(description, values);
+    if (with_bounds) add_vector_bounds(description, values);
     if (std::all_of(values.begin(), values.end(), [](const Vec3f& v) { return v == Vec3f{}; }))
         return writer.binary.add_accessor(std::move(description), {}, AccessorUse::vertices);
     return add_vertices(writer, std::move(description), values);
@@ -392,8 +358,8 @@ void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json
             writer.asset.compression == Compression::draco && write_draco(writer, part, data, primitive);
         if (!is_draco) {
             primitive["attributes"] = write_attributes(writer, part, data, grid);
-            primitive["indices"] = add_indices(
-                writer, data,
+            primitive["indices"] = writer.binary.add_indices(
+                data.corners,
                 part.file_order == FileOrder::for_gpu ? AccessorUse::triangles : AccessorUse::indices);
         }
         if (!part.morph_targets.empty()) primitive["targets"] = write_morph_targets(writer, part, data, grid);

@@ -74,12 +74,8 @@ bool may_be_scaled(const Json& node) {
 template <std::size_t N>
 Index add_floats(GltfWriter& writer, const std::vector<std::array<float, N>>& values, const char* type,
                  AccessorUse use) {
-    Json description = {{"componentType", static_cast<std::uint32_t>(NumberType::f32)},
-                        {"type", type},
-                        {"count", values.size()}};
-    return writer.binary.add_accessor(
-        std::move(description),
-        {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(values[0])}, use);
+    return writer.binary.add_accessor(accessor_description(NumberType::f32, type, values.size()),
+                                      bytes_of(values), use);
 }
 
 /// Copies the instances of a node. Those of a mesh on a grid are scaled, which a transform of the node could not do.

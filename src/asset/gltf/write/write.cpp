@@ -47,20 +47,12 @@ void add_missing_bounds(Json& description, const std::vector<std::uint8_t>& dens
     if (description.contains("min") || description.contains("max") ||
         component_type(description) != NumberType::f32)
         return;
-    const std::size_t components = component_count(string_member(description, "type"));
     std::vector<float> values(dense.size() / sizeof(float));
     if (!values.empty()) std::memcpy(values.data(), dense.data(), values.size() * sizeof(float));
     if (values.empty() ||
         !std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }))
         return;
-    std::vector<float> low(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(components)),
-        high = low;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        low[i % components] = std::min(low[i % components], values[i]);
-        high[i % components] = std::max(high[i % components], values[i]);
-    }
-    description["min"] = Json(low);
-    description["max"] = Json(high);
+    add_bounds<float>(description, values, component_count(string_member(description, "type")));
 }
 
 std::string json_text(const Json& document, int indent) {
