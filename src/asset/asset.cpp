@@ -3,6 +3,7 @@
 #include "asset/file_format.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/pose.hpp"
+#include "asset/io/file.hpp"
 #include "asset/io/set_folder.hpp"
 #include "asset/model_files.hpp"
 #include "asset/scene/rest_pose.hpp"
@@ -42,7 +43,7 @@ Asset load(const fs::path& file) {
     detail::check_beginning(file);
     const detail::FileFormat* format = detail::format_of_file(file);
     if (format && format->read) {
-        Asset asset = format->read(file);
+        Asset asset = format->read(detail::read_file(file), file);
         asset.format = format->format;
         std::vector<fs::path> files = detail::referenced_files(file, detail::References::readable);
         files.push_back(file);

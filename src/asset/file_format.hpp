@@ -34,7 +34,8 @@ struct FileFormat {
     /// Null: the format has no signature.
     bool (*has_signature)(std::string_view head, std::string_view text) = nullptr;
 
-    Asset (*read)(const std::filesystem::path& file) = nullptr;
+    /// Reads the bytes of a file, and other files in its folder. The path is in messages, too.
+    Asset (*read)(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) = nullptr;
     /// Encodes an asset. The file is the name of the model; it is in messages, and other files are named after it.
     EncodedModel (*encode)(const Asset& asset, const std::filesystem::path& file) = nullptr;
     /// Encodes the levels of detail of a scene as one file.

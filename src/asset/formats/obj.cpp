@@ -14,7 +14,6 @@
 #include "asset/formats/obj_smoothing.hpp"
 #include "asset/formats/obj_tiles.hpp"
 #include "asset/formats/referenced_images.hpp"
-#include "asset/io/file.hpp"
 #include "asset/scene/corner_vertices.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "asset/scene/repair.hpp"
@@ -348,7 +347,5 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     asset.not_understood = ignored_messages(in.ignored);
     return asset;
 }
-
-Asset read_obj(const std::filesystem::path& file) { return read_obj(read_file(file), file); }
 
 }  // namespace faqem::detail

@@ -27,15 +27,10 @@ inline constexpr const char* default_group_name = "default";
 /// get one by add_smoothed_normals(). See read_mtl() for materials, and divide_into_tiles() for UDIM; a missing library
 /// or material is a warning. Lines, points, unknown statements and faces with fewer than three corners are skipped with
 /// a counted warning.
-/// \param file  path of the file; material libraries and images are searched in its folder
+/// \param text  content of the file, borrowed
+/// \param file  path; material libraries and images are searched in its folder
 /// \return an asset with one part, and warnings
-/// \throws ReadError   if the file cannot be read
 /// \throws InputError  with the line, if a number or an index is invalid; or if there are no faces
-Asset read_obj(const std::filesystem::path& file);
-
-/// Same as above, for the bytes of a file in memory.
-/// \param text  borrowed
-/// \param file  path for messages; material libraries and images are searched in its folder
 Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& file);
 
 /// Adds the libraries of an OBJ file, every texture statement of these, and other files that it names. Of the files,

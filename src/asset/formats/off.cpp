@@ -9,7 +9,6 @@
 
 #include "asset/formats/polygon_content.hpp"
 #include "asset/image/srgb.hpp"
-#include "asset/io/file.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/text/number_digits.hpp"
 #include "asset/text/text_scanner.hpp"
@@ -191,7 +190,5 @@ private:
 Asset read_off(std::span<const std::uint8_t> text, const std::filesystem::path& file) {
     return OffReader(text, file).run();
 }
-
-Asset read_off(const std::filesystem::path& file) { return read_off(read_file(file), file); }
 
 }  // namespace faqem::detail

@@ -19,16 +19,11 @@ namespace faqem::detail {
 /// colours; faces without one are white. Indices into a colour map are ignored with a warning. Polygons are
 /// split by triangulate(). Faces with fewer than three corners are left out with a warning. Source: Geomview
 /// manual, "OFF Files".
-/// \param file  path of the file
+/// \param text  content of the file, borrowed
+/// \param file  path, for messages
 /// \return an asset with one part, and warnings
-/// \throws ReadError         if the file cannot be read
 /// \throws InputError        with the line, if the file is invalid; or if there are no faces
 /// \throws UnsupportedError  4OFF, nOFF or binary OFF
-Asset read_off(const std::filesystem::path& file);
-
-/// Same as above, for the bytes of a file in memory.
-/// \param text  borrowed
-/// \param file  path for messages
 Asset read_off(std::span<const std::uint8_t> text, const std::filesystem::path& file);
 
 }  // namespace faqem::detail

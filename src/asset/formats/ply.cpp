@@ -13,7 +13,6 @@
 #include "asset/formats/ply_header.hpp"
 #include "asset/formats/polygon_content.hpp"
 #include "asset/image/srgb.hpp"
-#include "asset/io/file.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/repair.hpp"
 #include "faqem/error.hpp"
@@ -386,7 +385,5 @@ Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path&
     asset.precision = position_precision(header);
     return asset;
 }
-
-Asset read_ply(const std::filesystem::path& file) { return read_ply(read_file(file), file); }
 
 }  // namespace faqem::detail

@@ -25,16 +25,11 @@ namespace faqem::detail {
 ///
 /// Float colours above 2 are taken as 0 to 255, with a warning. Everything else is ignored. Faces with fewer than three
 /// corners are left out with a warning. Counts are checked against the size of the file before memory is allocated.
-/// \param file  path of the file
+/// \param bytes  content of the file, borrowed
+/// \param file   path, for messages
 /// \return an asset with one part, and warnings
-/// \throws ReadError   if the file cannot be read
 /// \throws InputError  with the element and its index starting at 0 (`face 17`) or the line of the header, if
 ///                     the file is invalid; or if there are no faces
-Asset read_ply(const std::filesystem::path& file);
-
-/// Same as above, for the bytes of a file in memory.
-/// \param bytes  borrowed
-/// \param file   path for messages
 Asset read_ply(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
 /// Encodes an asset as binary little-endian PLY. The scene is flattened to world space. Positions are floats

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "asset/image/srgb.hpp"
-#include "asset/io/file.hpp"
 #include "asset/io/little_endian.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/messages.hpp"
@@ -274,8 +273,6 @@ Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path&
     asset.parts.push_back(std::move(part));
     return asset;
 }
-
-Asset read_stl(const std::filesystem::path& file) { return read_stl(read_file(file), file); }
 
 EncodedModel encode_stl(const Asset& asset, const std::filesystem::path& file) {
     EncodedModel model;

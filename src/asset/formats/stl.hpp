@@ -22,16 +22,11 @@ namespace faqem::detail {
 /// they have the same colour; vertices are in the order of their first use. Facet normals are ignored, since
 /// they follow from the positions. The solids of an ASCII file become objects of the part. Text after the last
 /// solid is ignored with a warning.
-/// \param file  path of the file
+/// \param bytes  content of the file, borrowed
+/// \param file   path, for messages
 /// \return an asset with one part, and warnings
-/// \throws ReadError   if the file cannot be read
 /// \throws InputError  with the line, if an ASCII file is invalid; if a binary file is too short for a facet, or its count is
 ///     wrong and a coordinate not finite; if there are no faces
-Asset read_stl(const std::filesystem::path& file);
-
-/// Same as above, for the bytes of a file in memory.
-/// \param bytes  borrowed
-/// \param file   path for messages
 Asset read_stl(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
 /// Encodes an asset as binary STL. The scene is flattened to world space.

@@ -16,15 +16,11 @@ namespace faqem::detail {
 
 /// Reads a GLB or a JSON glTF file, which are distinguished by their content. The asset has one part per
 /// mesh, in the order of the meshes.
-/// \param file  path of the file; buffers and images are searched in its folder
-/// \throws ReadError         if the file or a buffer cannot be read
+/// \param bytes  content of the file, borrowed
+/// \param file   path; buffers and images are searched in its folder. Empty: there are no files
+/// \throws ReadError         if a buffer cannot be read
 /// \throws InputError        if the file is invalid
 /// \throws UnsupportedError  if it requires an extension or an image format that is not supported
-Asset read_gltf(const std::filesystem::path& file);
-
-/// Same as above, for the bytes of a file in memory.
-/// \param bytes  borrowed
-/// \param file   path for messages; buffers and images are searched in its folder. Empty: there are no files
 Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file);
 
 /// Adds every `uri` of the document, also of extensions and extras. Those of buffers and images may be read.

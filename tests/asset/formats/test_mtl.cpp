@@ -128,7 +128,7 @@ TEST_CASE("used materials and images are loaded once in the order of use", "[mtl
     put(folder / "a.obj",
         "mtllib my lib.mtl\nmtllib other.mtl\n" + textured_triangle +
             "usemtl stone\nf 1/1 2/1 3/1\nusemtl wood\nf 1/1 2/1 3/1\nusemtl wood again\nf 1/1 2/1 3/1\n");
-    const Asset asset = read_obj(folder / "a.obj");
+    const Asset asset = load(folder / "a.obj");
     CHECK(asset.parts[0].face_material == std::vector<Index>{no_index, 0, 1, 2});
     REQUIRE(asset.materials.size() == 3);
     CHECK(asset.materials[0].name == "stone");
@@ -149,7 +149,7 @@ TEST_CASE("one mtllib statement may name several libraries", "[mtl]") {
     put(folder / "a.mtl", "newmtl a\nKd 1 0 0\n");
     put(folder / "b c.mtl", "newmtl b\nKd 0 1 0\n");
     put(folder / "a.obj", "mtllib a.mtl b c.mtl\nusemtl a\n" + textured_triangle + "usemtl b\nf 1 2 3\n");
-    const Asset asset = read_obj(folder / "a.obj");
+    const Asset asset = load(folder / "a.obj");
     CHECK(asset.materials.at(0).base_color == Vec4f{1, 0, 0, 1});
     CHECK(asset.materials.at(1).base_color == Vec4f{0, 1, 0, 1});
     CHECK(asset.warnings.empty());
@@ -169,16 +169,16 @@ TEST_CASE("textures and libraries outside the folder are not read", "[mtl]") {
         CAPTURE(name);
         put(folder / "in/a.mtl", "newmtl m\nmap_Kd " + name + "\n");
         put(folder / "in/a.obj", "mtllib a.mtl\nusemtl m\n" + textured_triangle);
-        const Asset asset = read_obj(folder / "in/a.obj");
+        const Asset asset = load(folder / "in/a.obj");
         CHECK(asset.images.empty());
         CHECK(asset.warnings.size() == 1);
     }
     put(folder / "in/a.obj", "mtllib ../secret.mtl\nusemtl m\n" + textured_triangle);
-    CHECK(read_obj(folder / "in/a.obj").materials.at(0).base_color == Vec4f{1, 1, 1, 1});
+    CHECK(load(folder / "in/a.obj").materials.at(0).base_color == Vec4f{1, 1, 1, 1});
     // A library in a subfolder may refer to files above it that are inside the folder of the model.
     put(folder / "in/lib/a.mtl", "newmtl m\nmap_Kd ../inside.png\n");
     put(folder / "in/a.obj", "mtllib lib/a.mtl\nusemtl m\n" + textured_triangle);
-    const Asset asset = read_obj(folder / "in/a.obj");
+    const Asset asset = load(folder / "in/a.obj");
     REQUIRE(asset.images.size() == 1);
     CHECK(asset.images[0].uri == "inside.png");
     CHECK(asset.warnings.empty());
@@ -188,7 +188,7 @@ TEST_CASE("a material library without used materials gives a warning", "[mtl]") 
     const TemporaryFolder folder;
     put(folder / "a.mtl", "newmtl m\nKd 1 0 0\n");
     put(folder / "a.obj", "mtllib a.mtl\n" + textured_triangle);
-    const Asset asset = read_obj(folder / "a.obj");
+    const Asset asset = load(folder / "a.obj");
     CHECK(asset.materials.empty());
     REQUIRE(asset.warnings.size() == 1);
     CHECK_THAT(asset.warnings[0], ContainsSubstring("no face uses a material"));

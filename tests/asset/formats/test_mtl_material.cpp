@@ -49,7 +49,7 @@ struct Model {
 
     Asset read(const std::string& statements) const {
         put(folder / "m.mtl", "newmtl m\n" + statements);
-        return read_obj(folder / "m.obj");
+        return load(folder / "m.obj");
     }
 };
 
@@ -130,7 +130,7 @@ TEST_CASE("images that several materials use are in the asset once", "[mtl]") {
         "map_Kd color.png\nmap_d mask.png\nbump mask.png\nmap_Pr mask.png\nmap_Ke color.png\n";
     put(model.folder / "m.mtl", "newmtl m\n" + same + "newmtl n\n" + same);
     put(model.folder / "m.obj", "mtllib m.mtl\n" + one_triangle + "usemtl n\nf 1/1 2/1 3/1\n");
-    const Asset asset = read_obj(model.folder / "m.obj");
+    const Asset asset = load(model.folder / "m.obj");
     CHECK(asset.images.size() == 4);
     const Material &a = asset.materials.at(0), &b = asset.materials.at(1);
     CHECK(a.base_color_texture == b.base_color_texture);
@@ -149,7 +149,7 @@ TEST_CASE("textures and libraries named as on another computer are found with a 
     }
     CHECK(model.read("map_Kd \"color.png\"\n").warnings.empty());
     put(model.folder / "m.obj", "mtllib D:\\x\\M.MTL\n" + one_triangle);
-    const Asset asset = read_obj(model.folder / "m.obj");
+    const Asset asset = load(model.folder / "m.obj");
     CHECK(asset.images.size() == 1);
     CHECK(any_contains(asset.warnings, "the file 'm.mtl' is read"));
     const auto references = referenced_files(model.folder / "m.obj", References::readable);
@@ -163,15 +163,15 @@ TEST_CASE("the only library of a folder is read in place of a missing one", "[mt
     model.read("Kd 1 0 0\n");
     put(model.folder / "scan.obj", "mtllib lost.mtl\n" + one_triangle);
     fs::rename(model.folder / "m.obj", model.folder / "n.obj");
-    const Asset asset = read_obj(model.folder / "scan.obj");
+    const Asset asset = load(model.folder / "scan.obj");
     CHECK(asset.materials.at(0).base_color == Vec4f{1, 0, 0, 1});
     CHECK(any_contains(asset.warnings, "'lost.mtl' was not found; the file 'm.mtl' is read"));
     CHECK(referenced_files(model.folder / "scan.obj", References::readable).size() == 1);
     // Not if it belongs to another model, or is one of several.
     fs::rename(model.folder / "n.obj", model.folder / "m.obj");
-    CHECK(any_contains(read_obj(model.folder / "scan.obj").warnings, "material library ignored"));
+    CHECK(any_contains(load(model.folder / "scan.obj").warnings, "material library ignored"));
     fs::remove(model.folder / "m.obj");
     put(model.folder / "other.mtl", "");
-    CHECK(any_contains(read_obj(model.folder / "scan.obj").warnings, "material library ignored"));
+    CHECK(any_contains(load(model.folder / "scan.obj").warnings, "material library ignored"));
     CHECK(referenced_files(model.folder / "scan.obj", References::readable).empty());
 }

@@ -79,7 +79,7 @@ TEST_CASE("a textured OBJ file is unchanged by reading and writing", "[obj_write
     const TemporaryFolder first, second;
     const Asset asset = textured();
     save(asset, first / "a.obj", Overwrite::no);
-    const Asset back = read_obj(first / "a.obj");
+    const Asset back = load(first / "a.obj");
     CHECK(back.warnings.empty());
     const Part &part = back.parts.at(0), &original = asset.parts[0];
     CHECK(part.name == "leaf");
@@ -116,7 +116,7 @@ TEST_CASE("roughness, metal and the scale of normals are unchanged by writing an
     m.normal_texture.image = 1;
     m.normal_scale = 0.25f;
     CHECK(save(asset, folder / "a.obj", Overwrite::no).empty());
-    const Asset back = read_obj(folder / "a.obj");
+    const Asset back = load(folder / "a.obj");
     CHECK(back.warnings.empty());
     const Material& read = back.materials.at(1);
     CHECK(back.images.at(read.metallic_roughness_texture.image).encoded == asset.images[0].encoded);
@@ -151,7 +151,7 @@ TEST_CASE("OBJ files of random meshes are unchanged by reading and writing", "[o
         if (round % 2) part.positions[3] = {0.1, 1e-17, 12345.678901234};
         save(asset, folder / "a.obj", Overwrite::yes);
         const std::string once = get(folder / "a.obj"), library = get(folder / "a.mtl");
-        save(read_obj(folder / "a.obj"), folder / "a.obj", Overwrite::yes);
+        save(load(folder / "a.obj"), folder / "a.obj", Overwrite::yes);
         CHECK(get(folder / "a.obj") == once);
         CHECK(get(folder / "a.mtl") == library);
     }
@@ -164,7 +164,7 @@ TEST_CASE("OBJ positions have float precision if all are floats, else double pre
     const Asset precise = one_part({{0.1f, 0, 0}, {1. / 3, 0, 0}, {1, 1e-300, 0}}, {{0, 1, 2}});
     save(precise, folder / "a.obj", Overwrite::yes);
     CHECK(contains(get(folder / "a.obj"), "v 0.10000000149011612 0 0\nv 0.3333333333333333 0 0\n"));
-    CHECK(read_obj(folder / "a.obj").parts[0].positions == precise.parts[0].positions);
+    CHECK(load(folder / "a.obj").parts[0].positions == precise.parts[0].positions);
 }
 
 TEST_CASE("a mesh without materials has no library, a face without a material gets a default one",
@@ -193,7 +193,7 @@ TEST_CASE("an OBJ file has an object for each mesh with a unique name", "[obj_wr
     CHECK(any_contains(losses, "1 object without faces"));
     CHECK(get(folder / "m.obj") ==
           "v 0 0 0\nv 1 0 0\nv 1 1 0\no a\nf 1 2 3\no a_2\nf 1 2 3\no a_2_2\nf 1 2 3\n");
-    CHECK(read_obj(folder / "m.obj").parts.at(0).object_names ==
+    CHECK(load(folder / "m.obj").parts.at(0).object_names ==
           std::vector<std::string>{"a", "a_2", "a_2_2"});
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("an OBJ file with groups in objects is unchanged by reading and writin
         "v 0 0 0\nv 1 0 0\nv 1 1 0\no a\nf 1 2 3\ng x y\nf 1 2 3\nf 2 3 1\ng default\nf 1 2 3\no b\ng z\nf 1 "
         "2 3\n";
     put(folder / "a.obj", text);
-    save(read_obj(folder / "a.obj"), folder / "b.obj", Overwrite::no);
+    save(load(folder / "a.obj"), folder / "b.obj", Overwrite::no);
     CHECK(get(folder / "b.obj") == text);
     Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 2, 0}});
     asset.parts[0].face_group = {1, 0};
@@ -223,7 +223,7 @@ TEST_CASE("names that are invalid in OBJ statements are replaced", "[obj_writer]
     asset.materials[1].name = "x\r\nKd 0 0 0";
     save(asset, folder / "a.obj", Overwrite::no);
     CHECK(contains(get(folder / "a.obj"), "o a_f 1 2 3\n"));
-    CHECK(read_obj(folder / "a.obj").materials.at(0).name == "x__Kd 0 0 0");
+    CHECK(load(folder / "a.obj").materials.at(0).name == "x__Kd 0 0 0");
 }
 
 TEST_CASE("the UV set and transform of the leading texture are applied to the UVs", "[obj_writer]") {
@@ -237,7 +237,7 @@ TEST_CASE("the UV set and transform of the leading texture are applied to the UV
     ref.offset = {0.25f, 0.5f};
     ref.rotation = static_cast<float>(std::acos(-1.0) / 2);
     const auto losses = save(asset, folder / "a.obj", Overwrite::no);
-    const Asset back = read_obj(folder / "a.obj");
+    const Asset back = load(folder / "a.obj");
     // Scaling gives (1, 1). Rotation by 90 degrees, with v pointing down, maps (u, v) to (v, -u). Translation
     // gives (1.25, -0.5).
     const Vec2f uv = back.parts[0].uvs.at(0)[back.parts[0].triangles[0][0]];

@@ -281,7 +281,7 @@ TEST_CASE("a PLY file is unchanged by reading and writing", "[ply]") {
     for (const bool doubles : {false, true}) {
         if (doubles) part.positions[0][0] = 0.1;
         CHECK(save(asset, folder / "a.ply", Overwrite::yes).empty());
-        const Asset back = read_ply(folder / "a.ply");
+        const Asset back = load(folder / "a.ply");
         CHECK(back.warnings.empty());
         CHECK(back.parts[0].positions == part.positions);
         CHECK(back.parts[0].triangles == part.triangles);
@@ -304,7 +304,7 @@ TEST_CASE("PLY files keep all 256 values of a colour channel", "[ply]") {
         asset.parts[0].colors.push_back({c, c, c, static_cast<float>(i) / 255.0f});
     }
     save(asset, folder / "a.ply", Overwrite::no);
-    CHECK(read_ply(folder / "a.ply").parts[0].colors == asset.parts[0].colors);
+    CHECK(load(folder / "a.ply").parts[0].colors == asset.parts[0].colors);
 }
 
 TEST_CASE("the PLY writer reports what it leaves out", "[ply]") {

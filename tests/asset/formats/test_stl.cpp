@@ -162,7 +162,7 @@ TEST_CASE("an STL file is unchanged by reading and writing", "[stl]") {
     CHECK(bytes.size() == 84 + 2 * 50);
     CHECK(bytes.substr(84, 12) ==
           u32_text(0) + u32_text(0) + u32_text(std::bit_cast<std::uint32_t>(1.0f)));  // facet normal
-    const Asset back = read_stl(folder / "a.stl");
+    const Asset back = load(folder / "a.stl");
     CHECK(back.parts[0].positions == asset.parts[0].positions);
     CHECK(back.parts[0].triangles == asset.parts[0].triangles);
     save(back, folder / "b.stl", Overwrite::no);

@@ -8,7 +8,6 @@
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/unused_objects.hpp"
 #include "asset/image/image.hpp"
-#include "asset/io/file.hpp"
 #include "asset/scene/affine.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
@@ -81,8 +80,6 @@ void warn_of_inverse_binds(const SourceDocument& source, const std::string& file
 }
 
 }  // namespace
-
-Asset read_gltf(const std::filesystem::path& file) { return read_gltf(read_file(file), file); }
 
 Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& file) {
     LoadedGltf loaded = load_gltf(bytes, file);
