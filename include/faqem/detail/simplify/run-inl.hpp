@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/rounds/rounds.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
@@ -164,10 +165,12 @@ private:
         const BlockInput input{now.positions,   now.triangles,
                                state_.locked(), vertices_per_block(now.positions.size(), few),
                                closed(),        &state_.borders()};
-        const BlockSteps blocks =
-            simplify_in_blocks(input, loop_, least, tracking, options_.history,
-                               context_.step(Phase::simplify, progress_at(done_in_blocks_),
-                                             progress_at(done_in_blocks_ + share)));
+        const RunContext step = context_.step(Phase::simplify, progress_at(done_in_blocks_),
+                                              progress_at(done_in_blocks_ + share));
+        BlockSteps blocks;
+        if (!state_.original()) blocks = simplify_in_rounds(input, least, options_.history, step);
+        if (!blocks.is_cancelled && blocks.steps.empty())
+            blocks = simplify_in_blocks(input, loop_, least, tracking, options_.history, step);
         if (blocks.is_cancelled) return false;
         if (blocks.steps.empty()) return true;
         has_used_blocks_ = true;

@@ -4,6 +4,7 @@
 #include "faqem/engine/mesh/closed_vertices.hpp"
 #include "faqem/export.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -29,6 +30,7 @@ FAQEM_INLINE RunState::RunState(const PreprocessedMesh& prepared, const std::vec
 }
 
 FAQEM_INLINE void RunState::find_planar_borders() {
+    if (std::find(closed_.begin(), closed_.end(), 0) == closed_.end()) return;  // there is no border
     engine::PlanarBorderSearch search(mesh_.positions, mesh_.triangles);
     borders_ = original_ ? search.find(original_->boundary_edges())
                          : search.find(engine::find_boundary_edges(mesh_.triangles, mesh_.positions.size()));

@@ -1,0 +1,167 @@
+#pragma once
+
+#include "faqem/detail/rounds/rounds.hpp"
+#include "faqem/export.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "faqem/detail/rounds/cell.hpp"
+#include "faqem/detail/rounds/round_mesh.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+namespace rounds {
+
+inline constexpr double vertices_per_cell = 4096;
+
+// Of the faces that are kept at least. The engine takes the rest exactly in the order of its costs, and collapses what
+// rounds refuse.
+inline constexpr double spare_faces = 1.25;
+
+// Vertices that rounds cannot move, as a part of the faces that are kept at least: their neighbourhoods stay dense.
+inline constexpr double most_unfit = 1.0 / 16;
+
+// Rounds that gain little end the work; so does their number.
+inline constexpr std::uint64_t most_rounds = 40;
+inline constexpr unsigned most_idle_rounds = 3;
+
+/// The cost below which about `edges` edges lie.
+inline float threshold(const Mesh& mesh, std::size_t edges) {
+    const std::size_t size = mesh.keys.size(), step = (size / 65536) | 1;
+    std::vector<float> sample;
+    for (std::size_t i = 0; i < size; i += step) {
+        if (mesh.keys[i] < never) sample.push_back(mesh.keys[i]);
+    }
+    if (sample.empty()) return 0;
+    const auto at = sample.begin() + static_cast<std::ptrdiff_t>(std::min(edges / step, sample.size() - 1));
+    std::nth_element(sample.begin(), at, sample.end());
+    return *at;
+}
+
+/// Assigns cells to all vertices. \return their number
+inline std::size_t assign_cells(Mesh& mesh, double area, std::uint64_t round, const RunContext& context) {
+    const double share = vertices_per_cell / (0.5 * static_cast<double>(mesh.alive));
+    const double side = std::clamp(std::sqrt(area * share), 1.0 / 64, 2.0);
+    std::array<double, 3> shift;
+    std::uint64_t random = round * 0x9e3779b97f4a7c15ull;
+    for (double& s : shift) {
+        random = random * 6364136223846793005ull + 1442695040888963407ull;
+        s = static_cast<double>(random >> 11) * 0x1p-53;
+    }
+    // The diagonal is 1 and the centre 0; new vertices may be a little outside.
+    const double per_side = 1 / side;
+    const auto cells = static_cast<std::uint32_t>(1.25 * per_side) + 2;
+    parallel_blocks(mesh.vertices.size(), faces_per_block, context, [&](std::size_t first, std::size_t end) {
+        for (std::size_t v = first; v < end; ++v) {
+            std::uint32_t cell = 0;
+            for (unsigned k = 0; k < 3; ++k) {
+                const double at = (mesh.vertices[v].p[k] + 0.625) * per_side + shift[k];
+                const auto most = static_cast<double>(cells - 1);
+                cell = cell * cells + static_cast<std::uint32_t>(std::clamp(at, 0.0, most));
+            }
+            mesh.vertices[v].cell = cell;
+        }
+    });
+    return std::size_t{cells} * cells * cells;
+}
+
+/// The edges with a cost of at most `limit` and both ends in a cell, by cell.
+inline std::vector<EdgeKey> candidates(const Mesh& mesh, std::size_t cells, float limit,
+                                       std::vector<std::uint32_t>& begin, const RunContext& context) {
+    struct Found {
+        std::uint32_t cell;
+        EdgeKey candidate;
+    };
+    std::vector<std::vector<Found>> found((mesh.faces.size() + faces_per_block - 1) / faces_per_block);
+    parallel_blocks(mesh.faces.size(), faces_per_block, context, [&](std::size_t first, std::size_t end) {
+        std::vector<Found>& here = found[first / faces_per_block];
+        here.reserve(faces_per_block / 2);
+        for (std::size_t c = 4 * first; c < 4 * end; ++c) {
+            const float key = mesh.keys[c];
+            if (!(key <= limit)) continue;
+            const Face& f = mesh.faces[c >> 2];
+            const std::uint32_t cell = mesh.vertices[f.v[next(c & 3)]].cell;
+            if (cell != mesh.vertices[f.v[previous(c & 3)]].cell) continue;
+            here.push_back({cell, {static_cast<Corner>(c), key}});
+        }
+    });
+    begin.assign(cells + 2, 0);
+    for (const auto& some : found) {
+        for (const Found& f : some) ++begin[f.cell + 2];
+    }
+    for (std::size_t i = 2; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<EdgeKey> sorted(begin.back());
+    for (const auto& some : found) {
+        for (const Found& f : some) sorted[begin[f.cell + 1]++] = f.candidate;
+    }
+    return sorted;
+}
+
+inline void append(CellSteps& from, Recording patches, BlockSteps& to) {
+    to.steps.insert(to.steps.end(), from.steps.begin(), from.steps.end());
+    for (std::size_t i = 0; i < refusal_kinds; ++i) to.refusals[i] += from.refusals[i];
+    if (patches == Recording::off) return;
+    for (const std::size_t at : from.patch_begin) to.patch_begin.push_back(at + to.patch_faces.size());
+    to.patch_faces.insert(to.patch_faces.end(), from.patch_faces.begin(), from.patch_faces.end());
+}
+
+}  // namespace rounds
+
+FAQEM_INLINE BlockSteps simplify_in_rounds(const BlockInput& input, std::size_t target, Recording patches,
+                                           const RunContext& context) {
+    using namespace rounds;
+    BlockSteps result;
+    const auto least = static_cast<std::size_t>(spare_faces * static_cast<double>(target));
+    if (input.positions.size() <= 2 * input.per_block || 4 * least > 3 * input.triangles.size())
+        return result;
+    const RunContext untimed = context.untimed();
+    try {
+        Mesh mesh = load(input, untimed);
+        const auto stuck = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
+                                         [](const Vertex& v) { return v.lock == unfit; });
+        if (static_cast<double>(stuck) > most_unfit * static_cast<double>(least)) return result;
+        result.steps.reserve((mesh.alive - least) / 2);
+        const std::size_t all = mesh.alive - least;
+        unsigned idle = 0;
+        for (std::uint64_t round = 1; round <= most_rounds && idle < most_idle_rounds; ++round) {
+            const std::size_t need = mesh.alive - least;
+            if (need < least / 64 || context.is_late()) break;
+            if (10 * mesh.alive < 6 * mesh.faces.size()) compact(mesh, untimed);
+            context.show(Phase::simplify, 1 - static_cast<double>(need) / static_cast<double>(all));
+            const float limit = threshold(mesh, need);
+            const std::size_t cells = assign_cells(mesh, mesh.area, round, untimed);
+            std::vector<std::uint32_t> begin;
+            const std::vector<EdgeKey> sorted = candidates(mesh, cells, limit, begin, untimed);
+            std::vector<std::uint32_t> used;
+            for (std::uint32_t cell = 0; cell < cells; ++cell) {
+                if (begin[cell] != begin[cell + 1]) used.push_back(cell);
+            }
+            if (used.empty()) break;
+            std::vector<CellSteps> steps(used.size());
+            const double quota = 0.5 * static_cast<double>(need) / static_cast<double>(sorted.size());
+            parallel_blocks(used.size(), 1, untimed, [&](std::size_t i, std::size_t) {
+                if (context.is_late()) return;
+                const std::uint32_t first = begin[used[i]], end = begin[used[i] + 1];
+                const auto most = static_cast<std::size_t>(quota * static_cast<double>(end - first));
+                CellCollapser(mesh, used[i], limit, patches, steps[i])
+                    .run({sorted.data() + first, sorted.data() + end}, most);
+            });
+            const std::size_t before = mesh.alive;
+            for (CellSteps& cell : steps) {
+                mesh.alive -= 2 * cell.steps.size();
+                append(cell, patches, result);
+            }
+            idle = 16 * (before - mesh.alive) < need ? idle + 1 : 0;
+        }
+    } catch (const engine::Cancelled&) {
+        result.is_cancelled = true;
+    }
+    return result;
+}
+
+}  // namespace detail
+FAQEM_NAMESPACE_END

@@ -1,0 +1,154 @@
+#include "faqem/detail/rounds/rounds.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "faqem/detail/simplify/block_decimation.hpp"
+#include "faqem/detail/simplify/spatial_order.hpp"
+#include "faqem/simplify.hpp"
+#include "support/catch.hpp"
+#include "support/meshes.hpp"
+
+using namespace faqem;
+using namespace faqem::detail;
+
+namespace {
+
+// 10,242 vertices, which are several cells.
+const TriangleMesh& lump() {
+    static const TriangleMesh mesh = test::shaken(test::icosphere(5), 0.002, 3);
+    return mesh;
+}
+
+// A preprocessed and reordered surface. Blocks of 500 vertices make it large enough for rounds.
+struct Fixture {
+    explicit Fixture(const TriangleMesh& mesh)
+        : reordered(reorder(preprocess(mesh.view(), settings({})))), locked(reordered.positions.size(), 0) {}
+    BlockInput input() const { return {reordered.positions, reordered.triangles, locked, 500}; }
+    BlockSteps steps(std::size_t target, const RunContext& context = 2) const {
+        return simplify_in_rounds(input(), target, Recording::on, context);
+    }
+
+    ReorderedMesh reordered;
+    std::vector<std::uint8_t> locked;
+};
+
+Options fast(double share) {
+    Options options;
+    options.preset = Preset::fast;
+    options.target = ratio(share);
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("rounds: 1, 2 and 8 threads find the same collapses in the same order") {
+    const Fixture fixture(lump());
+    const BlockSteps one = fixture.steps(2048, 1);
+    for (const std::uint32_t threads : {2u, 8u}) {
+        const BlockSteps more = fixture.steps(2048, threads);
+        REQUIRE(more.steps.size() == one.steps.size());
+        bool same = true;
+        for (std::size_t i = 0; i < one.steps.size(); ++i)
+            same = same && more.steps[i].survivor == one.steps[i].survivor &&
+                   more.steps[i].gone == one.steps[i].gone && more.steps[i].to == one.steps[i].to;
+        CHECK(same);
+        CHECK(more.patch_faces == one.patch_faces);
+        CHECK(more.patch_begin == one.patch_begin);
+    }
+}
+
+TEST_CASE("rounds: a quarter more faces than the target are left, and the surface stays a closed manifold") {
+    const Fixture fixture(lump());
+    const CompactedMesh left = apply_steps(fixture.input(), fixture.steps(2048).steps);
+    CHECK(left.triangles.size() >= 2560);
+    CHECK(left.triangles.size() <= 2650);
+    CHECK(test::closed_manifold(left.triangles));
+    CHECK(test::euler(left.triangles) == 2);
+}
+
+TEST_CASE("rounds: the patch of a collapse is the faces around its vertices just before it") {
+    const Fixture fixture(lump());
+    const BlockSteps found = fixture.steps(4096);
+    std::vector<Triangle> faces = fixture.reordered.triangles;
+    std::vector<std::set<Index>> around(fixture.reordered.positions.size());
+    for (Index f = 0; f < faces.size(); ++f) {
+        for (const Index v : faces[f]) around[v].insert(f);
+    }
+    bool same = true;
+    for (std::size_t i = 0; i < found.steps.size(); ++i) {
+        const auto& [survivor, gone, to] = found.steps[i];
+        const std::size_t end =
+            i + 1 < found.steps.size() ? found.patch_begin[i + 1] : found.patch_faces.size();
+        const std::set<Index> patch(
+            found.patch_faces.begin() + static_cast<std::ptrdiff_t>(found.patch_begin[i]),
+            found.patch_faces.begin() + static_cast<std::ptrdiff_t>(end));
+        std::set<Index> both = around[survivor];
+        both.insert(around[gone].begin(), around[gone].end());
+        same = same && patch == both && patch.size() == end - found.patch_begin[i];
+        around[survivor].clear();
+        for (const Index f : both) {
+            const bool dies = std::count(faces[f].begin(), faces[f].end(), survivor) &&
+                              std::count(faces[f].begin(), faces[f].end(), gone);
+            for (Index& v : faces[f]) {
+                if (dies) around[v].erase(f);
+                if (v == gone) v = survivor;
+            }
+            if (!dies) around[survivor].insert(f);
+        }
+    }
+    CHECK(same);
+}
+
+TEST_CASE("rounds: no locked vertex is in a collapse") {
+    Fixture fixture(lump());
+    for (std::size_t v = 0; v < fixture.locked.size(); v += 100) fixture.locked[v] = 1;
+    const BlockSteps found = fixture.steps(2048);
+    CHECK(found.steps.size() > 5000);
+    bool stay = true;
+    for (const BlockStep& step : found.steps)
+        stay = stay && !fixture.locked[step.survivor] && !fixture.locked[step.gone];
+    CHECK(stay);
+}
+
+TEST_CASE("rounds: surfaces with many vertices that cannot move are left to blocks") {
+    CHECK(Fixture(test::grid(100)).steps(4000).steps.empty());  // 396 vertices on the border
+    CHECK(Fixture(test::soup(7, 3000, 9000)).steps(900).steps.empty());
+    CHECK(Fixture(lump()).steps(18'000).steps.empty());  // more than three quarters would remain
+}
+
+TEST_CASE("rounds: no collapse is made after the time limit, and the callback can cancel") {
+    const Fixture fixture(lump());
+    const RunContext late(2, {}, std::chrono::steady_clock::now() - std::chrono::seconds(1));
+    const BlockSteps none = fixture.steps(2048, late);
+    CHECK(none.steps.empty());
+    CHECK(!none.is_cancelled);
+    const RunContext stopped(2, [](Phase, double) { return Continue::cancel; });
+    CHECK(fixture.steps(2048, stopped).is_cancelled);
+}
+
+TEST_CASE("rounds: powers of two scale the result bit by bit, and the target is met") {
+    const TriangleMesh mesh = test::shaken(test::icosphere(6), 0.001, 3);  // not a single block
+    const SimplifyResult result = simplify(mesh.view(), fast(0.1));
+    CHECK(result.mesh.triangles.size() == 8192);
+    const SimplifyResult small = simplify(test::scaled(mesh, 0x1p-20).view(), fast(0.1));
+    CHECK(small.mesh.triangles == result.mesh.triangles);
+    CHECK(small.mesh.positions == test::scaled(result.mesh, 0x1p-20).positions);
+}
+
+TEST_CASE("rounds: vertices that did not move have exactly their input position, far from the origin, too") {
+    const TriangleMesh mesh = test::moved(test::shaken(test::icosphere(6), 0.001, 3), {1e7, -1e7, 1e7});
+    Options options = fast(0.4);
+    options.history = Recording::on;
+    const SimplifyResult result = simplify(mesh.view(), options);
+    const std::set<Vec3> input(mesh.positions.begin(), mesh.positions.end());
+    std::size_t unmoved = 0, exact = 0;
+    for (std::size_t v = 0; v < result.mesh.positions.size(); ++v) {
+        if (result.history.remaining_versions[v] >= result.history.positions.size()) continue;
+        ++unmoved;
+        exact += input.count(result.mesh.positions[v]);
+    }
+    CHECK(unmoved > 1000);
+    CHECK(exact == unmoved);
+}
