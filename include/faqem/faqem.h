@@ -95,7 +95,8 @@ FAQEM_API faqem_status faqem_options_set(faqem_options* options, const char* nam
 FAQEM_API size_t faqem_option_count(void);
 /** Name of an option. \return null if `index` is not below faqem_option_count() */
 FAQEM_API const char* faqem_option_name(size_t index);
-/** A sentence about an option, with names as in the command. \return null if `index` is not below faqem_option_count() */
+/** Choices, meaning, range and default of an option, with names as in the command. The text is never freed.
+ * \return null if `index` is not below faqem_option_count() */
 FAQEM_API const char* faqem_option_help(size_t index);
 
 /*

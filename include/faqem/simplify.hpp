@@ -24,7 +24,8 @@ struct SimplifyResult {
 /// Simplifies a mesh by collapsing vertex pairs in the order of their cost until the target is reached
 /// (FA-QEM, arXiv 2605.14029, Algorithm 1).
 /// \param mesh     any triangle soup; read only during the call
-/// \param options  see Options; budget, visibility and bake have no effect
+/// \param options  see Options; what concerns scenes and files has no effect: budget, visibility, bake, format, larger,
+///                 max_bytes, compress and quantize
 /// \return the simplified mesh, the report, and the history if requested. An empty mesh gives an empty
 ///         result. A vertex that was not moved has its input position, bit by bit. If the progress callback
 ///         cancels, report.stop is StopReason::cancelled, and the mesh is an intermediate one or empty

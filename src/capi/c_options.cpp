@@ -1,4 +1,6 @@
 #include <new>
+#include <string>
+#include <vector>
 
 #include "capi/c_result.hpp"
 #include "capi/guard.hpp"
@@ -68,15 +70,21 @@ size_t faqem_option_count(void) {
     return count;
 }
 
-// Names and help texts are string literals, so they end with a zero.
+// Names are string literals, so they end with a zero.
 const char* faqem_option_name(size_t index) {
     const detail::OptionRow* row = find_option(index);
     return row ? row->name.data() : nullptr;
 }
 
 const char* faqem_option_help(size_t index) {
-    const detail::OptionRow* row = find_option(index);
-    return row ? row->help.data() : nullptr;
+    static const std::vector<std::string> texts = [] {
+        std::vector<std::string> result;
+        for (std::size_t i = 0; const detail::OptionRow* row = find_option(i); ++i)
+            result.push_back((row->choices.empty() ? "" : std::string(row->choices) + ": ") +
+                             help_text(*row));
+        return result;
+    }();
+    return index < texts.size() ? texts[index].c_str() : nullptr;
 }
 
 faqem_status faqem_options_set_ratio(faqem_options* options, double share) {

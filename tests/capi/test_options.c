@@ -41,6 +41,12 @@ static void every_option_can_be_set(void) {
 static void every_option_has_a_help_text(void) {
     for (size_t i = 0; i < faqem_option_count(); ++i) CHECK(strlen(faqem_option_help(i)) > 10);
     CHECK(faqem_option_help(faqem_option_count()) == NULL);
+    for (size_t i = 0; i < faqem_option_count(); ++i) {
+        const char* help = faqem_option_help(i);
+        if (strcmp(faqem_option_name(i), "preset") == 0)
+            CHECK(strstr(help, "|fast|balanced|best: ") != NULL && strstr(help, "; default: balanced") != NULL);
+        if (strcmp(faqem_option_name(i), "samples") == 0) CHECK(strstr(help, "in [1, 8]") != NULL);
+    }
     faqem_options* options = faqem_options_create();
     faqem_error error;
     CHECK(faqem_options_set(options, "keep-groups", "on", &error) == FAQEM_ERROR_OPTION);

@@ -178,6 +178,8 @@ class Arrays(unittest.TestCase):
             faqem.simplify(vertices, triangles, texeldensity=1)
         with self.assertRaisesRegex(faqem.OptionError, r"^texel_density must be in \[0.125, 8\], not 9$"):
             faqem.simplify(vertices, triangles, texel_density=9)
+        with self.assertRaisesRegex(faqem.InputError, "is a file name"):
+            faqem.simplify("in.glb", "out.glb")
 
     def test_every_option_of_the_library_is_a_keyword(self):
         vertices, triangles = flat_grid(4)

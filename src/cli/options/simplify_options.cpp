@@ -1,6 +1,5 @@
 #include "cli/options/simplify_options.hpp"
 
-#include <cmath>
 #include <string_view>
 
 #include "cli/options/bound_options.hpp"
@@ -13,18 +12,10 @@ namespace {
 using detail::OptionKind;
 using detail::OptionRow;
 
-/// Help text with range and default.
-std::string description_of(const OptionRow& row) {
-    std::string text(row.help);
-    if (std::isfinite(row.range.max)) text += "; " + range_text(row.kind, row.range, row.unit);
-    const std::string by_default = default_text(row);
-    return by_default.empty() || by_default == "off" ? text : text + "; default: " + by_default;
-}
-
 OptionInfo option_of(const OptionRow& row, GivenOptions& given) {
     const bool is_flag = !row.flag_value.empty() && row.value_name.empty();
     OptionInfo info{
-        {command_spelling(row)}, std::string(row.value_name), description_of(row), row.kind, row.range};
+        {command_spelling(row)}, std::string(row.value_name), help_text(row), row.kind, row.range};
     if (is_flag)
         info.kind = OptionKind::flag;
     else if (row.value_name.empty())

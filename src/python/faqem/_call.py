@@ -59,7 +59,7 @@ def simplify(points: Any, triangles: ArrayLike | None = None, **options: Any) ->
     groups     (f,) integers, for group_boundaries="preserved"
     locks      (v,) booleans: true for vertices that must not move
     weights    (v,) factors on the costs, in [1e-6, 1e6]
-    uvs        (f, 3, n) attributes of the corners, which are preserved
+    uvs        (f, 3, n) attributes of the corners, such as UVs or colours, which are preserved
     options    below
 
     Returns a Simplified. Raises OptionError, InputError, MemoryError, and the exceptions of `progress`.
@@ -68,6 +68,8 @@ def simplify(points: Any, triangles: ArrayLike | None = None, **options: Any) ->
     names another one, in which it will be saved. Raises also ReadError, UnsupportedError, TimeLimitError and
     ByteLimitError. A Trimesh or Scene of trimesh gives another one; `metadata["faqem"]` is the report.
     """
+    if isinstance(triangles, (str, os.PathLike)):
+        raise InputError("triangles: is a file name; faqem.save(faqem.simplify(path), out) writes a result")
     if triangles is not None:
         return simplify_arrays(points, triangle_rows(triangles), **options)
     if isinstance(points, (str, os.PathLike)):

@@ -120,6 +120,13 @@ FAQEM_INLINE std::string default_text(const OptionRow& row) {
     return value.is_given ? option_text({}, row) : "";
 }
 
+FAQEM_INLINE std::string help_text(const OptionRow& row) {
+    std::string text(row.help);
+    if (std::isfinite(row.range.max)) text += "; " + range_text(row.kind, row.range, row.unit);
+    const std::string by_default = default_text(row);
+    return by_default.empty() || by_default == "off" ? text : text + "; default: " + by_default;
+}
+
 /// Bytes per unit of a size, in lower case; 0 if there is no such unit.
 inline double bytes_per_unit(std::string_view unit) {
     const std::string lower =

@@ -45,6 +45,9 @@ FAQEM_EXPORT bool is_in_range(double number, const OptionRange& range);
 /// Default in help and documentation; empty if there is none.
 FAQEM_EXPORT std::string default_text(const OptionRow& row);
 
+/// Help text with range and default.
+FAQEM_EXPORT std::string help_text(const OptionRow& row);
+
 /// Parses a number as OptionKind says.
 /// \param shown  name of the option for messages
 /// \throws OptionError  the text has another form, or the number is not in the range
