@@ -1,27 +1,14 @@
 #include "asset/scene/repair.hpp"
 
-#include "asset/scene/messages.hpp"
-
 #include <algorithm>
-#include <cstddef>
+#include <map>
+#include <type_traits>
 
+#include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
-#include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {
-
-template <class Vector>
-void reset(std::vector<Vector>& values, const Vector& neutral, const char* noun, const char* what,
-           std::vector<std::string>& warnings) {
-    std::uint64_t count = 0;
-    for (Vector& v : values) {
-        if (is_finite(v)) continue;
-        v = neutral;
-        ++count;
-    }
-    if (count) warnings.push_back(pluralized(count, noun) + " with non-finite values set to " + what);
-}
 
 std::uint64_t drop_vertices(Part& part) {
     if (std::all_of(part.positions.begin(), part.positions.end(), is_finite<double, 3>)) return 0;
@@ -44,19 +31,33 @@ std::uint64_t drop_vertices(Part& part) {
 
 }  // namespace
 
-void repair_non_finite(Part& part, const std::string& file, std::uint64_t dropped,
-                       std::vector<std::string>& warnings) {
+std::uint64_t repair_vertices(Part& part, std::uint64_t dropped, std::vector<std::string>& warnings) {
     const std::size_t before = part.positions.size();
     dropped += drop_vertices(part);
     const std::size_t vertices = before - part.positions.size();
     if (dropped || vertices)
         warnings.push_back(pluralized(vertices, "vertex") + " with a non-finite position and " +
                            pluralized(dropped, "adjacent face") + " left out");
+    std::map<std::string, std::uint64_t> counts;
+    visit_vertex_arrays(
+        [&](const VertexArray& array, auto& values) {
+            typename std::decay_t<decltype(values)>::value_type neutral = {};
+            const bool is_color = array.name == "colors";
+            if (is_color) neutral.fill(1);
+            if (const std::uint64_t count = reset_non_finite(values, neutral))
+                counts[array.title() + (is_color ? " set to white" : " set to zero")] += count;
+        },
+        part);
+    for (const auto& [what, count] : counts)
+        warnings.push_back(pluralized(count, "non-finite vector") + " of " + what);
+    return dropped;
+}
+
+void repair_non_finite(Part& part, const std::string& file, std::uint64_t dropped,
+                       std::vector<std::string>& warnings) {
+    dropped = repair_vertices(part, dropped, warnings);
     if (part.triangles.empty())
         throw InputError(file, "", dropped ? "no faces with finite positions" : "no faces");
-    reset(part.normals, {0, 0, 0}, "normal", "zero", warnings);
-    for (auto& set : part.uvs) reset(set, {0, 0}, "texture coordinate", "zero", warnings);
-    reset(part.colors, {1, 1, 1, 1}, "vertex colour", "white", warnings);
 }
 
 }  // namespace faqem::detail

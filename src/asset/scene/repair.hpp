@@ -35,11 +35,24 @@ inline void check_index_count(std::uint64_t count, const std::string& file, cons
                              std::to_string(max_index_count) + " that 32-bit indices can address");
 }
 
-/// Removes vertices with non-finite positions and their adjacent faces, and resets other non-finite values:
-/// normals and UVs to zero, colours to white. Adds one warning with a count for each kind of repair.
-/// \param file      path for messages
+/// Replaces vectors that are not finite. Returns their number.
+template <class T, std::size_t N>
+std::uint64_t reset_non_finite(std::vector<std::array<T, N>>& values, const std::array<T, N>& neutral) {
+    std::uint64_t count = 0;
+    for (std::array<T, N>& value : values)
+        if (!is_finite(value)) value = neutral, ++count;
+    return count;
+}
+
+/// Removes vertices with non-finite positions and their adjacent faces, and resets other non-finite values: colours to
+/// white, others to zero. Adds one warning with a count for each kind of repair.
 /// \param dropped   number of faces that the reader has already left out for the same reason
 /// \param warnings  receives the warnings
+/// \return the number of faces that were left out
+std::uint64_t repair_vertices(Part& part, std::uint64_t dropped, std::vector<std::string>& warnings);
+
+/// Same as above, for the only part of a file.
+/// \param file  path for messages
 /// \throws InputError  if no faces are left
 void repair_non_finite(Part& part, const std::string& file, std::uint64_t dropped,
                        std::vector<std::string>& warnings);

@@ -217,8 +217,8 @@ TEST_CASE("non-finite numbers are repaired and counted", "[obj]") {
     CHECK(part.normals[0] == Vec3f{0, 0, 0});
     CHECK(
         any_contains(asset.warnings, "2 vertices with a non-finite position and 2 adjacent faces left out"));
-    CHECK(any_contains(asset.warnings, "3 texture coordinates with non-finite values"));
-    CHECK(any_contains(asset.warnings, "3 normals with non-finite values"));
+    CHECK(any_contains(asset.warnings, "3 non-finite vectors of uvs 0"));
+    CHECK(any_contains(asset.warnings, "3 non-finite vectors of normals"));
     for (const Vec3& p : part.positions)
         for (const double x : p) CHECK(std::isfinite(x));
     CHECK(contains(obj_error("v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"),

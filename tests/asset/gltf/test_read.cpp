@@ -177,14 +177,14 @@ TEST_CASE("sparse accessors replace elements of a buffer view or of zeros") {
           std::vector<Vec3>{{0, 0, 0}, {5, 0, 0}, {0, 0, 0}, {5, 1, 0}});
 }
 
-TEST_CASE("faces with a non-finite position are removed and counted, the position is replaced") {
+TEST_CASE("vertices with a non-finite position are removed with their faces, and counted") {
     GltfBuilder builder;
     builder.triangles({{7, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, not_a_number, 0}}, square_corners);
     const Asset asset = load_glb(builder);
     CHECK(only_part(asset).triangles == std::vector<Triangle>{{0, 1, 2}});
     CHECK(only_part(asset).face_material.size() == 1);
-    CHECK(only_part(asset).positions[3] == Vec3{7, 0, 0});
-    CHECK(any_contains(asset.warnings, "/meshes/0: 1 faces with a non-finite position"));
+    CHECK(only_part(asset).positions == std::vector<Vec3>{{7, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    CHECK(any_contains(asset.warnings, "/meshes/0: 1 vertex with a non-finite position and 1 adjacent face"));
 }
 
 TEST_CASE("non-finite normals, texture coordinates and colours are reset and counted") {
@@ -192,11 +192,11 @@ TEST_CASE("non-finite normals, texture coordinates and colours are reset and cou
         "NORMAL", std::vector<Vec3f>{{0, 0, 1}, {not_a_number, 0, 0}, {0, 0, 1}, {0, INFINITY, 0}}, f32,
         "VEC3");
     CHECK(normals.parts[0].normals[1] == Vec3f{0, 0, 0});
-    CHECK(any_contains(normals.warnings, "2 non-finite normals"));
+    CHECK(any_contains(normals.warnings, "2 non-finite vectors of normals set to zero"));
     const Asset uvs = with_attribute(
         "TEXCOORD_0", std::vector<Vec2f>{{1, 1}, {1, not_a_number}, {1, 1}, {1, 1}}, f32, "VEC2");
     CHECK(uvs.parts[0].uvs[0][1] == Vec2f{0, 0});
-    CHECK(any_contains(uvs.warnings, "1 non-finite texture coordinates"));
+    CHECK(any_contains(uvs.warnings, "1 non-finite vector of uvs 0 set to zero"));
     const Asset colors = with_attribute(
         "COLOR_0", std::vector<Vec3f>{{0, 0, 0}, {0, not_a_number, 0}, {0, 0, 0}, {0, 0, 0}}, f32, "VEC3");
     CHECK(colors.parts[0].colors[1] == Vec4f{1, 1, 1, 1});

@@ -23,11 +23,10 @@ struct PartLayout {
     std::set<std::string> ignored_attributes;
 };
 
-/// Numbers of non-finite values that were replaced, and what was left out of joint weights.
-struct Repairs {
-    std::uint64_t positions = 0, normals = 0, tangents = 0, uvs = 0, colors = 0, weights = 0, targets = 0,
-                  custom = 0, trimmed_skins = 0;  // vertices with more than four joints
-    double left_out = 0, most_left_out = 0;  // of their weights: the sum of the shares, the largest share
+/// What was left out of the joint weights of several sets.
+struct TrimmedWeights {
+    std::uint64_t non_finite = 0, vertices = 0;  // vertices: with more than four joints
+    double left_out = 0, most_left_out = 0;      // of their weights: the sum of the shares, the largest share
 };
 
 std::string uv_name(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
@@ -94,29 +93,21 @@ PartLayout layout_of(const Json& mesh, const Json& accessors) {
 }
 
 /// Appends `count` vectors to `out`: those of the accessor, or `fill` if there is no accessor.
-/// \return the number of non-finite vectors that were replaced by `fill`
 template <class T, std::size_t N>
-std::uint64_t append(std::vector<std::array<T, N>>& out, const SourceDocument& source, Index accessor,
-                     std::size_t count, const std::array<T, N>& fill) {
+void append(std::vector<std::array<T, N>>& out, const SourceDocument& source, Index accessor,
+            std::size_t count, const std::array<T, N>& fill) {
     if (accessor == no_index) {
         out.insert(out.end(), count, fill);
-        return 0;
+        return;
     }
-    std::uint64_t repaired = 0;
-    std::vector<std::array<T, N>> values = read_vectors<T, N>(source, accessor, fill[N - 1]);
-    for (std::array<T, N>& value : values)
-        if (!is_finite(value)) {
-            value = fill;
-            ++repaired;
-        }
+    const std::vector<std::array<T, N>> values = read_vectors<T, N>(source, accessor, fill[N - 1]);
     out.insert(out.end(), values.begin(), values.end());
-    return repaired;
 }
 
 /// Appends the joints and weights of a primitive: one set as it is, of several the four heaviest influences.
 /// \param sets  largest number of sets that the primitive may have
 void append_joints(Part& part, const SourceDocument& source, const Json& attributes, std::size_t sets,
-                   std::size_t count, Repairs& repairs) {
+                   std::size_t count, TrimmedWeights& trimmed) {
     std::vector<std::vector<std::array<std::uint16_t, 4>>> joints;
     std::vector<std::vector<Vec4f>> weights;
     for (std::size_t set = 0; set < sets; ++set) {
@@ -124,13 +115,14 @@ void append_joints(Part& part, const SourceDocument& source, const Json& attribu
                     of_weights = index_member(attributes, weights_name(set).c_str());
         if (of_joints == no_index || of_weights == no_index) continue;
         joints.push_back(read_vectors<std::uint16_t, 4>(source, of_joints));
-        repairs.weights += append(weights.emplace_back(), source, of_weights, count, Vec4f{});
+        weights.push_back(read_vectors<float, 4>(source, of_weights));
     }
     if (joints.size() == 1) {
         part.joints.insert(part.joints.end(), joints[0].begin(), joints[0].end());
         part.weights.insert(part.weights.end(), weights[0].begin(), weights[0].end());
         return;
     }
+    for (std::vector<Vec4f>& set : weights) trimmed.non_finite += reset_non_finite(set, {});
     const std::size_t first = part.joints.size();
     part.joints.resize(first + count);
     part.weights.resize(first + count);
@@ -139,41 +131,35 @@ void append_joints(Part& part, const SourceDocument& source, const Json& attribu
         for (std::size_t set = 0; set < joints.size(); ++set)
             for (std::size_t k = 0; k < 4; ++k) all.add(joints[set][v][k], double{weights[set][v][k]});
         const double left_out = all.take_heaviest(part.joints[first + v], part.weights[first + v]);
-        repairs.trimmed_skins += left_out > 0;
-        repairs.left_out += left_out;
-        repairs.most_left_out = std::max(repairs.most_left_out, left_out);
+        trimmed.vertices += left_out > 0;
+        trimmed.left_out += left_out;
+        trimmed.most_left_out = std::max(trimmed.most_left_out, left_out);
     }
 }
 
 /// Appends the vertices of a primitive. Returns the index of the first one.
 std::uint64_t append_vertices(Part& part, const PartLayout& layout, const SourceDocument& source,
-                              const Json& primitive, Repairs& repairs) {
+                              const Json& primitive, TrimmedWeights& trimmed) {
     const Json &from = primitive["attributes"], &targets = member(primitive, "targets");
     const std::uint64_t first = part.positions.size();
     const std::vector<Vec3> positions = read_vectors<double, 3>(source, index_member(from, "POSITION"));
     const std::size_t count = positions.size();
     part.positions.insert(part.positions.end(), positions.begin(), positions.end());
-    if (layout.normals)
-        repairs.normals += append(part.normals, source, index_member(from, "NORMAL"), count, Vec3f{});
-    if (layout.tangents)
-        repairs.tangents += append(part.tangents, source, index_member(from, "TANGENT"), count, Vec4f{});
+    if (layout.normals) append(part.normals, source, index_member(from, "NORMAL"), count, Vec3f{});
+    if (layout.tangents) append(part.tangents, source, index_member(from, "TANGENT"), count, Vec4f{});
     for (std::size_t set = 0; set < layout.uv_sets; ++set)
-        repairs.uvs +=
-            append(part.uvs[set], source, index_member(from, uv_name(set).c_str()), count, Vec2f{});
-    if (layout.colors)
-        repairs.colors +=
-            append(part.colors, source, index_member(from, "COLOR_0"), count, Vec4f{1, 1, 1, 1});
-    if (layout.joint_sets > 0) append_joints(part, source, from, layout.joint_sets, count, repairs);
+        append(part.uvs[set], source, index_member(from, uv_name(set).c_str()), count, Vec2f{});
+    if (layout.colors) append(part.colors, source, index_member(from, "COLOR_0"), count, Vec4f{1, 1, 1, 1});
+    if (layout.joint_sets > 0) append_joints(part, source, from, layout.joint_sets, count, trimmed);
     for (CustomAttribute& attribute : part.custom_attributes)
-        repairs.custom += append(attribute.values, source, index_member(from, attribute.name.c_str()), count,
-                                 std::array<double, 4>{});
+        append(attribute.values, source, index_member(from, attribute.name.c_str()), count,
+               std::array<double, 4>{});
     for (std::size_t t = 0; t < layout.targets; ++t) {
         static const Json none;
         const Json& target = t < targets.size() ? targets[t] : none;
         MorphTarget& to = part.morph_targets[t];
-        repairs.targets += append(to.positions, source, index_member(target, "POSITION"), count, Vec3f{});
-        if (layout.target_normals)
-            repairs.targets += append(to.normals, source, index_member(target, "NORMAL"), count, Vec3f{});
+        append(to.positions, source, index_member(target, "POSITION"), count, Vec3f{});
+        if (layout.target_normals) append(to.normals, source, index_member(target, "NORMAL"), count, Vec3f{});
     }
     return first;
 }
@@ -226,17 +212,6 @@ double position_spacing(const Json& mesh, const Json& accessors) {
     return spacing.value_or(0);
 }
 
-/// Replaces non-finite positions by the first finite position. Their faces have been removed before.
-void repair_positions(Part& part, Repairs& repairs) {
-    const auto finite = std::find_if(part.positions.begin(), part.positions.end(), is_finite<double, 3>);
-    const Vec3 replacement = finite == part.positions.end() ? Vec3{} : *finite;
-    for (Vec3& position : part.positions)
-        if (!is_finite(position)) {
-            position = replacement;
-            ++repairs.positions;
-        }
-}
-
 void warn(LoadedGltf& loaded, const std::string& where, std::uint64_t count, const std::string& what) {
     if (count != 0) loaded.warnings.push_back(where + ": " + std::to_string(count) + " " + what);
 }
@@ -247,24 +222,15 @@ std::string percent(double share) {
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + "%";
 }
 
-void add_warnings(LoadedGltf& loaded, const std::string& where, const Repairs& repairs,
-                  std::uint64_t dropped_faces, std::uint64_t excess_corners, const PartLayout& layout) {
-    warn(loaded, where, dropped_faces, "faces with a non-finite position were left out");
-    warn(loaded, where, repairs.positions,
-         "non-finite positions were replaced by the position of another vertex");
-    warn(loaded, where, repairs.normals, "non-finite normals were reset");
-    warn(loaded, where, repairs.tangents, "non-finite tangents were reset");
-    warn(loaded, where, repairs.uvs, "non-finite texture coordinates were reset");
-    warn(loaded, where, repairs.colors, "non-finite vertex colours were reset");
-    warn(loaded, where, repairs.weights, "non-finite joint weights were reset");
-    if (const std::uint64_t trimmed = repairs.trimmed_skins; trimmed > 0)
-        warn(loaded, where, trimmed,
+void add_warnings(LoadedGltf& loaded, const std::string& where, const TrimmedWeights& trimmed,
+                  std::uint64_t excess_corners, const PartLayout& layout) {
+    warn(loaded, where, trimmed.non_finite, "non-finite vectors of weights set to zero");
+    if (trimmed.vertices > 0)
+        warn(loaded, where, trimmed.vertices,
              "vertices have more than four joints: the four heaviest are kept, " +
-                 percent(repairs.left_out / static_cast<double>(trimmed)) +
-                 " of the weights in the mean and at most " + percent(repairs.most_left_out) +
+                 percent(trimmed.left_out / static_cast<double>(trimmed.vertices)) +
+                 " of the weights in the mean and at most " + percent(trimmed.most_left_out) +
                  " were left out");
-    warn(loaded, where, repairs.targets, "non-finite morph target vectors were reset");
-    warn(loaded, where, repairs.custom, "non-finite values of custom attributes were reset");
     warn(loaded, where, excess_corners,
          "indices at the end of a triangle list do not form a triangle and were left out");
     for (const std::string& name : layout.ignored_attributes)
@@ -284,8 +250,8 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
     part.uvs.resize(layout.uv_sets);
     part.morph_targets.resize(layout.targets);
     part.custom_attributes = layout.custom;
-    Repairs repairs;
-    std::uint64_t dropped = 0, excess = 0;
+    TrimmedWeights trimmed;
+    std::uint64_t excess = 0;
     // Primitives often share their vertices and differ only in indices and material.
     std::map<std::pair<Json, Json>, std::uint64_t> first_vertex;
     const Json& primitives = member(mesh, "primitives");
@@ -299,7 +265,7 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
         }
         const auto [entry, is_new] =
             first_vertex.try_emplace({primitive["attributes"], member(primitive, "targets")}, 0);
-        if (is_new) entry->second = append_vertices(part, layout, *loaded.source, primitive, repairs);
+        if (is_new) entry->second = append_vertices(part, layout, *loaded.source, primitive, trimmed);
         const std::uint64_t first = entry->second;
         if (part.positions.size() >= no_index)
             throw InputError(loaded.file, where, "has more than 2^32 - 2 vertices");
@@ -310,19 +276,15 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
         const Index material = index_member(primitive, "material");
         for (Triangle triangle : triangles_of(corners, mode)) {
             for (Index& corner : triangle) corner = static_cast<Index>(corner + first);
-            if (!std::all_of(triangle.begin(), triangle.end(),
-                             [&](Index v) { return is_finite(part.positions[v]); })) {
-                ++dropped;
-                continue;
-            }
             part.triangles.push_back(triangle);
             part.face_material.push_back(material);
         }
     }
     part.position_spacing = position_spacing(mesh, accessors);
-    repair_positions(part, repairs);
-    add_warnings(loaded, where, repairs, dropped, excess, layout);
-    dropped_faces += dropped;
+    std::vector<std::string> warnings;
+    dropped_faces += repair_vertices(part, 0, warnings);
+    for (const std::string& warning : warnings) loaded.warnings.push_back(where + ": " + warning);
+    add_warnings(loaded, where, trimmed, excess, layout);
     return part;
 }
 
