@@ -24,9 +24,7 @@ constexpr std::array<const char*, 7> placing_members = {"name",        "extras",
 bool has_levels(const Json& object) { return member(object, "extensions").contains(lod_name); }
 
 void erase_levels(Json& object) {
-    if (!erase_extension(object, lod_name) || !member(object, "extras").is_object()) return;
-    object["extras"].erase(coverage_name);
-    if (object["extras"].empty()) object.erase("extras");
+    if (erase_extension(object, lod_name)) erase_from(object, "extras", coverage_name);
 }
 
 /// Marks a node and its descendants, without recursion: nodes may be nested deeper than the call stack allows.
@@ -110,7 +108,7 @@ public:
         }
         number_nodes();
         if (!keeps_numbers_) remove_skins(skins);
-        update_animations();
+        filter_channels(document_, [&](const Json&, Json& channel) { return update_channel(channel); });
         update_scenes();
         update_nodes();
         return meshes;
@@ -187,10 +185,7 @@ private:
         for (Index n = 0; n < removed_.size(); ++n)
             if (!removed_[n] && node(n).contains("skin"))
                 document_["nodes"][n]["skin"] = number[index_member(node(n), "skin")];
-        if (remaining.empty())
-            document_.erase("skins");
-        else
-            document_["skins"] = std::move(remaining);
+        set_or_erase(document_, "skins", std::move(remaining));
     }
 
     /// Returns whether the target of a channel stays.
@@ -206,44 +201,6 @@ private:
         pointer = "/nodes/" + std::to_string(number_[pointed]) + pointer.substr(pointer.find('/', 7));
         target["extensions"]["KHR_animation_pointer"]["pointer"] = std::move(pointer);
         return true;
-    }
-
-    void update_animations() {
-        if (!document_.contains("animations")) return;
-        Json animations = Json::array();
-        for (Json& animation : document_["animations"]) {
-            if (!animation.contains("channels")) {
-                animations.push_back(std::move(animation));
-                continue;
-            }
-            Json channels = Json::array();
-            for (Json& channel : animation["channels"])
-                if (update_channel(channel)) channels.push_back(std::move(channel));
-            if (channels.size() < animation["channels"].size()) remove_samplers(animation, channels);
-            if (channels.empty()) continue;
-            animation["channels"] = std::move(channels);
-            animations.push_back(std::move(animation));
-        }
-        if (animations.empty())
-            document_.erase("animations");
-        else
-            document_["animations"] = std::move(animations);
-    }
-
-    /// Removes the samplers that no channel uses, with whose data an animation of the levels could be as large as
-    /// before.
-    static void remove_samplers(Json& animation, Json& channels) {
-        Json samplers = Json::array();
-        std::vector<Index> number(array_size(animation, "samplers"), no_index);
-        for (Json& channel : channels) {
-            const Index sampler = index_member(channel, "sampler");
-            if (number[sampler] == no_index) {
-                number[sampler] = static_cast<Index>(samplers.size());
-                samplers.push_back(animation["samplers"][sampler]);
-            }
-            channel["sampler"] = number[sampler];
-        }
-        animation["samplers"] = std::move(samplers);
     }
 
     void update_scenes() {
@@ -295,8 +252,7 @@ Marks used_materials(const Json& document) {
     for (const Json& mesh : member(document, "meshes"))
         for (const Json& primitive : member(mesh, "primitives")) {
             mark(primitive);
-            for (const Json& mapping :
-                 member(member(member(primitive, "extensions"), "KHR_materials_variants"), "mappings"))
+            for (const Json& mapping : member(primitive, "extensions", "KHR_materials_variants", "mappings"))
                 mark(mapping);
         }
     return used;

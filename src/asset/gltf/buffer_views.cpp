@@ -25,7 +25,7 @@ public:
             }
         }
         for (const Json& node : member(document, "nodes"))
-            add_all(member(member(member(node, "extensions"), instancing_name), "attributes"), "instance ");
+            add_all(member(node, "extensions", instancing_name, "attributes"), "instance ");
         for (const Json& image : member(document, "images"))
             is_image_.insert(index_member(image, "bufferView"));
     }
@@ -63,7 +63,7 @@ private:
 };
 
 std::uint64_t stored_bytes(const Json& view) {
-    const Json& compressed = member(member(view, "extensions"), meshopt_name);
+    const Json& compressed = member(view, "extensions", meshopt_name);
     return unsigned_member(compressed.is_object() ? compressed : view, "byteLength", 0);
 }
 

@@ -12,7 +12,7 @@ namespace faqem::detail {
 namespace {
 
 const Json& instancing_attributes(const Json& node) {
-    return member(member(member(node, "extensions"), instancing_name), "attributes");
+    return member(node, "extensions", instancing_name, "attributes");
 }
 
 /// The values of an attribute; `neutral` if the node does not have it.

@@ -2,8 +2,27 @@
 
 #include <charconv>
 #include <string_view>
+#include <vector>
 
 namespace faqem::detail {
+namespace {
+
+/// Removes the samplers that no channel has.
+void keep_used_samplers(Json& animation, Json& channels) {
+    Json samplers = Json::array();
+    std::vector<Index> number(array_size(animation, "samplers"), no_index);
+    for (Json& channel : channels) {
+        const Index sampler = index_member(channel, "sampler");
+        if (number[sampler] == no_index) {
+            number[sampler] = static_cast<Index>(samplers.size());
+            samplers.push_back(animation["samplers"][sampler]);
+        }
+        channel["sampler"] = number[sampler];
+    }
+    animation["samplers"] = std::move(samplers);
+}
+
+}  // namespace
 
 const Json& member(const Json& object, const char* key) {
     static const Json none;
@@ -50,20 +69,39 @@ Index texture_image(const Json& texture) {
     return image;
 }
 
-bool erase_extension(Json& object, const char* name) {
-    if (!member(object, "extensions").contains(name)) return false;
-    object["extensions"].erase(name);
-    if (object["extensions"].empty()) object.erase("extensions");
+bool erase_from(Json& object, const char* holder, const std::string& key) {
+    if (!member(object, holder).contains(key)) return false;
+    object[holder].erase(key);
+    if (object[holder].empty()) object.erase(holder);
     return true;
 }
 
-const Json& level_ids(const Json& object) {
-    return member(member(member(object, "extensions"), lod_name), "ids");
+void set_or_erase(Json& object, const char* key, Json array) {
+    if (array.empty())
+        object.erase(key);
+    else
+        object[key] = std::move(array);
 }
 
+const Json& level_ids(const Json& object) { return member(object, "extensions", lod_name, "ids"); }
+
 std::string animated_pointer(const Json& channel) {
-    return string_member(member(member(member(channel, "target"), "extensions"), "KHR_animation_pointer"),
-                         "pointer");
+    return string_member(member(channel, "target", "extensions", "KHR_animation_pointer"), "pointer");
+}
+
+void filter_channels(Json& document, const std::function<bool(const Json& animation, Json& channel)>& keeps) {
+    if (!document.contains("animations")) return;
+    Json animations = Json::array();
+    for (Json& animation : document["animations"]) {
+        Json channels = Json::array();
+        for (Json& channel : animation["channels"])
+            if (keeps(animation, channel)) channels.push_back(std::move(channel));
+        if (channels.size() < animation["channels"].size()) keep_used_samplers(animation, channels);
+        if (channels.empty()) continue;
+        animation["channels"] = std::move(channels);
+        animations.push_back(std::move(animation));
+    }
+    set_or_erase(document, "animations", std::move(animations));
 }
 
 Index pointed_node(std::string_view pointer) {

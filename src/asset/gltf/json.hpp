@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -46,6 +47,12 @@ inline constexpr std::uint64_t triangle_list = 4, triangle_fan = 6;
 /// object[key], or null if `object` is not an object or has no such key.
 const Json& member(const Json& object, const char* key);
 
+/// object[key][...], or null if one of the keys is missing.
+template <class... Keys>
+const Json& member(const Json& object, const char* key, Keys... keys) {
+    return member(member(object, key), keys...);
+}
+
 /// Number of elements of the array object[key]; 0 if there is none.
 std::uint64_t array_size(const Json& object, const char* key);
 
@@ -67,14 +74,26 @@ bool has_triangles(const Json& primitive);
 /// The image of a texture; if it has none, the first of one of its extensions; no_index: none.
 Index texture_image(const Json& texture);
 
-/// Removes an extension of an object, and `extensions` if it was the only one. Returns whether there was one.
-bool erase_extension(Json& object, const char* name);
+/// Removes object[holder][key], and object[holder] if that was its only member. Returns whether there was one.
+bool erase_from(Json& object, const char* holder, const std::string& key);
+
+/// Removes an extension of an object.
+inline bool erase_extension(Json& object, const std::string& name) {
+    return erase_from(object, "extensions", name);
+}
+
+/// Sets object[key] to an array, or removes it if the array is empty.
+void set_or_erase(Json& object, const char* key, Json array);
 
 /// The indices of the coarser levels of a node or material by MSFT_lod; null if it has none.
 const Json& level_ids(const Json& object);
 
 /// The JSON pointer that a channel of an animation targets by KHR_animation_pointer, or an empty string.
 std::string animated_pointer(const Json& channel);
+
+/// Removes the channels of animations for which keeps(animation, channel) is false, with the samplers that no other
+/// channel has, and animations without channels.
+void filter_channels(Json& document, const std::function<bool(const Json& animation, Json& channel)>& keeps);
 
 /// The node to whose members a JSON pointer points; no_index if there is none.
 Index pointed_node(std::string_view pointer);

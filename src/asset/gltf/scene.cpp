@@ -116,7 +116,7 @@ std::vector<Instance> gltf_instances(const Asset& asset) {
 
 std::optional<Vec3> scene_center(const Asset& asset) {
     if (!asset.source) return std::nullopt;
-    const Json& extension = member(member(asset.source->document, "extensions"), center_name);
+    const Json& extension = member(asset.source->document, "extensions", center_name);
     if (!extension.contains("center")) return std::nullopt;
     return number_array<3>(extension, "center", {0, 0, 0});
 }

@@ -28,7 +28,7 @@ bool is_dynamic(const Asset& asset) {
 std::vector<Index> variant_materials(const Asset& asset, const Part& part) {
     std::vector<Index> result;
     for (const Json& primitive : primitives_of(asset, part)) {
-        const Json& variants = member(member(primitive, "extensions"), "KHR_materials_variants");
+        const Json& variants = member(primitive, "extensions", "KHR_materials_variants");
         for (const Json& mapping : member(variants, "mappings")) {
             const Index wanted = index_member(mapping, "material");
             for (Index m = 0; m < asset.materials.size(); ++m)

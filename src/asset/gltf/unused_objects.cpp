@@ -22,7 +22,7 @@ public:
             for (const Json& primitive : member(mesh, "primitives")) mark_primitive(primitive);
         const Json& extensions = member(document, "extensions");
         mark_textures_in(member(extensions, "EXT_structural_metadata"));
-        for (const Json& light : member(member(extensions, "EXT_lights_image_based"), "lights"))
+        for (const Json& light : member(extensions, "EXT_lights_image_based", "lights"))
             for (const Json& mip : member(light, "specularImages"))
                 for (const Json& image : mip) images_[image.get<Index>()] = 1;
     }
@@ -38,7 +38,7 @@ private:
     void mark_primitive(const Json& primitive) {
         mark_material(index_member(primitive, "material"));
         const Json& extensions = member(primitive, "extensions");
-        for (const Json& mapping : member(member(extensions, "KHR_materials_variants"), "mappings"))
+        for (const Json& mapping : member(extensions, "KHR_materials_variants", "mappings"))
             mark_material(index_member(mapping, "material"));
         mark_textures_in(extensions);
     }

@@ -85,7 +85,7 @@ void check_extensions(const GltfChecker& checker, const Json& value, const std::
 
 void check_image_lights(const GltfChecker& checker) {
     const std::string where = "/extensions/EXT_lights_image_based";
-    const Json& extension = member(member(checker.document, "extensions"), "EXT_lights_image_based");
+    const Json& extension = member(checker.document, "extensions", "EXT_lights_image_based");
     checker.for_each(extension, where, "lights", [&](const Json& light, const std::string& at) {
         for (const Json& mip : checker.array(light, at, "specularImages")) {
             if (!mip.is_array())
@@ -117,7 +117,7 @@ void check_document(const GltfChecker& checker) {
         });
     check_extensions(checker, checker.document, "");
     check_image_lights(checker);
-    const Json& tile = member(member(checker.document, "extensions"), center_name);
+    const Json& tile = member(checker.document, "extensions", center_name);
     checker.check_number_array(tile, child_path("/extensions", center_name), "center", 3);
 }
 

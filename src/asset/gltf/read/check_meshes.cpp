@@ -67,7 +67,7 @@ void check_indices(const GltfChecker& checker, const Json& primitive, const std:
 }
 
 void check_variants(const GltfChecker& checker, const Json& primitive, const std::string& where) {
-    const Json& variants = member(member(primitive, "extensions"), "KHR_materials_variants");
+    const Json& variants = member(primitive, "extensions", "KHR_materials_variants");
     const std::string at = where + "/extensions/KHR_materials_variants";
     checker.for_each(variants, at, "mappings", [&](const Json& mapping, const std::string& path) {
         checker.required_reference(mapping, path, "material", "materials");

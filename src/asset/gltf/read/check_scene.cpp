@@ -26,7 +26,7 @@ void check_instance_attribute(const GltfChecker& checker, const std::string& nam
 /// Returns the number of instances of the node's mesh, 1 without the extension.
 std::uint64_t checked_instance_count(const GltfChecker& checker, const Json& node, const std::string& where) {
     const std::string at = where + "/extensions/" + instancing_name;
-    const Json& instancing = member(member(node, "extensions"), instancing_name);
+    const Json& instancing = member(node, "extensions", instancing_name);
     std::uint64_t count = 0;
     for (const auto& [name, reference] : checker.object(instancing, at, "attributes").items()) {
         const std::string path = at + "/attributes/" + name;

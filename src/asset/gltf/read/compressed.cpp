@@ -87,7 +87,7 @@ std::uint64_t draco_element_count(const Json& document, const Json& primitive) {
 
 void decompress_primitive(SourceDocument& source, const Json& primitive, const std::string& file,
                           const std::string& where) {
-    const Json& compressed = member(member(primitive, "extensions"), draco_name);
+    const Json& compressed = member(primitive, "extensions", draco_name);
     const Json& view = source.document["bufferViews"][index_member(compressed, "bufferView")];
     Json& accessors = source.document["accessors"];
     std::vector<Index> targets;
@@ -164,19 +164,18 @@ std::string missing_decoder_message(std::string_view extension) {
 }
 
 bool is_fallback_buffer(const Json& buffer) {
-    return !buffer.contains("uri") &&
-           member(member(member(buffer, "extensions"), meshopt_name), "fallback") == true;
+    return !buffer.contains("uri") && member(buffer, "extensions", meshopt_name, "fallback") == true;
 }
 
 const Json& meshopt_extension(const Json& document, const Json& view) {
     static const Json none;
     const bool plain = !is_fallback_buffer(member(document, "buffers")[index_member(view, "buffer")]);
-    return plain ? none : member(member(view, "extensions"), meshopt_name);
+    return plain ? none : member(view, "extensions", meshopt_name);
 }
 
 void check_meshopt(const GltfChecker& checker, const Json& view, const std::string& view_where) {
     const std::string where = view_where + "/extensions/" + meshopt_name;
-    const Json& compressed = member(member(view, "extensions"), meshopt_name);
+    const Json& compressed = member(view, "extensions", meshopt_name);
     if (compressed.is_null()) checker.fail(view_where, "refers to a buffer without data");
     if (!can_decode(meshopt_name))
         checker.fail_unsupported(view_where, missing_decoder_message(meshopt_name));

@@ -43,7 +43,7 @@ TextureRef texture_ref(const LoadedGltf& loaded, const Json& info) {
         ref.wrap_v = wrap_of(sampler, "wrapT");
         if (unsigned_member(sampler, "magFilter", gl_linear) == gl_nearest) ref.filter = Filter::nearest;
     }
-    const Json& transform = member(member(info, "extensions"), "KHR_texture_transform");
+    const Json& transform = member(info, "extensions", "KHR_texture_transform");
     ref.offset = pair_or(member(transform, "offset"), ref.offset);
     ref.scale = pair_or(member(transform, "scale"), ref.scale);
     ref.rotation = static_cast<float>(number_or(member(transform, "rotation"), 0));
@@ -57,7 +57,7 @@ std::vector<ExtensionTexture> extension_textures(const LoadedGltf& loaded, const
     std::vector<ExtensionTexture> result;
     for (const KnownTexture& known : known_textures) {
         const std::string extension(known.extension), name(known.name);
-        const Json& info = member(member(member(material, "extensions"), extension.c_str()), name.c_str());
+        const Json& info = member(material, "extensions", extension.c_str(), name.c_str());
         const TextureRef texture = texture_ref(loaded, info);
         if (!texture || !can_decode_image(loaded.source->images[texture.image].mime_type)) continue;
         result.push_back({extension, name, texture, static_cast<float>(number_or(member(info, "scale"), 1))});

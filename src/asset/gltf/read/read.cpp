@@ -33,7 +33,7 @@ void move_sources_to_extensions(SourceDocument& source, std::vector<std::string>
             const Index image = index_member(texture, "source");
             if (image == no_index || !is_passed_through(source.images[image]) ||
                 source.images[image].mime_type != extension.media_type ||
-                member(member(texture, "extensions"), extension.name).contains("source"))
+                member(texture, "extensions", extension.name).contains("source"))
                 continue;
             texture.erase("source");
             texture["extensions"][extension.name]["source"] = image;

@@ -54,7 +54,7 @@ bool are_all_vertices(const std::optional<VertexNumbers>& vertices) {
 /// which `fits` is true.
 template <class Fits>
 bool all_fit(const GltfWriter& writer, const Json& metadata, const char* list, const Fits& fits) {
-    const Json& of_document = member(member(source_array(writer, "extensions"), metadata_name), list);
+    const Json& of_document = member(source_array(writer, "extensions"), metadata_name, list);
     for (const Json& reference : member(metadata, list)) {
         const std::optional<Index> index =
             valid_index(reference, of_document.is_array() ? of_document.size() : 0);
@@ -106,7 +106,7 @@ bool visit_textures(Json& metadata, const Visit& visit) {
 
 bool keep_feature_ids(GltfWriter& writer, const Part& part, const std::optional<VertexNumbers>& vertices,
                       Json& extensions) {
-    if (!member(member(extensions, features_name), "featureIds").is_array()) return false;
+    if (!member(extensions, features_name, "featureIds").is_array()) return false;
     Json valid = Json::array();
     const Json& all = extensions[features_name]["featureIds"];
     for (const Json& ids : all) {
@@ -161,8 +161,7 @@ void remap_structural_metadata(GltfWriter& writer) {
     if (!is_valid) {
         writer.warnings.push_back(
             "EXT_structural_metadata refers to buffer views or textures that do not exist and was left out");
-        extensions.erase(metadata_name);
-        if (extensions.empty()) writer.out.erase("extensions");
+        erase_extension(writer.out, metadata_name);
         return;
     }
     std::map<Index, Index> copied;  // views of the source

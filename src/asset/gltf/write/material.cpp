@@ -174,7 +174,7 @@ constexpr const char* anisotropy = "KHR_materials_anisotropy";
 
 void write_extensions(GltfWriter& writer, const Material& current, const Material& original, Json& json) {
     static const ExtensionTexture none;
-    if (current.rebaked && json.contains("extensions") && json["extensions"].erase(anisotropy) != 0)
+    if (current.rebaked && erase_extension(json, anisotropy))
         warn_about_removed(writer, current, anisotropy, "directions");
     if (json.contains("extensions")) {
         for (auto& [name, extension] : json["extensions"].items()) {
@@ -208,8 +208,8 @@ void write_unknown_textures(GltfWriter& writer, const Material& material, Json& 
 void write_unlit(Json& json, bool unlit) {
     if (unlit)
         json["extensions"]["KHR_materials_unlit"] = Json::object();
-    else if (json.contains("extensions"))
-        json["extensions"].erase("KHR_materials_unlit");
+    else
+        erase_extension(json, "KHR_materials_unlit");
     if (json.contains("extensions") && json["extensions"].empty()) json.erase("extensions");
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* variants_name = "KHR_materials_variants";
 
 /// Extensions of primitives and meshes that describe the source vertices or triangles, which may no longer exist.
-constexpr std::array<std::string_view, 6> vertex_extensions = {
+constexpr std::array<const char*, 6> vertex_extensions = {
     "KHR_draco_mesh_compression", "EXT_mesh_features", "EXT_structural_metadata",
     "CESIUM_primitive_outline",   "EXT_mesh_manifold", "FB_ngon_encoding"};
 
@@ -26,7 +26,7 @@ void warn_mesh(GltfWriter& writer, const std::string& name, const std::string& w
 }
 
 void remap_variants(GltfWriter& writer, Json& primitive) {
-    if (!member(member(primitive, "extensions"), variants_name).contains("mappings")) return;
+    if (!member(primitive, "extensions", variants_name).contains("mappings")) return;
     for (Json& mapping : primitive["extensions"][variants_name]["mappings"])
         mapping["material"] = write_source_material(writer, index_member(mapping, "material"));
 }
@@ -86,12 +86,9 @@ Json copy_primitive(GltfWriter& writer, const Json& source, const std::string& m
             copy_accessor(writer, index_member(primitive, "indices"), AccessorUse::indices);
     if (primitive.contains("material"))
         primitive["material"] = write_source_material(writer, index_member(primitive, "material"));
-    if (primitive.contains("extensions")) {
-        for (const std::string_view name : vertex_extensions)
-            if (primitive["extensions"].erase(std::string(name)) != 0)
-                warn_mesh(writer, mesh, std::string(name) + " of points or lines was left out");
-        if (primitive["extensions"].empty()) primitive.erase("extensions");
-    }
+    for (const std::string name : vertex_extensions)
+        if (erase_extension(primitive, name))
+            warn_mesh(writer, mesh, name + " of points or lines was left out");
     remap_variants(writer, primitive);
     return primitive;
 }
@@ -114,8 +111,7 @@ void write_used_materials(GltfWriter& writer) {
     if (std::none_of(materials.begin(), materials.end(), [](const Material& m) { return m.rebaked; }))
         for (const Json& mesh : source_array(writer, "meshes"))
             for (const Json& primitive : member(mesh, "primitives"))
-                for (const Json& mapping :
-                     member(member(member(primitive, "extensions"), variants_name), "mappings"))
+                for (const Json& mapping : member(primitive, "extensions", variants_name, "mappings"))
                     mark_materials_of(writer, index_member(mapping, "material"), used);
     for (Index i = 0; i < used.size(); ++i)
         if (used[i]) write_material(writer, i);
@@ -124,10 +120,7 @@ void write_used_materials(GltfWriter& writer) {
 /// Removes weights and names of morph targets that do not match the number of targets.
 void update_morph_targets(Json& mesh, std::uint64_t targets) {
     if (array_size(mesh, "weights") != targets) mesh.erase("weights");
-    if (targets == 0 && member(mesh, "extras").is_object()) {
-        mesh["extras"].erase("targetNames");
-        if (mesh["extras"].empty()) mesh.erase("extras");
-    }
+    if (targets == 0) erase_from(mesh, "extras", "targetNames");
 }
 
 /// The grid of a mesh. Points and lines, which are copied, have no other positions than those of the source.
@@ -169,15 +162,12 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
         return no_index;
     }
     update_morph_targets(mesh, targets);
-    if (mesh.contains("extensions")) {
-        for (const std::string_view extension : vertex_extensions)
-            if (fitting.contains(extension) && primitives.size() == 1)
-                mesh["extensions"][std::string(extension)] = fitting[std::string(extension)];
-            else if (mesh["extensions"].erase(std::string(extension)) != 0)
-                warn_mesh(writer, name,
-                          std::string(extension) + " does not fit the new triangles and was left out");
-        if (mesh["extensions"].empty()) mesh.erase("extensions");
-    }
+    for (const std::string extension : vertex_extensions)
+        if (member(mesh, "extensions").contains(extension) && fitting.contains(extension) &&
+            primitives.size() == 1)
+            mesh["extensions"][extension] = fitting[extension];
+        else if (erase_extension(mesh, extension))
+            warn_mesh(writer, name, extension + " does not fit the new triangles and was left out");
     mesh["primitives"] = std::move(primitives);
     writer.grids.push_back(grid);
     return append(writer, "meshes", std::move(mesh));
@@ -190,7 +180,7 @@ std::vector<std::string> fitting_extensions(GltfWriter& writer, const Part& part
                                             const std::vector<const Json*>& from, const PrimitiveData& data,
                                             Json& extensions) {
     const bool has_any = std::any_of(vertex_extensions.begin(), vertex_extensions.end(),
-                                     [&](std::string_view name) { return extensions.contains(name); });
+                                     [&](const char* name) { return extensions.contains(name); });
     if (!has_any) return {};
     std::optional<VertexNumbers> vertices;
     if (from.size() == 1 && part.file_order == FileOrder::given)
@@ -245,10 +235,10 @@ Json carried_primitive_members(GltfWriter& writer, const Part& part, Index mater
     const auto fits = [&](const auto& name) {
         return std::find(fitting.begin(), fitting.end(), name) != fitting.end();
     };
-    for (const std::string_view name : vertex_extensions)
-        if (!fits(name) && extensions.erase(std::string(name)) != 0 && name != "KHR_draco_mesh_compression")
+    for (const std::string name : vertex_extensions)
+        if (!fits(name) && extensions.erase(name) != 0 && name != "KHR_draco_mesh_compression")
             warn_mesh(writer, part.name,
-                      std::string(name) + " does not fit the new vertices and triangles and was left out");
+                      name + " does not fit the new vertices and triangles and was left out");
     // What an unknown extension says may not hold for other triangles.
     if (part.file_order == FileOrder::for_gpu) {
         for (auto extension = extensions.begin(); extension != extensions.end();) {

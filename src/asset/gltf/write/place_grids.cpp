@@ -197,7 +197,7 @@ void place_grids(GltfWriter& writer) {
     const std::size_t nodes = is_animated.size();
     for (Index n = 0; n < nodes; ++n) {
         Json& node = writer.out["nodes"][n];
-        if (member(member(node, "extensions"), instancing_name).contains("attributes")) {
+        if (member(node, "extensions", instancing_name).contains("attributes")) {
             write_instances(writer, node);
             continue;
         }

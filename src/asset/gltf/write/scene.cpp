@@ -34,7 +34,7 @@ bool was_skinned(const GltfWriter& writer, Index mesh) {
 }
 
 void remap_instancing(GltfWriter& writer, Json& node) {
-    if (!member(member(node, "extensions"), instancing_name).contains("attributes")) return;
+    if (!member(node, "extensions", instancing_name).contains("attributes")) return;
     for (Json& accessor : node["extensions"][instancing_name]["attributes"])
         accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
 }
@@ -112,7 +112,7 @@ bool update_channel(GltfWriter& writer, Json& channel) {
     if (string_member(target, "path") == "weights" && node != no_index &&
         morph_target_count(writer, index_member(writer.out["nodes"][node], "mesh")) == 0)
         return false;
-    const Json& pointer = member(member(target, "extensions"), "KHR_animation_pointer");
+    const Json& pointer = member(target, "extensions", "KHR_animation_pointer");
     if (!pointer.contains("pointer")) return true;
     std::string text = string_member(pointer, "pointer");
     const bool is_remapped = remap_pointer(writer, text);
@@ -121,33 +121,23 @@ bool update_channel(GltfWriter& writer, Json& channel) {
 }
 
 void update_animations(GltfWriter& writer) {
+    filter_channels(writer.out, [&](const Json& animation, Json& channel) {
+        const bool is_kept = update_channel(writer, channel);
+        if (!is_kept)
+            writer.warnings.push_back("animation '" + string_member(animation, "name") +
+                                      "': a channel was left out because its target was removed");
+        return is_kept;
+    });
     if (!writer.out.contains("animations")) return;
-    Json animations = Json::array();
-    for (Json& animation : writer.out["animations"]) {
-        const std::string name = string_member(animation, "name");
-        Json channels = Json::array();
-        for (Json& channel : animation["channels"])
-            if (update_channel(writer, channel))
-                channels.push_back(std::move(channel));
-            else
-                writer.warnings.push_back("animation '" + name +
-                                          "': a channel was left out because its target was removed");
-        if (channels.empty()) continue;
-        animation["channels"] = std::move(channels);
+    for (Json& animation : writer.out["animations"])
         for (Json& sampler : animation["samplers"])
             for (const char* key : {"input", "output"})
                 sampler[key] = copy_accessor(writer, index_member(sampler, key), AccessorUse::other);
-        animations.push_back(std::move(animation));
-    }
-    if (animations.empty())
-        writer.out.erase("animations");
-    else
-        writer.out["animations"] = std::move(animations);
 }
 
 void remap_image_lights(GltfWriter& writer) {
     const char* name = "EXT_lights_image_based";
-    if (!member(member(writer.out, "extensions"), name).contains("lights")) return;
+    if (!member(writer.out, "extensions", name).contains("lights")) return;
     for (Json& light : writer.out["extensions"][name]["lights"])
         if (light.contains("specularImages"))
             for (Json& mip : light["specularImages"])
@@ -216,10 +206,7 @@ void write_extension_lists(GltfWriter& writer) {
         for_each_extension(writer.out["meshes"], [&](const std::string& name, const Json&) {
             has_variants = has_variants || name == "KHR_materials_variants";
         });
-    if (!has_variants && writer.out.contains("extensions")) {
-        writer.out["extensions"].erase("KHR_materials_variants");
-        if (writer.out["extensions"].empty()) writer.out.erase("extensions");
-    }
+    if (!has_variants) erase_extension(writer.out, "KHR_materials_variants");
     std::set<std::string> used;
     for_each_extension(writer.out, [&](const std::string& name, const Json&) { used.insert(name); });
     Json required = Json::array();

@@ -65,7 +65,7 @@ void number_draco_views(GltfWriter& writer) {
     const Index first = writer.binary.first_data_view();
     for (Json& mesh : writer.out["meshes"])
         for (Json& primitive : mesh["primitives"])
-            if (member(member(primitive, "extensions"), draco_name).contains("bufferView"))
+            if (member(primitive, "extensions", draco_name).contains("bufferView"))
                 primitive["extensions"][draco_name]["bufferView"] =
                     first + primitive["extensions"][draco_name]["bufferView"].get<Index>();
 }
