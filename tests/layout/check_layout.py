@@ -90,8 +90,6 @@ SMALL = {
     # What the wheel replaces in other libraries.
     "src/python/native/glibc",
     "src/cli/report/embedded_files",       # the texts are generated at build time
-    # Compiled in one build only.
-    "src/asset/gltf/read/meshopt",
 }
 
 # Definition of a type at namespace scope, which is not indented. Nested types ("struct Bvh::Range") do not count.

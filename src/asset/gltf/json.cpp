@@ -24,6 +24,16 @@ void keep_used_samplers(Json& animation, Json& channels) {
 
 }  // namespace
 
+bool has_codec([[maybe_unused]] std::string_view extension) {
+#ifdef FAQEM_WITH_MESHOPT
+    if (extension == meshopt_name) return true;
+#endif
+#ifdef FAQEM_WITH_DRACO
+    if (extension == draco_name) return true;
+#endif
+    return false;
+}
+
 const Json& member(const Json& object, const char* key) {
     static const Json none;
     if (!object.is_object()) return none;

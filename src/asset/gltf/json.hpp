@@ -21,6 +21,9 @@ using Json = nlohmann::json;
 inline constexpr const char* meshopt_name = "EXT_meshopt_compression";
 inline constexpr const char* draco_name = "KHR_draco_mesh_compression";
 
+/// Whether faqem was built with the library for one of these.
+bool has_codec(std::string_view extension);
+
 /// Name of the extension that gives a node or a material coarser levels of detail, and of the extras beside it.
 inline constexpr const char* lod_name = "MSFT_lod";
 inline constexpr const char* coverage_name = "MSFT_screencoverage";

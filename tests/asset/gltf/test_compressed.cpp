@@ -36,7 +36,7 @@ TEST_CASE("without a decoder the error names the extension and the library") {
     for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
         GltfBuilder builder = square_gltf();
         name_extension(builder, name);
-        if (detail::can_decode(name))
+        if (detail::has_codec(name))
             check_square(load_glb(builder));
         else
             CHECK(contains(refusal<UnsupportedError>(builder), name));
@@ -213,7 +213,7 @@ TEST_CASE("draco: invalid counts and attribute ids are rejected with the element
 
 TEST_CASE("draco: the total decompressed size is limited") {
     const std::string file = "a.glb";
-    detail::DecompressionLimit limit(10, file);
+    detail::DecompressionLimit limit{10, file};
     limit.consume(7, "/meshes/0", "X");
     limit.consume(3, "/meshes/1", "X");
     CHECK_THROWS_WITH(limit.consume(1, "/meshes/2", "X"),

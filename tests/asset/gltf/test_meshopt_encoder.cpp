@@ -26,7 +26,7 @@ Asset reread(const Asset& asset) { return load_glb(saved(asset)); }
 }  // namespace
 
 TEST_CASE("compressed geometry is smaller, has exact positions, and directions and UVs within half a step") {
-    if (!detail::can_encode_meshopt()) return;
+    if (!detail::has_codec(detail::meshopt_name)) return;
     Asset asset = curved_grid(FileOrder::for_gpu);
     const Asset plain = reread(asset);
     const std::size_t plain_size = saved(asset).size();
@@ -46,7 +46,7 @@ TEST_CASE("compressed geometry is smaller, has exact positions, and directions a
 }
 
 TEST_CASE("a compressed file that is read and written again has the same values") {
-    if (!detail::can_encode_meshopt()) return;
+    if (!detail::has_codec(detail::meshopt_name)) return;
     Asset asset = curved_grid(FileOrder::for_gpu);
     asset.compression = Compression::meshopt;
     const Asset once = reread(asset), twice = reread(once);
@@ -71,7 +71,7 @@ TEST_CASE("compression changes nothing of a part that is written as it is") {
 TEST_CASE(
     "a compressed document requires the extension and has a buffer without bytes, an uncompressed one has "
     "not") {
-    if (!detail::can_encode_meshopt()) return;
+    if (!detail::has_codec(detail::meshopt_name)) return;
     Asset asset = curved_grid(FileOrder::for_gpu);
     CHECK(json_of(saved(asset)).value("extensionsUsed", Json()) == Json());
     asset.compression = Compression::meshopt;
@@ -89,7 +89,7 @@ TEST_CASE(
 }
 
 TEST_CASE("values that are no multiples of the steps within 24 bits are compressed without rounding") {
-    if (!detail::can_encode_meshopt()) return;
+    if (!detail::has_codec(detail::meshopt_name)) return;
     Asset asset = curved_grid(FileOrder::for_gpu);
     for (Vec2f& uv : asset.parts[0].uvs[0]) uv[0] += 4096;
     const Asset plain = reread(asset);
@@ -98,7 +98,7 @@ TEST_CASE("values that are no multiples of the steps within 24 bits are compress
 }
 
 TEST_CASE("quantised geometry is smaller still, and is read and written again with equal values") {
-    if (!detail::can_encode_meshopt()) return;
+    if (!detail::has_codec(detail::meshopt_name)) return;
     Asset asset = curved_grid(FileOrder::for_gpu);
     const Asset plain = reread(asset);
     asset.compression = Compression::meshopt;
@@ -122,7 +122,7 @@ TEST_CASE("quantised geometry is smaller still, and is read and written again wi
 }
 
 TEST_CASE("vertices that are rounded before have the positions and UVs of a file that rounds them") {
-    if (!detail::can_encode_meshopt()) return;
+    if (!detail::has_codec(detail::meshopt_name)) return;
     for (const std::uint32_t bits : {0u, 9u}) {
         CAPTURE(bits);
         Asset asset = curved_grid(FileOrder::for_gpu);

@@ -63,7 +63,7 @@ void check_required_extensions(const GltfChecker& checker) {
     checker.for_each(checker.document, "", "extensionsRequired", [&](const Json& value, const auto& where) {
         const auto name = value.get<std::string>();
         if (name == draco_name || name == meshopt_name) {
-            if (!can_decode(name)) checker.fail_unsupported(where, missing_decoder_message(name));
+            if (!has_codec(name)) checker.fail_unsupported(where, missing_decoder_message(name));
         } else if (!is_supported(name)) {
             checker.fail_unsupported(where, "the extension " + name + " is not supported");
         }

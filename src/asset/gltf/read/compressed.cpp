@@ -5,7 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "faqem/error.hpp"
+#ifdef FAQEM_WITH_MESHOPT
+#include <meshoptimizer.h>
+#endif
 
 namespace faqem::detail {
 namespace {
@@ -33,7 +35,7 @@ std::uint64_t total_buffer_size(const SourceDocument& source) {
 
 void decompress_views(SourceDocument& source, const std::string& file) {
     if (!source.document.contains("bufferViews")) return;
-    [[maybe_unused]] DecompressionLimit limit(max_meshopt_ratio * total_buffer_size(source), file);
+    [[maybe_unused]] DecompressionLimit limit{max_meshopt_ratio * total_buffer_size(source), file};
     Json& views = source.document["bufferViews"];
     for (std::uint64_t i = 0; i < views.size(); ++i) {
 #ifdef FAQEM_WITH_MESHOPT
@@ -118,8 +120,8 @@ void decompress_primitive(SourceDocument& source, const Json& primitive, const s
 
 void decompress_primitives(SourceDocument& source, const std::string& file) {
     if (!source.document.contains("meshes")) return;
-    [[maybe_unused]] DecompressionLimit limit(
-        draco_base_element_limit + max_draco_elements_per_byte * total_buffer_size(source), file);
+    [[maybe_unused]] DecompressionLimit limit{
+        draco_base_element_limit + max_draco_elements_per_byte * total_buffer_size(source), file};
     Json& meshes = source.document["meshes"];
     for (std::uint64_t m = 0; m < meshes.size(); ++m) {
         if (!meshes[m].contains("primitives")) continue;
@@ -140,23 +142,29 @@ void decompress_primitives(SourceDocument& source, const std::string& file) {
 
 }  // namespace
 
-void DecompressionLimit::consume(std::uint64_t amount, const std::string& where, const char* extension) {
-    if (amount > remaining_)
-        throw InputError(
-            file_, where,
-            std::string(extension) + ": the total decompressed size exceeds the limit for this file");
-    remaining_ -= amount;
+#ifdef FAQEM_WITH_MESHOPT
+
+std::vector<std::uint8_t> decode_meshopt(const Json& extension, std::span<const std::uint8_t> bytes,
+                                         const std::string& file, const std::string& where) {
+    const std::uint64_t count = unsigned_member(extension, "count", 0),
+                        stride = unsigned_member(extension, "byteStride", 0);
+    const std::string mode = string_member(extension, "mode"), filter = string_member(extension, "filter");
+    std::vector<std::uint8_t> result(count * stride);
+    int error = 0;
+    if (mode == "ATTRIBUTES")
+        error = meshopt_decodeVertexBuffer(result.data(), count, stride, bytes.data(), bytes.size());
+    else if (mode == "TRIANGLES")
+        error = meshopt_decodeIndexBuffer(result.data(), count, stride, bytes.data(), bytes.size());
+    else
+        error = meshopt_decodeIndexSequence(result.data(), count, stride, bytes.data(), bytes.size());
+    if (error != 0) throw InputError(file, where, std::string(meshopt_name) + ": the data is damaged");
+    if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(result.data(), count, stride);
+    if (filter == "QUATERNION") meshopt_decodeFilterQuat(result.data(), count, stride);
+    if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(result.data(), count, stride);
+    return result;
 }
 
-bool can_decode([[maybe_unused]] std::string_view extension) {
-#ifdef FAQEM_WITH_MESHOPT
-    if (extension == meshopt_name) return true;
 #endif
-#ifdef FAQEM_WITH_DRACO
-    if (extension == draco_name) return true;
-#endif
-    return false;
-}
 
 std::string missing_decoder_message(std::string_view extension) {
     return std::string(extension) + " compressed data: faqem was built without " +
@@ -177,8 +185,7 @@ void check_meshopt(const GltfChecker& checker, const Json& view, const std::stri
     const std::string where = view_where + "/extensions/" + meshopt_name;
     const Json& compressed = member(view, "extensions", meshopt_name);
     if (compressed.is_null()) checker.fail(view_where, "refers to a buffer without data");
-    if (!can_decode(meshopt_name))
-        checker.fail_unsupported(view_where, missing_decoder_message(meshopt_name));
+    if (!has_codec(meshopt_name)) checker.fail_unsupported(view_where, missing_decoder_message(meshopt_name));
     const std::uint64_t buffer = checker.required_reference(compressed, where, "buffer", "buffers");
     const Json& from = member(checker.document, "buffers")[buffer];
     if (is_fallback_buffer(from)) checker.fail(child_path(where, "buffer"), "is a buffer without data");
@@ -229,7 +236,7 @@ bool needs_draco(const Json& document, const Json& primitive) {
 
 void check_draco(const GltfChecker& checker, const Json& primitive, const std::string& primitive_where) {
     const std::string where = primitive_where + "/extensions/" + draco_name;
-    if (!can_decode(draco_name))
+    if (!has_codec(draco_name))
         checker.fail_unsupported(primitive_where, missing_decoder_message(draco_name));
     const Json& compressed = primitive["extensions"][draco_name];
     const std::uint64_t view = checker.required_reference(compressed, where, "bufferView", "bufferViews");

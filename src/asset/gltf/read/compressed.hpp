@@ -13,11 +13,9 @@
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/source_document.hpp"
+#include "faqem/error.hpp"
 
 namespace faqem::detail {
-
-/// Whether this library was built with a decoder for the extension.
-bool can_decode(std::string_view extension);
 
 /// Error message for compressed data that this build cannot decode. Names the extension and the library.
 std::string missing_decoder_message(std::string_view extension);
@@ -53,22 +51,22 @@ std::vector<char> draco_accessor_flags(const Json& document);
 inline constexpr std::uint64_t draco_base_element_limit = std::uint64_t{1} << 22,
                                max_draco_elements_per_byte = 256;
 
-/// Limits the total decompressed size of a file. The limit depends on the size of the file, not on how often
-/// its bytes are referenced.
-class DecompressionLimit {
-public:
-    /// \param amount  total that may be decompressed
-    /// \param file    path for messages, borrowed
-    DecompressionLimit(std::uint64_t amount, const std::string& file) : remaining_(amount), file_(file) {}
+/// Limits the total decompressed size of a file by the size of the file, not by how often its bytes are referenced.
+struct DecompressionLimit {
+    std::uint64_t remaining;
+    const std::string& file;  ///< path for messages
+
     /// Subtracts an amount from what remains.
     /// \param where      JSON pointer for messages
     /// \param extension  name for messages
     /// \throws InputError  if less remains
-    void consume(std::uint64_t amount, const std::string& where, const char* extension);
-
-private:
-    std::uint64_t remaining_;
-    const std::string& file_;
+    void consume(std::uint64_t amount, const std::string& where, const char* extension) {
+        if (amount > remaining)
+            throw InputError(
+                file, where,
+                std::string(extension) + ": the total decompressed size exceeds the limit for this file");
+        remaining -= amount;
+    }
 };
 
 /// Decompresses all views and primitives that have no uncompressed data into new buffers, and removes the

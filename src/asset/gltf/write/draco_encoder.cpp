@@ -76,8 +76,6 @@ void set_rounding(draco::ExpertEncoder& encoder, int id, const DracoRounding& ro
 
 }  // namespace
 
-bool can_encode_draco() { return true; }
-
 std::optional<DracoBytes> encode_draco(const std::vector<DracoValues>& attributes,
                                        const std::vector<Index>& corners, bool keeps_order) {
     draco::Mesh mesh;
@@ -105,8 +103,6 @@ std::optional<DracoBytes> encode_draco(const std::vector<DracoValues>& attribute
 }
 
 #else
-
-bool can_encode_draco() { return false; }
 
 std::optional<DracoBytes> encode_draco(const std::vector<DracoValues>&, const std::vector<Index>&, bool) {
     return std::nullopt;

@@ -35,9 +35,6 @@ struct DracoBytes {
     std::uint64_t vertices = 0, corners = 0;  ///< after decoding
 };
 
-/// Whether faqem was built with Draco.
-bool can_encode_draco();
-
 /// The rounding of values to multiples of `spacing`; nothing if it is not positive, there are no values, or a multiple
 /// exceeds 2^24 - 1.
 /// \param values      all values

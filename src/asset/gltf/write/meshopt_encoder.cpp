@@ -83,8 +83,6 @@ CompressedView encoded_triangles(std::span<const std::uint8_t> bytes, std::uint6
 
 }  // namespace
 
-bool can_encode_meshopt() { return true; }
-
 std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t> bytes, std::uint64_t stride,
                                              AccessorUse use, const VertexBits& bits) {
     constexpr std::uint64_t max_stride = 256;
@@ -109,8 +107,6 @@ std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t> bytes
 }
 
 #else
-
-bool can_encode_meshopt() { return false; }
 
 std::optional<CompressedView> encode_meshopt(std::span<const std::uint8_t>, std::uint64_t, AccessorUse,
                                              const VertexBits&) {

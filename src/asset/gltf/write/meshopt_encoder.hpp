@@ -20,9 +20,6 @@ struct CompressedView {
     std::string_view filter;  ///< EXPONENTIAL, OCTAHEDRAL, or empty
 };
 
-/// Whether faqem was built with meshoptimizer.
-bool can_encode_meshopt();
-
 /// Encodes the elements of a view. Directions and texture coordinates are rounded to multiples of 2^-11 and 2^-15, the
 /// smallest angles and distances that are seen, or to the given bits; rounded values stay as they are. Everything else
 /// is lossless, but the corners of a triangle may be rotated.

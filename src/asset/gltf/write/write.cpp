@@ -136,9 +136,9 @@ GltfWriter make_writer(const Asset& asset) {
                       asset.source ? Vec3{} : local_origin(asset.parts),
                       GltfBufferBuilder(asset.compression, {asset.normal_bits, asset.uv_bits})};
     if (!source.unused.empty()) writer.warnings.push_back(source.unused + ": left out");
-    if (asset.compression == Compression::meshopt && !can_encode_meshopt())
+    if (asset.compression == Compression::meshopt && !has_codec(meshopt_name))
         writer.warnings.push_back("faqem was built without meshoptimizer: the geometry was not compressed");
-    if (asset.compression == Compression::draco && !can_encode_draco())
+    if (asset.compression == Compression::draco && !has_codec(draco_name))
         writer.warnings.push_back("faqem was built without Draco: the geometry was not compressed");
     return writer;
 }
