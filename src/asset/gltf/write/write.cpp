@@ -116,18 +116,6 @@ void encode_json_with_files(GltfWriter& writer, const fs::path& file, EncodedMod
     model.files.push_back(encoded_file(file.filename().string(), json_text(writer.out, 2)));
 }
 
-EncodedModel encode_output(GltfWriter& writer, const fs::path& file) {
-    EncodedModel model;
-    write_extension_lists(writer);
-    if (lower_case_extension(file) == ".gltf")
-        encode_json_with_files(writer, file, model);
-    else
-        encode_binary(writer, file, model);
-    model.losses = std::move(writer.warnings);
-    model.views = buffer_views(writer.out);
-    return model;
-}
-
 /// The origin is not changed if there is a source document, whose nodes, skins and animations depend on it.
 GltfWriter make_writer(const Asset& asset) {
     static const SourceDocument none;
@@ -143,19 +131,32 @@ GltfWriter make_writer(const Asset& asset) {
     return writer;
 }
 
-/// What depends on all meshes and nodes. No accessor is added after place_grids().
-void finish_scene(GltfWriter& writer) {
-    place_grids(writer);
+/// \param leveled  the levels whose asset it is; null: there are none
+EncodedModel encode(const Asset& asset, const LeveledAsset* leveled, const fs::path& file) {
+    GltfWriter writer = make_writer(asset);
+    std::vector<Index> new_meshes, mesh;  // mesh: by part
+    if (leveled) writer.sources = leveled->sources;
+    find_source_images(writer);
+    write_meshes(writer, new_meshes);
+    auto next = new_meshes.begin();
+    for (const Part& part : asset.parts)
+        mesh.push_back(part.source < writer.mesh_map.size() ? writer.mesh_map[part.source] : *next++);
+    // Only the meshes of the first level are added to the scene.
+    if (leveled) new_meshes.resize(new_meshes.size() + leveled->parts_per_level - asset.parts.size());
+    write_scene(writer, new_meshes);
+    if (leveled) attach_levels(writer, *leveled, mesh);
+    place_grids(writer);  // no accessor is added afterwards
     number_draco_views(writer);
     remap_structural_metadata(writer);
-}
-
-void write_meshes_and_scene(GltfWriter& writer) {
-    find_source_images(writer);
-    std::vector<Index> new_meshes;
-    write_meshes(writer, new_meshes);
-    write_scene(writer, new_meshes);
-    finish_scene(writer);
+    write_extension_lists(writer);
+    EncodedModel model;
+    if (lower_case_extension(file) == ".gltf")
+        encode_json_with_files(writer, file, model);
+    else
+        encode_binary(writer, file, model);
+    model.losses = std::move(writer.warnings);
+    model.views = buffer_views(writer.out);
+    return model;
 }
 
 }  // namespace
@@ -186,29 +187,11 @@ Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use) {
 
 EncodedModel encode_gltf(const Asset& asset, const fs::path& file) {
     const std::optional<DividedAsset> divided = divided_into_objects(asset);
-    GltfWriter writer = make_writer(divided ? divided->asset : asset);
-    write_meshes_and_scene(writer);
-    return encode_output(writer, file);
+    return encode(divided ? divided->asset : asset, nullptr, file);
 }
 
 EncodedModel encode_gltf_levels(const LeveledAsset& leveled, const fs::path& file) {
-    const Asset& asset = leveled.asset;
-    GltfWriter writer = make_writer(asset);
-    writer.sources = leveled.sources;
-    find_source_images(writer);
-    std::vector<Index> new_meshes, mesh;
-    write_meshes(writer, new_meshes);
-    auto next = new_meshes.begin();
-    for (const Part& part : asset.parts)
-        mesh.push_back(part.source < writer.mesh_map.size() ? writer.mesh_map[part.source] : *next++);
-    // Only the meshes of the first level are added to the scene.
-    const std::size_t other_part_count =
-        asset.parts.size() - std::min(asset.parts.size(), leveled.parts_per_level);
-    new_meshes.resize(new_meshes.size() - other_part_count);
-    write_scene(writer, new_meshes);
-    attach_levels(writer, leveled, mesh);
-    finish_scene(writer);
-    return encode_output(writer, file);
+    return encode(leveled.asset, &leveled, file);
 }
 
 }  // namespace faqem::detail
