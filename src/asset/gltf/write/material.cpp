@@ -8,6 +8,8 @@
 namespace faqem::detail {
 namespace {
 
+constexpr const char* pbr_key = "pbrMetallicRoughness";
+
 template <std::size_t N>
 Json json_floats(const std::array<float, N>& values) {
     Json array = Json::array();
@@ -81,7 +83,7 @@ void write_texture_factor(Json& holder, const char* key, const char* number, flo
 }
 
 void write_core_textures(GltfWriter& writer, Json& json, const Material& current, const Material& original) {
-    Json& pbr = json["pbrMetallicRoughness"];
+    Json& pbr = json[pbr_key];
     if (pbr.is_null()) pbr = Json::object();
     set_if_changed(pbr, "baseColorFactor", current.base_color, original.base_color, Vec4f{1, 1, 1, 1},
                    json_floats(current.base_color));
@@ -96,7 +98,7 @@ void write_core_textures(GltfWriter& writer, Json& json, const Material& current
             write_texture_factor(holder, slot.key, slot.factor_key, current.*slot.factor,
                                  original.*slot.factor);
     }
-    if (pbr.empty()) json.erase("pbrMetallicRoughness");
+    if (pbr.empty()) json.erase(pbr_key);
 }
 
 void write_alpha(Json& json, const Material& current, const Material& original) {
@@ -108,25 +110,6 @@ void write_alpha(Json& json, const Material& current, const Material& original) 
     else
         set_if_changed(json, "alphaCutoff", current.alpha_cutoff, original.alpha_cutoff, 0.5f,
                        shortest_decimal(current.alpha_cutoff));
-}
-
-/// Updates the texture infos in `holder` except those of core_slots: copies their textures, or removes them if
-/// the material has new UVs.
-/// \return the names of the removed texture infos
-std::vector<std::string> remap_or_remove_textures(GltfWriter& writer, const Material& material, Json& holder,
-                                                  bool is_pbr) {
-    std::vector<std::string> infos;
-    for (const auto& [key, value] : holder.items()) {
-        const CoreSlot* slot = find_core_slot(key);
-        if (is_texture_info(key, value) && !(slot && slot->is_in_pbr == is_pbr)) infos.push_back(key);
-    }
-    for (const std::string& key : infos) {
-        if (material.rebaked)
-            holder.erase(key);
-        else
-            holder[key]["index"] = copy_texture(writer, index_member(holder[key], "index"));
-    }
-    return material.rebaked ? infos : std::vector<std::string>();
 }
 
 /// Adds a warning that `part` (for example "textures") of `what` was removed because the UVs are new.
@@ -143,28 +126,35 @@ const ExtensionTexture* find_texture(const Material& material, const std::string
     return nullptr;
 }
 
-/// Erases the texture infos of a source extension that the material no longer has, with the factors that
-/// enable their effect: without the texture, the effect would apply to the whole surface. Returns the number
-/// of erased textures.
-std::size_t erase_textures(const Material& current, const Material& original, const std::string& name,
-                           Json& extension) {
-    std::vector<std::string> removed;
-    for (const auto& [key, value] : extension.items()) {
-        if (!is_texture_info(key, value) || find_texture(current, name, key)) continue;
-        if (current.rebaked || find_texture(original, name, key)) removed.push_back(key);
-    }
-    for (const std::string& key : removed) {
-        extension.erase(key);
-        const KnownTexture* known = find_known_texture(name, key);
-        if (known && !known->enabling_factor.empty()) extension.erase(std::string(known->enabling_factor));
-    }
-    return removed.size();
+/// Whether a texture info under `key` is written from the Material.
+/// \param holder  extension that has it, or pbr_key, or empty for the material itself
+bool is_known(const Material& material, const std::string& holder, const std::string& key) {
+    const CoreSlot* slot = find_core_slot(key);
+    return find_texture(material, holder, key) || (slot && holder == (slot->is_in_pbr ? pbr_key : ""));
 }
 
-/// Copies the remaining textures of a source extension that are not in Material::extension_textures.
-void remap_textures(GltfWriter& writer, const Material& current, const std::string& name, Json& extension) {
-    for (auto& [key, value] : extension.items()) {
-        if (is_texture_info(key, value) && !find_texture(current, name, key))
+/// Erases the texture infos of the source that do not fit new UVs, and those of extensions that the material no longer
+/// has, with the factors that enable their effect: without the texture, the effect would apply to the whole surface.
+/// \return the names of the erased texture infos
+std::vector<std::string> erase_textures(const Material& current, const Material& original,
+                                        const std::string& holder, Json& object) {
+    std::vector<std::string> removed;
+    for (const auto& [key, value] : object.items()) {
+        if (!is_texture_info(key, value) || is_known(current, holder, key)) continue;
+        if (current.rebaked || find_texture(original, holder, key)) removed.push_back(key);
+    }
+    for (const std::string& key : removed) {
+        object.erase(key);
+        const KnownTexture* known = find_known_texture(holder, key);
+        if (known && !known->enabling_factor.empty()) object.erase(std::string(known->enabling_factor));
+    }
+    return removed;
+}
+
+/// Copies the remaining textures of the source that are not written from the Material.
+void remap_textures(GltfWriter& writer, const Material& current, const std::string& holder, Json& object) {
+    for (auto& [key, value] : object.items()) {
+        if (is_texture_info(key, value) && !is_known(current, holder, key))
             value["index"] = copy_texture(writer, index_member(value, "index"));
     }
 }
@@ -178,7 +168,7 @@ void write_extensions(GltfWriter& writer, const Material& current, const Materia
         warn_about_removed(writer, current, anisotropy, "directions");
     if (json.contains("extensions")) {
         for (auto& [name, extension] : json["extensions"].items()) {
-            if (erase_textures(current, original, name, extension) != 0)
+            if (!erase_textures(current, original, name, extension).empty())
                 warn_about_removed(writer, current, name, "textures");
             remap_textures(writer, current, name, extension);
         }
@@ -195,14 +185,15 @@ void write_extensions(GltfWriter& writer, const Material& current, const Materia
 }
 
 /// Updates the textures of members that are not part of glTF.
-void write_unknown_textures(GltfWriter& writer, const Material& material, Json& json) {
-    std::vector<std::string> removed = remap_or_remove_textures(writer, material, json, false);
-    if (json.contains("pbrMetallicRoughness")) {
-        const std::vector<std::string> more =
-            remap_or_remove_textures(writer, material, json["pbrMetallicRoughness"], true);
-        removed.insert(removed.end(), more.begin(), more.end());
+void write_unknown_textures(GltfWriter& writer, const Material& current, const Material& original,
+                            Json& json) {
+    for (const std::string holder : {"", pbr_key}) {
+        if (!holder.empty() && !json.contains(holder)) continue;
+        Json& object = holder.empty() ? json : json[holder];
+        for (const std::string& name : erase_textures(current, original, holder, object))
+            warn_about_removed(writer, current, name, "textures");
+        remap_textures(writer, current, holder, object);
     }
-    for (const std::string& name : removed) warn_about_removed(writer, material, name, "textures");
 }
 
 void write_unlit(Json& json, bool unlit) {
@@ -238,7 +229,7 @@ Json material_json(GltfWriter& writer, const Material& material) {
     write_alpha(json, material, original);
     set_if_changed(json, "doubleSided", material.double_sided, original.double_sided, false,
                    material.double_sided);
-    write_unknown_textures(writer, material, json);
+    write_unknown_textures(writer, material, original, json);
     write_extensions(writer, material, original, json);
     write_unlit(json, material.unlit);
     write_levels_of_material(writer, json);
@@ -263,8 +254,7 @@ Index write_source_material(GltfWriter& writer, Index material) {
     if (!is_new) return entry->second;
 
     Json json = source_array(writer, "materials")[material];
-    for (Json* holder :
-         {&json, json.contains("pbrMetallicRoughness") ? &json["pbrMetallicRoughness"] : &json})
+    for (Json* holder : {&json, json.contains(pbr_key) ? &json[pbr_key] : &json})
         for (auto& [key, value] : holder->items())
             if (is_texture_info(key, value))
                 value["index"] = copy_texture(writer, index_member(value, "index"));
