@@ -73,35 +73,24 @@ struct UnfilteredRow {
 };
 
 /// Filters a row (W3C PNG specification, "Filtering").
+/// \tparam is_lossy  samples of colour may change by `max_difference`: they become what is decoded
 /// \return the sum of the absolute values of the filtered bytes, as signed numbers
-template <class Predict>
-std::uint32_t apply_filter(const UnfilteredRow& row, std::uint8_t* to, const Predict& predict) {
-    std::uint32_t sum = 0;
-    for (std::size_t i = 0; i < row.bytes; ++i) {
-        const int prediction =
-            predict(*(row.samples + i - row.step), row.above[i], *(row.above + i - row.step));
-        to[i] = static_cast<std::uint8_t>(row.samples[i] - prediction);
-        sum += static_cast<std::uint32_t>(std::abs(static_cast<std::int8_t>(to[i])));
-    }
-    return sum;
-}
-
-/// The same with samples of colour that may change by `max_difference`: they become what is decoded.
-template <class Predict>
-std::uint32_t apply_lossy_filter(const UnfilteredRow& row, int max_difference, std::uint8_t* to,
-                                 const Predict& predict) {
-    const int interval = 2 * max_difference + 1;
-    const bool has_alpha = row.step % 2 == 0;
+template <bool is_lossy, class Predict>
+std::uint32_t apply_filter(const UnfilteredRow& row, [[maybe_unused]] int max_difference, std::uint8_t* to,
+                           const Predict& predict) {
+    [[maybe_unused]] const int interval = 2 * max_difference + 1;
+    [[maybe_unused]] const bool has_alpha = row.step % 2 == 0;
     std::uint32_t sum = 0;
     for (std::size_t i = 0; i < row.bytes; ++i) {
         const int prediction =
             predict(*(row.samples + i - row.step), row.above[i], *(row.above + i - row.step));
         int difference = row.samples[i] - prediction;
-        if (!has_alpha || i % row.step + 1 < row.step) {
+        if constexpr (is_lossy) {
             const int up = difference < 0 ? -max_difference : max_difference;
             const int rounded = (difference + up) / interval * interval;
             const int value = prediction + rounded;
-            if (value >= 0 && value <= 255) {
+            const bool is_color = !has_alpha || i % row.step + 1 < row.step;
+            if (is_color && value >= 0 && value <= 255) {
                 difference = rounded;
                 row.samples[i] = static_cast<std::uint8_t>(value);
             }
@@ -114,8 +103,8 @@ std::uint32_t apply_lossy_filter(const UnfilteredRow& row, int max_difference, s
 
 std::uint32_t filter_row(PngFilter filter, const UnfilteredRow& row, int max_difference, std::uint8_t* to) {
     const auto apply = [&](const auto& predict) {
-        return max_difference > 0 ? apply_lossy_filter(row, max_difference, to, predict)
-                                  : apply_filter(row, to, predict);
+        return max_difference > 0 ? apply_filter<true>(row, max_difference, to, predict)
+                                  : apply_filter<false>(row, 0, to, predict);
     };
     switch (filter) {
         case filter_sub:
