@@ -100,7 +100,7 @@ Material read_material(const LoadedGltf& loaded, const Json& json) {
 }
 
 /// Resets numbers that are too large for a float to their defaults. Returns how many were reset.
-std::uint64_t reset_non_finite(Material& material) {
+std::uint64_t reset_non_finite_factors(Material& material) {
     const Material defaults;
     std::uint64_t count = 0;
     const auto reset = [&count](float& value, float fallback) {
@@ -130,7 +130,7 @@ std::vector<Material> read_materials(LoadedGltf& loaded) {
     for (const Json& json : member(loaded.source->document, "materials")) {
         Material material = read_material(loaded, json);
         material.source = static_cast<Index>(materials.size());
-        if (const std::uint64_t count = reset_non_finite(material); count != 0)
+        if (const std::uint64_t count = reset_non_finite_factors(material); count != 0)
             loaded.warnings.push_back(child_path("/materials", materials.size()) + ": " +
                                       pluralized(count, "number") +
                                       " too large for a float, reset to the default");
