@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "faqem/bake_levels.hpp"
-#include "faqem/save_levels.hpp"
 #include "faqem/truncate.hpp"
 
 int main(int argc, char** argv) try {
@@ -25,17 +24,14 @@ int main(int argc, char** argv) try {
 
     // A level is used from the distance where its error covers one pixel of 1080, with a field of view of 60
     // degrees.
-    const double view_height = 2 * std::tan(std::numbers::pi / 6);
-    std::vector<faqem::SavedLevel> saved;
+    std::vector<faqem::SimplifiedAssetLevel> baked;
     for (const faqem::SimplifiedPartsLevel& level : levels) {
-        const double distance = level.error * 1080 / view_height;
         std::cout << level.result.report.faces_out << " faces, error " << level.error
-                  << ": for distances from " << distance << " on\n";
-        // Coverage for parts with a bounding-box diagonal of 1; use the real diagonal of each part instead.
-        const std::vector<double> coverage(source.parts.size(), 1 / (view_height * distance));
-        saved.push_back({faqem::bake(source, level.result, options).asset, coverage});
+                  << ": for distances from " << level.error * 1080 / (2 * std::tan(std::numbers::pi / 6))
+                  << " on\n";
+        baked.push_back({faqem::bake(source, level.result, options), level.distance, level.error});
     }
-    for (const std::string& loss : faqem::save_levels(std::move(saved), argv[2], faqem::Overwrite::yes))
+    for (const std::string& loss : faqem::save_levels(std::move(baked), argv[2], faqem::Overwrite::yes))
         std::cerr << "warning: " << loss << "\n";
 
     std::vector<faqem::CollapseHistory> histories;

@@ -65,10 +65,10 @@ FAQEM_EXPORT std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& sour
                                                                const Options& options = {},
                                                                LevelTextures textures = LevelTextures::each);
 
-/// Saves levels as one .glb or .gltf file with the extension MSFT_lod, as save_levels(std::vector<SavedLevel>, ...),
+/// Saves levels as one .glb, .gltf or .vrm file with the extension MSFT_lod, as save_levels(std::vector<SavedLevel>, ...),
 /// with the coverages at which their errors have a size on screen.
 /// \param levels        from fine to coarse, at least one. For the original as the first one, its error is 0
-/// \param file          name ending in .glb or .gltf
+/// \param file          name ending in .glb, .gltf or .vrm
 /// \param overwrite     whether existing files may be replaced
 /// \param screen_error  largest size of an error, as a share of the screen height, finite and > 0
 /// \return what the format cannot store

@@ -22,7 +22,8 @@ MeshView eigen_view(const Eigen::DenseBase<Vertices>& vertices,
         const std::size_t size = sizeof *matrix.data(), rows = std::size_t(matrix.rows());
         if (matrix.cols() != 3)
             throw InputError("", name,
-                             "the matrix has " + std::to_string(matrix.cols()) + " columns instead of 3");
+                             "the matrix has " + std::to_string(matrix.cols()) + " columns instead of 3" +
+                                 (matrix.rows() == 3 ? ": transpose it" : ""));
         return make(matrix.data(), rows, std::size_t(matrix.rowStride()) * size,
                     std::size_t(matrix.colStride()) * size);
     };

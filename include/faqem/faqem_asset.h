@@ -96,14 +96,14 @@ FAQEM_API faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, con
 FAQEM_API double faqem_asset_level_error(const faqem_asset* asset);
 
 /**
- * Saves levels of detail as one .glb or .gltf file with the extension MSFT_lod, see docs/levels.md.
+ * Saves levels of detail as one .glb, .gltf or .vrm file with the extension MSFT_lod, see docs/levels.md.
  * \param levels        level_count models, from fine to coarse, with the same parts; the first one may be the
  *                      original. What the format cannot store is added to the warnings of the first one
  * \param level_count   number of levels, >= 1
  * \param screen_error  maximum size of a level's error on screen, as a share of the screen height, finite and
  *                      > 0: 1.0 / 1080 is one pixel of 1080. It determines the coverage at which each level
  *                      is used
- * \param path          in the encoding of the file system; must end in .glb or .gltf
+ * \param path          in the encoding of the file system; must end in .glb, .gltf or .vrm
  * \param overwrite     whether existing files may be replaced
  * \param error         may be null
  */

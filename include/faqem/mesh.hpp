@@ -50,7 +50,7 @@ inline void check_layout(const Layout& layout, const char* name) {
     if (count == 0) return;
     const auto fail = [&](const std::string& what) {
         throw InputError("", name,
-                         "with a stride of " + std::to_string(layout.stride) + " and a step of " +
+                         "with a stride of " + std::to_string(layout.stride) + " bytes and a step of " +
                              std::to_string(layout.step) + " bytes " + what);
     };
     const std::size_t available = std::numeric_limits<std::size_t>::max() - size;

@@ -19,7 +19,7 @@ struct SavedLevel {
     std::vector<double> coverage;
 };
 
-/// Saves levels of detail as one .glb or .gltf file with the extension MSFT_lod.
+/// Saves levels of detail as one .glb, .gltf or .vrm file with the extension MSFT_lod.
 ///
 /// The scene is that of the first level. Every node with a mesh refers to nodes with the meshes of the other
 /// levels, which are not part of a scene; viewers without the extension show the first level. The coverages
@@ -28,11 +28,11 @@ struct SavedLevel {
 /// the other levels need no transform. Identical images are stored once. Coarser levels that an asset has already are
 /// left out.
 /// \param levels     from fine to coarse, at least one, with the same parts in the same order
-/// \param file       name ending in .glb or .gltf
+/// \param file       name ending in .glb, .gltf or .vrm
 /// \param overwrite  whether existing files may be replaced
 /// \return what the format cannot store, one sentence each; points and lines are in the first level only
 /// \throws InputError        the levels differ in their number of parts, or lack a coverage for each part
-/// \throws UnsupportedError  the file name does not end in .glb or .gltf
+/// \throws UnsupportedError  the file name does not end in .glb, .gltf or .vrm
 /// \throws WriteError        as save()
 /// Complexity: O(size of the assets).
 FAQEM_EXPORT std::vector<std::string> save_levels(std::vector<SavedLevel> levels,

@@ -1,5 +1,7 @@
 #include "faqem/asset.hpp"
 
+#include <string_view>
+
 #include "asset/file_format.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/pose.hpp"
@@ -71,6 +73,9 @@ std::vector<std::uint8_t> to_glb(const Asset& asset, std::vector<std::string>* l
 }
 
 Asset from_glb(std::span<const std::uint8_t> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (!text.starts_with("glTF"))
+        throw InputError("", "", text.empty() ? "is empty" : "is not a GLB file, which begins with 'glTF'");
     Asset asset = detail::read_gltf(bytes, {});
     asset.format = ModelFormat::glb;
     asset.file_bytes = bytes.size();

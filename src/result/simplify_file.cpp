@@ -142,7 +142,10 @@ Report simplify(const fs::path& file, const fs::path& out, const Options& option
     if (overwrite == Overwrite::no && fs::exists(out, error))
         throw WriteError(out.string() + ": exists; Overwrite::yes replaces it");
     SimplifiedAsset result = detail::simplify_file(file, own, [](const Asset&) {});
-    if (may_be_saved(result.report)) detail::save_result(result, out, own, overwrite);
+    if (may_be_saved(result.report))
+        detail::save_result(result, out, own, overwrite);
+    else
+        result.report.warnings.push_back(out.string() + " was not written");
     return std::move(result.report);
 }
 

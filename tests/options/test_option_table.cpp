@@ -132,6 +132,12 @@ TEST_CASE("every member that affects the result changes the key of the options")
 
 TEST_CASE("options are set from text, and errors name the option") {
     Options o;
+    CHECK(set_complaint(o, "allow-larger", "on") == "accepted");
+    CHECK(o.larger == LargerFiles::allowed);
+    CHECK(set_complaint(o, "allow-larger", "off") == "accepted");
+    CHECK(o.larger == LargerFiles::avoided);
+    CHECK(set_complaint(o, "link", "off") == "accepted");  // a word of its own, not the default
+    CHECK(o.topology.link == LinkCondition::off);
     CHECK(set_complaint(o, "texel-density", "1.5") == "accepted");
     CHECK(o.bake.texel_density == 1.5);
     CHECK(set_complaint(o, "texel-density", "9") == "texel-density must be in [0.125, 8], not 9");

@@ -26,6 +26,6 @@ TEST_CASE("matrices of Eigen give the result of the arrays, in any storage order
 
 TEST_CASE("a matrix with other than three columns is an error") {
     CHECK_THROWS_WITH(eigen_view(Eigen::MatrixXd(3, 4), Eigen::MatrixXi(4, 3)),
-                      "vertices: the matrix has 4 columns instead of 3");
+                      "vertices: the matrix has 4 columns instead of 3: transpose it");
     CHECK_THROWS_AS(eigen_view(Eigen::MatrixXf(4, 3), Eigen::MatrixXi(3, 4)), InputError);
 }

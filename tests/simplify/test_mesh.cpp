@@ -40,10 +40,10 @@ TEST_CASE("a flat array whose length is no multiple of 3 is an error") {
 
 TEST_CASE("layouts whose numbers overlap are errors, and planar arrays are none") {
     const std::vector<float> p(12);
-    CHECK_THROWS_WITH(
-        PositionView(p.data(), 4, 3),
-        "positions: with a stride of 3 and a step of 4 bytes number 0 of element 0 overlaps number 0 of "
-        "element 1");
+    CHECK_THROWS_WITH(PositionView(p.data(), 4, 3),
+                      "positions: with a stride of 3 bytes and a step of 4 bytes number 0 of element 0 "
+                      "overlaps number 0 of "
+                      "element 1");
     CHECK_THROWS_AS(PositionView(p.data(), 4, 8), InputError);
     CHECK_THROWS_AS(TriangleView(std::vector<Index>(12).data(), 4, 4), InputError);
     CHECK(PositionView(p.data(), 4, sizeof(float), 4 * sizeof(float)).size() == 4);

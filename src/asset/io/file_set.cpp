@@ -24,7 +24,7 @@ PendingFile write_temporary_file(const FileContent& content, Overwrite overwrite
     const bool exists = ::stat(target.c_str(), &old) == 0;
     if (!exists && errno != ENOENT) fail_write(target, "write", errno);
     if (exists && !S_ISREG(old.st_mode)) throw WriteError(target.string() + ": is not a regular file");
-    if (exists && overwrite == Overwrite::no) fail_write(target, "write", EEXIST);
+    if (exists && overwrite == Overwrite::no) fail_write(target, "write without overwriting", EEXIST);
     if (exists) target = fs::canonical(target);
 
     std::error_code error;

@@ -13,6 +13,9 @@ TEST_CASE("to_glb gives the bytes of the saved file, and from_glb reads them as 
     const std::vector<std::uint8_t> bytes = to_glb(asset);
     CHECK(std::string(bytes.begin(), bytes.end()) == saved(asset));
     const Asset back = from_glb(bytes);
+    CHECK(message_of<InputError>([] { from_glb({}); }) == "is empty");
+    CHECK(message_of<InputError>([&] { from_glb(std::span(bytes).subspan(4)); }) ==
+          "is not a GLB file, which begins with 'glTF'");
     CHECK(back.parts.at(0).positions == asset.parts.at(0).positions);
     CHECK(back.format == ModelFormat::glb);
     CHECK(back.file_bytes == bytes.size());

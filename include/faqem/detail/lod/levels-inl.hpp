@@ -16,7 +16,7 @@ FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 /// \throws OptionError  always
-[[noreturn]] inline void fail(std::size_t level, const char* what) {
+[[noreturn]] inline void fail(std::size_t level, const std::string& what) {
     throw OptionError("level " + std::to_string(level) + ": " + what);
 }
 
@@ -62,7 +62,9 @@ FAQEM_INLINE std::vector<detail::LevelTarget> detail::level_targets(const std::v
             level_targets.emplace_back(detail::level_target(levels[i], i, faces, diagonal));
         if (next.faces) {
             if (*next.faces > *last.faces)
-                detail::fail(i, "face count must not be larger than that of a previous level");
+                detail::fail(i, "face count " + std::to_string(*next.faces) +
+                                    " must not be larger than that of a previous level, " +
+                                    std::to_string(*last.faces));
             last.faces = next.faces;
         } else {
             if (next.allowed < last.allowed)

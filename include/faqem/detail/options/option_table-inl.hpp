@@ -171,11 +171,13 @@ FAQEM_INLINE OptionValue parse_option_number(std::string_view text, OptionKind k
     return value;
 }
 
-/// Parses one of the words of a choice.
+/// Parses one of the words of a choice, or `on` and `off` if the command has a flag for it.
 inline OptionValue parse_choice(std::string_view text, const OptionRow& row, const std::string& shown) {
     const std::vector<std::string> words = split_choices(row.choices);
     const auto found = std::find(words.begin(), words.end(), text);
     if (found != words.end()) return {static_cast<double>(found - words.begin()), true};
+    if (!row.flag_value.empty() && text == "on") return parse_choice(row.flag_value, row, shown);
+    if (!row.flag_value.empty() && text == "off") return {0, true};
     std::string known;
     for (const std::string& word : words) known.append(known.empty() ? "" : ", ").append(word);
     throw OptionError(shown + ": unknown value '" + std::string(text) + "' (known: " + known + ")");
