@@ -6,6 +6,7 @@
 #   tidy    clang-tidy and clang-format
 #   docs    what the target docs needs
 #   wheel   what src/python/build_wheel.sh needs, without the packages of the group build
+#   engines what tests/run.sh --suite engines needs, without Slurm, which the group slurm has
 #   fresh   what tests/run.sh --suite fresh needs, without the packages of the group build
 # Uses sudo only when not root.
 set -eu
@@ -32,8 +33,10 @@ for group in "$@"; do
 libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-dev python3 $npm"
             ;;
         fresh) packages="debootstrap ccache" ;;
+        engines) packages="python3-venv" ;;
+        slurm) packages="$packages slurm-wlm munge" ;;
         *)
-            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, fresh)" >&2
+            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, fresh, engines, slurm)" >&2
             exit 2
             ;;
     esac

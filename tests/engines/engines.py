@@ -1,14 +1,16 @@
-"""Runs 24 shards of 300 models on two workers of Ray or Dask, with faults, and compares with a plain `faqem batch`.
+"""Runs 24 shards of 300 models on two workers of an engine, with faults, and compares with a plain `faqem batch`.
 
-One model always crashes; a worker of the engine is killed in the middle of a model, and the process of another model; one
-shard runs twice at once. Usage: engines.py ray|dask INJECTOR
+One model crashes, always; one hangs, and its shard is begun once more meanwhile. In the middle of others the worker of the
+engine is killed, the process of the model, or its shard gets SIGTERM. Usage: engines.py ENGINE INJECTOR EXAMPLES
 """
 import collections
 import functools
+import hashlib
 import json
 import os
 import pathlib
 import signal
+import subprocess
 import sys
 import tempfile
 import threading
@@ -16,17 +18,19 @@ import time
 
 import faqem
 import numpy
+import services
+import slurm
 
 SHARDS, MODELS = 24, 300
-CRASHES, WORKER_KILLED, PROCESS_KILLED = "m7.ply", "m8.ply", "m9.ply"
-OPTIONS = {"ratio": 0.5, "bake": "none", "format": "ply"}
+HANGS, CRASHES, WORKER_KILLED, PROCESS_KILLED, TERMINATED = "m6.ply", "m7.ply", "m8.ply", "m9.ply", "m22.ply"
+OPTIONS = {"ratio": 0.5, "bake": "none", "format": "ply", "end_after": 8}
 
 
 def make_models(folder):
     folder.mkdir()
     for i in range(MODELS):
         name = f"m{i}.ply"
-        n = 400 if name in (WORKER_KILLED, PROCESS_KILLED) else 8 + i % 40  # the first take a second
+        n = 400 if name in (WORKER_KILLED, PROCESS_KILLED, TERMINATED) else 8 + i % 40  # the first take a second
         x, y = numpy.meshgrid(numpy.arange(n + 1.0), numpy.arange(n + 1.0))
         vertices = numpy.stack([x, y, numpy.sin(x / 3) * numpy.cos(y / 5)], -1).reshape(-1, 3)
         a = (numpy.arange(n)[:, None] * (n + 1) + numpy.arange(n)).ravel()
@@ -34,29 +38,48 @@ def make_models(folder):
         faqem.save((vertices, triangles), folder / name)
 
 
-def run(folder, injector, i):
+class Job:
+    """What an engine runs."""
+
+    def __init__(self, folder, injector, examples):
+        self.folder, self.out, self.list = folder, folder / "out", folder / "models.jsonl"
+        self.examples, self.shards = pathlib.Path(examples), SHARDS
+        self.words = [f"--{name.replace('_', '-')}={value}" for name, value in OPTIONS.items()]
+        self.faults = {"LD_PRELOAD": injector, "FAQEM_FAULT_KIND": "segv", "FAQEM_FAULT_FILE": CRASHES,
+                       "FAQEM_FAULT_HANG": HANGS}
+
+    def run(self, command, variables):
+        """Runs a command whose files are in /data, as those of the examples. Returns its code, or less than 0 for a signal."""
+        program, *words = [word.replace("/data", str(self.folder)) for word in (*command, *self.words)]
+        assert program == "faqem"
+        return subprocess.run([faqem._command.program(), *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              env={**os.environ, **self.faults, **variables}).returncode
+
+
+def run_shard(folder, faults, index):
     """A shard, in a worker of the engine."""
-    os.environ.update(LD_PRELOAD=injector, FAQEM_FAULT_KIND="segv", FAQEM_FAULT_FILE=CRASHES)
-    return faqem.batch.run_shard(f"{folder}/models.jsonl", i, SHARDS, f"{folder}/out", **OPTIONS)
+    os.environ.update(faults)
+    return faqem.batch.run_shard(f"{folder}/models.jsonl", index, SHARDS, f"{folder}/out", **OPTIONS)
 
 
-def on_ray(task, shards):
+def on_ray(job):
     import ray
 
     ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False, _temp_dir=tempfile.mkdtemp(prefix="ray"))
     try:
-        remote = ray.remote(num_cpus=1, max_retries=3)(task)
-        return ray.get([remote.remote(i) for i in shards])
+        run = ray.remote(num_cpus=1, max_retries=3, retry_exceptions=[faqem.TryAgainError])(run_shard)
+        ray.get([run.remote(job.folder, job.faults, index) for index in range(SHARDS)])
     finally:
         ray.shutdown()
 
 
-def on_dask(task, shards):
+def on_dask(job):
     import dask.distributed
 
+    task = functools.partial(run_shard, job.folder, job.faults)
     with dask.distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
         with dask.distributed.Client(cluster) as client:
-            return client.gather([client.submit(task, i, pure=False) for i in shards])
+            client.gather(client.map(task, range(SHARDS), pure=False, retries=3))
 
 
 def records(out):
@@ -66,62 +89,92 @@ def records(out):
                 yield file, json.loads(line)
 
 
-def kill_when_started(out, name, victim):
-    """Kills the process that victim() finds from that of the command, whose number is in the name of the record."""
+def when_started(out, name, act):
+    """Calls act() with the process of the command that has begun a model: its number is in the name of the record."""
     while True:
         for file, record in records(out):
             if record["event"] == "started" and record["id"] == name:
-                os.kill(victim(int(file.name.split("-")[1])), signal.SIGKILL)
-                return
+                return act(int(file.name.split("-")[1]))
         time.sleep(0.01)
-
-
-def parent_of(process):
-    return int(pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[1])
 
 
 def child_of(process):
     return int(pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()[0])
 
 
+def kill(process):
+    os.kill(process, signal.SIGKILL)
+
+
+def kill_parent(command):
+    kill(slurm.parent_of(command))
+
+
+# What runs a job on two workers, and what ends the worker of a command.
+ENGINES = {
+    "ray": (on_ray, kill_parent),
+    "dask": (on_dask, kill_parent),
+    "slurm": (slurm.run, slurm.lose_node),
+    "kubernetes": (services.kubernetes, kill),
+    "aws": (services.aws, kill),
+    "ranks": (services.ranks, kill),
+}
+
+
+def begin_faults(job, lose_worker):
+    """Returns a function that tells which faults have not happened yet."""
+    index = int.from_bytes(hashlib.sha256(HANGS.encode()).digest()[:8], "big") % SHARDS
+    again = ["faqem", "batch", "--list", "/data/models.jsonl", "/data/out", "--shard", f"{index}/{SHARDS}"]
+    faults = {
+        WORKER_KILLED: lose_worker,
+        PROCESS_KILLED: lambda command: kill(child_of(command)),
+        TERMINATED: lambda command: os.kill(command, signal.SIGTERM),
+        HANGS: lambda command: job.run(again, {}),
+    }
+    threads = {name: threading.Thread(target=when_started, args=(job.out, name, act), daemon=True)
+               for name, act in faults.items()}
+    for thread in threads.values():
+        thread.start()
+    return lambda: [name for name, thread in threads.items() if thread.is_alive()]
+
+
 def contents(folder, end):
     return {file.name.removesuffix(end): file.read_bytes() for file in folder.rglob("*" + end)}
 
 
-def main():
-    engine, injector = {"ray": on_ray, "dask": on_dask}[sys.argv[1]], sys.argv[2]
+def main(engine, injector, examples):
+    run, lose_worker = ENGINES[engine]
     with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        out = folder / "out"
-        make_models(folder / "in")
-        words = [f"--{option}={value}" for option, value in OPTIONS.items()]
-        faqem.command("batch", folder / "in", folder / "plain", *words, "--jobs=2", "--threads=1")
-        faqem.command("list", folder / "in", "-o", folder / "models.jsonl")
-        task = functools.partial(run, name, injector)
-        task = (lambda run: lambda i: run(i))(task)  # Ray wants a function
+        job = Job(pathlib.Path(name), injector, examples)
+        make_models(job.folder / "in")
+        faqem.command("batch", job.folder / "in", job.folder / "plain", *job.words, "--jobs=2", "--threads=1")
+        faqem.command("list", job.folder / "in", "-o", job.list)
         started = time.monotonic()
-        killers = [threading.Thread(target=kill_when_started, args=arguments, daemon=True)
-                   for arguments in ((out, WORKER_KILLED, parent_of), (out, PROCESS_KILLED, child_of))]
-        for killer in killers:
-            killer.start()
-        counts = engine(task, [0, *range(SHARDS)])
+        missing_faults = begin_faults(job, lose_worker)
+        run(job)
         seconds = time.monotonic() - started
-        assert not any(killer.is_alive() for killer in killers)
-        wanted = contents(folder / "plain", ".ply")
-        del wanted[CRASHES.removesuffix(".ply")]
-        assert contents(out, ".ply.ply") == wanted
-        assert sum(shard["models"] for shard in counts[1:]) == MODELS
-        assert faqem.batch.merge(out) == {"done": MODELS - 1, "poisoned": 1}
-        ids = collections.Counter(json.loads(line)["id"] for line in (out / "batch.jsonl").read_text().splitlines())
+        while missing_faults():  # the second attempt at a shard may end later
+            assert time.monotonic() - started < seconds + 60, missing_faults()
+            time.sleep(0.1)
+        wanted = contents(job.folder / "plain", ".ply")
+        for planted in (CRASHES, HANGS):
+            del wanted[planted.removesuffix(".ply")]
+        assert contents(job.out, ".ply.ply") == wanted
+        assert faqem.batch.merge(job.out) == {"done": MODELS - 2, "poisoned": 2}
+        ids = collections.Counter(json.loads(line)["id"] for line in (job.out / "batch.jsonl").read_text().splitlines())
         assert len(ids) == MODELS and set(ids.values()) == {1}
-        events = collections.Counter((record["event"], record["id"]) for _, record in records(out))
+        events = collections.Counter((record["event"], record["id"]) for _, record in records(job.out))
         crashed = {id for event, id in events if event == "crashed"}
-        assert crashed == {CRASHES, PROCESS_KILLED}, crashed
-        engine(task, range(SHARDS))
-        begun = sum(record["event"] == "started" for _, record in records(out))
+        assert crashed == {CRASHES, HANGS, PROCESS_KILLED}, crashed
+        assert ("interrupted", TERMINATED) in events
+        # Two attempts of each of two runs at once, each of which gives the model up.
+        assert events["started", HANGS] == 4 and events["poisoned", HANGS] == 2, events["started", HANGS]
+        assert all(events["started", id] >= 2 for id in (WORKER_KILLED, PROCESS_KILLED, TERMINATED))
+        run(job)
+        begun = sum(record["event"] == "started" for _, record in records(job.out))
         assert begun == sum(number for (event, _), number in events.items() if event == "started")
-        print(f"{sys.argv[1]}: {MODELS} models, {SHARDS} shards, faults: the bytes of one batch, {seconds:.1f} s")
+        print(f"{engine}: {MODELS} models, {SHARDS} shards, faults: the bytes of one batch, {seconds:.1f} s")
 
 
 if __name__ == "__main__":  # Dask imports this file in its workers
-    main()
+    main(*sys.argv[1:])

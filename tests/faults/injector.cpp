@@ -7,6 +7,7 @@
 //                      "term": SIGTERM before the call
 //   FAQEM_FAULT_FILE   instead of a call: opening a file of this name does what FAQEM_FAULT_KIND says: "segv": SIGSEGV,
 //                      "kill": SIGKILL, "hang": the call does not return
+//   FAQEM_FAULT_HANG   opening a file of this name does not return either
 //   FAQEM_FAULT_LOG    file that receives the name of the call that was disturbed, and the number of calls
 //                      when the process exits
 
@@ -26,7 +27,7 @@ namespace {
 
 long wanted_call, calls;
 char kind;  // first letter of FAQEM_FAULT_KIND
-const char* wanted_file;
+const char *wanted_file, *hanging_file;
 
 __attribute__((constructor)) void read_settings(void) {
     const char* number = getenv("FAQEM_FAULT_CALL");
@@ -34,11 +35,14 @@ __attribute__((constructor)) void read_settings(void) {
     wanted_call = number ? atol(number) : 0;
     kind = name ? name[0] : 0;
     wanted_file = getenv("FAQEM_FAULT_FILE");
+    hanging_file = getenv("FAQEM_FAULT_HANG");
 }
 
 void on_open(const char* path) {
     const char* slash = strrchr(path, '/');
-    if (!wanted_file || strcmp(slash ? slash + 1 : path, wanted_file) != 0) return;
+    const char* name = slash ? slash + 1 : path;
+    while (hanging_file && strcmp(name, hanging_file) == 0) pause();
+    if (!wanted_file || strcmp(name, wanted_file) != 0) return;
     if (kind == 's') raise(SIGSEGV);
     if (kind == 'k') kill(getpid(), SIGKILL);
     while (kind == 'h') pause();
