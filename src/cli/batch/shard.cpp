@@ -10,6 +10,10 @@ namespace faqem::cli {
 
 namespace {
 
+/// Bytes of the longest id, written as a name. A file may have 255, of which images beside a result and temporary files
+/// need some.
+constexpr std::size_t max_name_size = 200;
+
 std::optional<std::uint64_t> parse_number(const std::string& text) {
     std::uint64_t number = 0;
     const char* const end = text.data() + text.size();
@@ -97,7 +101,8 @@ Shard parse_shard(const std::string& text, const Environment& environment) {
 
 std::string default_output(const std::string& id, const std::string& extension) {
     constexpr std::string_view digits = "0123456789ABCDEF";
-    std::string name = hexadecimal(sha256(id)).substr(0, 2) + "/";
+    const std::string hash = hexadecimal(sha256(id));
+    std::string name;
     for (const char c : id) {
         const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                               c == '.' || c == '_' || c == '-';
@@ -107,7 +112,7 @@ std::string default_output(const std::string& id, const std::string& extension) 
         else
             name += {'%', digits[byte / 16], digits[byte % 16]};
     }
-    return name + extension;
+    return hash.substr(0, 2) + "/" + (name.size() > max_name_size ? hash : name) + extension;
 }
 
 }  // namespace faqem::cli

@@ -33,7 +33,7 @@ Shard parse_shard(const std::string& text, const Environment& environment = envi
 
 /// The output of a model that the list gives none, relative to the output directory: `ab/ID.glb`, where `ab` are the
 /// first two digits of the SHA-256 of the id, and bytes of the id other than letters, digits, `.`, `_` and `-` are
-/// written as `%20`.
+/// written as `%20`; an id that is too long for the name of a file is replaced by its hash.
 /// \param extension  with the dot
 std::string default_output(const std::string& id, const std::string& extension);
 

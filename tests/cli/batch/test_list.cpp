@@ -246,6 +246,17 @@ TEST_CASE("lists that cannot be right are errors before the first model") {
     CHECK(run(folder, "batch --shard 0/2 in out").code == 2);
 }
 
+TEST_CASE("a model whose id is too long for the name of a file does not stop its shard") {
+    const Folder folder;
+    make_list(folder);
+    std::string id;
+    while (id.size() < 500) id += "\xc3\xa9";  // six bytes in a name
+    write(folder / "models.jsonl", R"({"id":")" + id + R"(","input":"in/m0.ply"})" + "\n");
+    for (const char* format : {"glb", "gltf", "obj"})
+        CHECK(run(folder, shard_words + "--new-run --format " + format).code == 0);
+    CHECK(run(folder, "batch --merge out").code == 0);
+}
+
 TEST_CASE("a shard that is ended by a signal exits with 75, and the next attempt completes it") {
     const Folder folder;
     fs::create_directory(folder / "in");
