@@ -37,7 +37,7 @@ std::vector<BatchFile> models_of_shard(RunArguments& arguments, const GivenOptio
 /// \param files  of plan_batch() or models_of_shard(); those of a shard that have an end already are left out
 /// \param print  receives a line for each model that is not left out
 /// \return without a list exit_ok, exit_batch_incomplete, or exit_cancelled if a model was not done because of a signal;
-/// with one exit_ok if each model has an end, otherwise exit_try_again, after a signal or because files could not be
+/// with one exit_ok if each model has an end, otherwise exit_try_again, after a signal or because results could not be
 /// written
 /// \throws OptionError, WriteError  as Ledger and join_run()
 ExitCode run_batch(const std::vector<BatchFile>& files, const RunArguments& arguments,

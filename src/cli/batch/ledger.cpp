@@ -8,11 +8,11 @@
 #include <ctime>
 #include <fstream>
 #include <random>
-#include <system_error>
 #include <vector>
 
 #include "asset/io/file.hpp"
 #include "asset/io/file_set.hpp"
+#include "asset/io/write_all.hpp"
 #include "cli/files/file_stamp.hpp"
 #include "cli/files/output_file.hpp"
 #include "faqem/error.hpp"
@@ -84,7 +84,7 @@ Ledger::Ledger(const fs::path& out_folder, const std::string& name, bool reads) 
     file_ = folder / (attempt_name() + ".jsonl");
     out_ =
         detail::Descriptor(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
-    if (!out_) throw WriteError(file_.string() + ": cannot write: " + std::generic_category().message(errno));
+    if (!out_) detail::fail_write(file_, "write", errno);
 }
 
 /// \param open  models that the attempt has begun and not ended
@@ -136,8 +136,8 @@ void Ledger::append(const BatchFile& model, const std::string& event, const Json
                  {"version", version()}, {"result", model.out_name}};
     line.update(details);
     const std::string text = json_line(line);
-    if (::write(out_.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-        throw WriteError(file_.string() + ": cannot write: " + std::generic_category().message(errno));
+    if (!detail::write_all(out_.get(), {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}))
+        detail::fail_write(file_, "write", errno);
 }
 
 void join_run(const fs::path& out_folder, const RunIdentity& run, bool replaces) {

@@ -133,11 +133,17 @@ int run_models(const BatchArguments& arguments, const std::string& out) {
     check_outputs_unprotected(files);
     make_folder(out);
     install_signal_handlers();
-    BatchOutput output(files.size());
-    const ExitCode code =
-        run_batch(files, run, work, workers, [&](const std::string& line) { output.print(line); });
-    output.end(others);
-    return code;
+    try {
+        BatchOutput output(files.size());
+        const ExitCode code =
+            run_batch(files, run, work, workers, [&](const std::string& line) { output.print(line); });
+        output.end(others);
+        return code;
+    } catch (const WriteError& error) {
+        if (arguments.list.empty()) throw;
+        std::cerr << "faqem: " << error.what() << "\n";
+        return exit_try_again;
+    }
 }
 
 int print_missing(const BatchArguments& arguments, const std::string& out) {

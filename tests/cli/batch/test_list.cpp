@@ -257,6 +257,22 @@ TEST_CASE("a model whose id is too long for the name of a file does not stop its
     CHECK(run(folder, "batch --merge out").code == 0);
 }
 
+TEST_CASE("a shard whose records cannot be written is to be tried again, and the next attempt completes it") {
+    const Folder folder;
+    make_list(folder);
+    const std::string words = "batch --list models.jsonl out --bake none --faces 4 --format ply --jobs 1";
+    // No file may have more than 4096 bytes. Twelve models have more in their records, and fewer in each result.
+    const int status =
+        std::system(("cd '" + folder.path().string() + "' && ulimit -f 8 && trap '' XFSZ && '" + tool_path +
+                     "' " + words + " >lines 2>errors")
+                        .c_str());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 75);
+    CHECK(contains(read(folder / "errors"), ".jsonl: cannot write: File too large\n"));
+    CHECK(run(folder, words).code == 0);
+    CHECK(run(folder, "batch --merge out").out == "done: 12\n");
+}
+
 TEST_CASE("a shard that is ended by a signal exits with 75, and the next attempt completes it") {
     const Folder folder;
     fs::create_directory(folder / "in");
