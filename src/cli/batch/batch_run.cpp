@@ -42,9 +42,7 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 }
 
 BatchFile file_of(const ListedModel& model, const RunArguments& arguments, const GivenOptions& given) {
-    const auto fail = [&](const std::string& what) {
-        throw InputError(arguments.list.string(), model.id, what);
-    };
+    const auto fail = [&](const std::string& what) { throw InputError("", model.id, what); };
     BatchFile file;
     file.name = model.id;
     file.in = model.input;
@@ -54,6 +52,7 @@ BatchFile file_of(const ListedModel& model, const RunArguments& arguments, const
     const fs::path out = fs::path(file.out_name).lexically_normal();
     if (out.is_absolute() || out.empty() || *out.begin() == ".." || *out.begin() == ".")
         fail("the output '" + file.out_name + "' is outside the output directory");
+    file.out_name = out.generic_string();
     file.out = arguments.out_folder / out;
     if (is_inside(file.in, arguments.out_folder))
         fail("the input " + file.in.string() + " is inside the output directory");
@@ -200,12 +199,10 @@ std::vector<BatchFile> models_of_shard(RunArguments& arguments, const GivenOptio
         arguments.list, [&](const std::string& id) { return arguments.shard.contains(id); },
         [&](ListedModel&& model) {
             files.push_back(file_of(model, arguments, given));
-            if (!ids.insert(model.id).second)
-                throw InputError(arguments.list.string(), model.id, "two models have this id");
-            const auto [owner, is_new] =
-                owners.emplace(files.back().out.lexically_normal().string(), model.id);
+            if (!ids.insert(model.id).second) throw InputError("", model.id, "two models have this id");
+            const auto [owner, is_new] = owners.emplace(files.back().out_name, model.id);
             if (!is_new)
-                throw InputError(arguments.list.string(), model.id,
+                throw InputError("", model.id,
                                  "has the same output as " + owner->second + ": " + files.back().out_name);
         });
     std::sort(files.begin(), files.end(), [](const BatchFile& a, const BatchFile& b) {

@@ -29,7 +29,8 @@ std::optional<std::string> leading_id(std::string_view line) {
 }
 
 ListedModel parse_line(const std::string& line) {
-    const Json json = Json::parse(line);
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object()) throw InputError("", "", "is no JSON object");
     ListedModel model;
     json.at("id").get_to(model.id);
     model.input = json.at("input").get<std::string>();

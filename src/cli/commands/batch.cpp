@@ -29,7 +29,7 @@ namespace faqem::cli {
 namespace {
 
 struct BatchArguments : SimplifyArguments {
-    std::string in, out, format = default_format(), list, shard;
+    std::string in, out, format = default_format(), list, shard = "0/1";
     std::uint32_t jobs = 0;
     std::uint64_t max_memory = 0;  ///< bytes; 0: three quarters of machine_memory()
     std::uint64_t max_array = 1000;
@@ -118,7 +118,7 @@ private:
 
 int run_models(const BatchArguments& arguments, const std::string& out) {
     RunArguments run{arguments.list, out, extension_of_format(arguments.format)};
-    if (!arguments.shard.empty()) run.shard = parse_shard(arguments.shard);
+    run.shard = parse_shard(arguments.shard);
     run.resumes = arguments.resume;
     run.redoes = arguments.force;
     run.replaces_run = arguments.new_run;
@@ -170,7 +170,7 @@ int run(const BatchArguments& arguments) {
     if ((arguments.in.empty() || arguments.out.empty()) != has_list)
         throw OptionError(has_list ? "with --list, --missing and --merge there is one directory: OUTDIR"
                                    : "two directories are needed: DIR and OUTDIR");
-    if (arguments.list.empty() && (arguments.new_run || !arguments.shard.empty()))
+    if (arguments.list.empty() && (arguments.new_run || arguments.shard != "0/1"))
         throw OptionError("--shard and --new-run need --list");
     if (arguments.missing) return print_missing(arguments, out_of_list);
     if (arguments.merge) return merge(out_of_list);

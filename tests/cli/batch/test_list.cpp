@@ -241,9 +241,21 @@ TEST_CASE("lists that cannot be right are errors before the first model") {
                    "same output"));
     write(folder / "models.jsonl", "{\"id\":\"a\",\"input\":\"in/m0.ply\",\"options\":{\"rato\":1}}\n");
     CHECK(contains(run(folder, shard_words).err, "ratio"));
+    // A line and a model, after the name of the list, once.
+    CHECK(message("{\"id\":\"a\",\"input\":\"out/m0.ply\"}\n") ==
+          "faqem: models.jsonl: line 1: a: the input out/m0.ply is inside the output directory\n");
+    CHECK(message("[1]\n") == "faqem: models.jsonl: line 1: is no JSON object\n");
     CHECK(run(folder, "batch --list models.jsonl in out").code == 2);
     CHECK(run(folder, "batch in").code == 2);
     CHECK(run(folder, "batch --shard 0/2 in out").code == 2);
+}
+
+TEST_CASE("an empty name of a shard, as of a variable that is not set, is not the whole list") {
+    const Folder folder;
+    make_list(folder);
+    const Outcome outcome = run(folder, shard_words + "--shard \"\"");
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
 }
 
 TEST_CASE("a model whose id is too long for the name of a file does not stop its shard") {
@@ -255,6 +267,20 @@ TEST_CASE("a model whose id is too long for the name of a file does not stop its
     for (const char* format : {"glb", "gltf", "obj"})
         CHECK(run(folder, shard_words + "--new-run --format " + format).code == 0);
     CHECK(run(folder, "batch --merge out").code == 0);
+}
+
+TEST_CASE("merging finds two models with one output in different shards") {
+    const Folder folder;
+    make_list(folder);
+    write(folder / "models.jsonl", R"({"id":"m0","input":"in/m0.ply","output":"x.glb"})"
+                                   "\n"
+                                   R"({"id":"m2","input":"in/m2.ply","output":"./x.glb"})"
+                                   "\n");
+    for (const char* shard : {"--shard 0/2", "--shard 1/2"})
+        REQUIRE(run(folder, shard_words + shard).code == 0);
+    const Outcome merged = run(folder, "batch --merge out");
+    CHECK(merged.code == 9);
+    CHECK(merged.err == "faqem: out: x.glb is the output of two models: m0 and m2\n");
 }
 
 TEST_CASE("a shard whose records cannot be written is to be tried again, and the next attempt completes it") {
