@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "asset/io/encoded_model.hpp"
-#include "asset/io/file_names.hpp"
+#include "asset/io/file.hpp"
 #include "asset/io/reference_list.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"

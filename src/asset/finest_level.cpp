@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asset/gltf/read/checker.hpp"
+#include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
@@ -37,14 +38,6 @@ void mark_with_descendants(const Json& nodes, Index root, Marks& marks) {
         marks[node] = 1;
         for (const Json& child : member(nodes[node], "children")) open.push_back(child.get<Index>());
     }
-}
-
-/// By node: its parent, or no_index.
-std::vector<Index> parents_of(const Json& nodes) {
-    std::vector<Index> parents(nodes.size(), no_index);
-    for (Index n = 0; n < nodes.size(); ++n)
-        for (const Json& child : member(nodes[n], "children")) parents[child.get<Index>()] = n;
-    return parents;
 }
 
 /// The coarser levels of nodes or materials.

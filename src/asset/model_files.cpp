@@ -8,7 +8,7 @@
 
 #include "asset/file_format.hpp"
 #include "asset/formats/obj.hpp"
-#include "asset/io/file_names.hpp"
+#include "asset/io/file.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "asset/scene/rounded_vertices.hpp"
+#include "asset/scene/position_rounding.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/simplify/run.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "asset/scene/rounded_vertices.hpp"
+#include "asset/scene/position_rounding.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/error.hpp"
 #include "result/fit_images.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "asset/gltf/write/levels.hpp"
-#include "asset/io/file_names.hpp"
+#include "asset/io/file.hpp"
 #include "asset/model_files.hpp"
 #include "faqem/save_levels.hpp"
 #include "support/catch.hpp"

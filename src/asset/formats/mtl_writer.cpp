@@ -8,7 +8,7 @@
 
 #include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
-#include "asset/io/file_names.hpp"
+#include "asset/io/file.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/text/text_buffer.hpp"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "asset/io/file.hpp"
-#include "asset/io/file_names.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

@@ -11,7 +11,7 @@
 #include "asset/formats/mtl_writer.hpp"
 #include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
-#include "asset/io/file_names.hpp"
+#include "asset/io/file.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/objects.hpp"

@@ -4,7 +4,6 @@
 
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
-#include "asset/io/file_names.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "asset/gltf/instancing.hpp"
+#include "asset/gltf/scene.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/json.hpp"
 #include "asset/gltf/scene.hpp"
 #include "asset/scene/affine.hpp"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -25,12 +24,9 @@ Index scaled_node(const Json& channel, std::size_t nodes) {
     if (path == "scale") return index_member(target, "node");
     if (path != "pointer") return no_index;
     const std::string pointer = animated_pointer(channel);
-    // Only its own indices give the text that is compared: 01 or 1e0 do not.
-    const std::string before = "/nodes/";
-    if (pointer.compare(0, before.size(), before) != 0) return no_index;
-    const std::string number = pointer.substr(before.size(), 9);
-    const auto node = static_cast<Index>(std::strtoul(number.c_str(), nullptr, 10));
-    return node < nodes && pointer == before + std::to_string(node) + "/scale" ? node : no_index;
+    const Index node = pointed_node(pointer);
+    // Only its own index gives the text that is compared: 01 does not.
+    return node < nodes && pointer == child_path("/nodes", node) + "/scale" ? node : no_index;
 }
 
 void raise_to_keyframes(const SourceDocument& source, const Json& sampler, std::array<double, 3>& scale) {
@@ -54,10 +50,8 @@ NodeScales largest_scales(const SourceDocument& source) {
             const Index node = scaled_node(channel, nodes.size());
             if (node == no_index) continue;
             if (!scales[node]) {
-                scales[node] = {1, 1, 1};
-                const Json& own = member(nodes[node], "scale");
-                for (std::size_t axis = 0; axis < own.size(); ++axis)
-                    (*scales[node])[axis] = std::abs(own[axis].get<double>());
+                scales[node] = number_array<3>(nodes[node], "scale", {1, 1, 1});
+                for (double& scale : *scales[node]) scale = std::abs(scale);
             }
             const Json& sampler = member(animation, "samplers")[unsigned_member(channel, "sampler", 0)];
             raise_to_keyframes(source, sampler, *scales[node]);

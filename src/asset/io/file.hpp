@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Reading of whole files with a size limit, and resolution of file references.
+/// Reading of whole files with a size limit, resolution of file references, and names of files.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "faqem/detail/base/lower_case.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
@@ -50,5 +52,24 @@ std::filesystem::path resolve_inside(const std::filesystem::path& folder, std::s
 /// \param kind       syntax of the reference
 std::filesystem::path referenced_path(const std::filesystem::path& folder, std::string_view reference,
                                       ReferenceSyntax kind);
+
+/// Returns the extension of a file name with its dot, in lower case (ASCII).
+inline std::string lower_case_extension(const std::filesystem::path& file) {
+    return lower_case(file.extension().string());
+}
+
+/// File name of the buffer of STEM.gltf: STEM.bin.
+inline std::string buffer_file_name(const std::string& stem) { return stem + ".bin"; }
+
+/// File name of the material library of STEM.obj: STEM.mtl.
+inline std::string library_file_name(const std::string& stem) { return stem + ".mtl"; }
+
+/// File name of an image beside a model: STEM_0.png ...
+/// \param number     of the image, from 0
+/// \param extension  with its dot
+inline std::string image_file_name(const std::string& stem, std::size_t number,
+                                   const std::string& extension) {
+    return stem + "_" + std::to_string(number) + extension;
+}
 
 }  // namespace faqem::detail

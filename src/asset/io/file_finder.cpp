@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "asset/io/file_names.hpp"
+#include "asset/io/file.hpp"
 #include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"
 

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "asset/io/encoded_model.hpp"
 #include "asset/io/set_folder.hpp"
 #include "asset/io/write_all.hpp"
 #include "faqem/error.hpp"
@@ -90,6 +91,12 @@ void write_files(std::span<const FileContent> files, Overwrite overwrite) {
 void write_file(const fs::path& file, std::span<const std::uint8_t> bytes, Overwrite overwrite) {
     const FileContent content{file, bytes};
     write_files({&content, 1}, overwrite);
+}
+
+void write_model(const EncodedModel& model, const fs::path& folder, Overwrite overwrite) {
+    std::vector<FileContent> contents;
+    for (const EncodedFile& file : model.files) contents.push_back({folder / file.name, file.bytes});
+    write_files(contents, overwrite);
 }
 
 }  // namespace faqem::detail

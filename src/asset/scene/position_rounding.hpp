@@ -53,4 +53,11 @@ Part flatten_for_file(const Asset& asset);
 FAQEM_EXPORT void round_positions(const StoredPrecision& precision, const std::vector<Triangle>& triangles,
                                   std::vector<Vec3>& positions);
 
+/// Rounds positions and texture coordinates as save() does in glTF files: by Part::position_spacing, and where geometry
+/// is compressed by Asset::uv_bits. Normals and tangents stay exact, and texture coordinates of 16 bits.
+/// \param asset  its parts stay valid; points may become equal
+/// \return whether there is anything to round
+/// Complexity: O(vertices).
+FAQEM_EXPORT bool round_vertices(Asset& asset);
+
 }  // namespace faqem::detail

@@ -10,7 +10,6 @@
 #include "cli/process/exit_code.hpp"
 #include "cli/process/interrupt.hpp"
 #include "cli/process/progress_bar.hpp"
-#include "render/contact_sheet.hpp"
 #include "render/views.hpp"
 
 namespace faqem::cli {

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "asset/file_format.hpp"
-#include "asset/io/file_names.hpp"
+#include "asset/io/file.hpp"
 #include "asset/io/set_folder.hpp"
 #include "asset/io/temporary_file.hpp"
 #include "cli/files/protected_files.hpp"

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "asset/gltf/instancing.hpp"
+#include "asset/gltf/scene.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "support/catch.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "asset/gltf/write/meshopt_encoder.hpp"
-#include "asset/scene/rounded_vertices.hpp"
+#include "asset/scene/position_rounding.hpp"
 #include "support/catch.hpp"
 #include "support/curved_grid.hpp"
 #include "support/gltf_builder.hpp"

@@ -3,9 +3,9 @@
 #include <set>
 #include <string_view>
 
-#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
+#include "asset/gltf/scene.hpp"
 #include "asset/gltf/unused_objects.hpp"
 #include "asset/image/image.hpp"
 

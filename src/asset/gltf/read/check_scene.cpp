@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/read/checker.hpp"
+#include "asset/gltf/scene.hpp"
 #include "asset/scene/messages.hpp"
 
 namespace faqem::detail {

@@ -5,9 +5,9 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/container.hpp"
-#include "asset/gltf/instancing.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
+#include "asset/gltf/scene.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file_finder.hpp"
 #include "asset/text/text_scanner.hpp"

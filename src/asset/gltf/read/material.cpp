@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "asset/gltf/read/read.hpp"
+#include "asset/gltf/read/load.hpp"
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/read/read.hpp"
+#include "asset/gltf/read/load.hpp"
 #include "asset/scene/influences.hpp"
 #include "asset/scene/repair.hpp"
 #include "faqem/error.hpp"

@@ -1,4 +1,4 @@
-#include "asset/gltf/read/read.hpp"
+#include "asset/gltf/read/load.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "asset/gltf/instancing.hpp"
+#include "asset/gltf/scene.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/writer.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/instancing.hpp"
+#include "asset/gltf/scene.hpp"
 #include "asset/gltf/unused_objects.hpp"
 #include "asset/gltf/write/feature_metadata.hpp"
 #include "asset/gltf/write/index_extensions.hpp"

@@ -17,7 +17,7 @@
 #include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
-#include "asset/io/file_names.hpp"
+#include "asset/io/file.hpp"
 #include "asset/scene/objects.hpp"
 #include "faqem/error.hpp"
 
