@@ -16,11 +16,10 @@ static_assert(std::endian::native == std::endian::little,
 
 /// The first byte of the view that `holder` (an accessor or a sparse member) refers to, offsets included.
 /// \param stride  in: the default stride; out: the stride of the view; may be null
-const std::uint8_t* view_bytes(const SourceDocument& source, const Json& holder, std::uint64_t* stride) {
+const std::uint8_t* first_byte(const SourceDocument& source, const Json& holder, std::uint64_t* stride) {
     const Json& view = member(source.document, "bufferViews")[index_member(holder, "bufferView")];
     if (stride) *stride = unsigned_member(view, "byteStride", *stride);
-    return source.buffers[index_member(view, "buffer")].data() + unsigned_member(view, "byteOffset", 0) +
-           unsigned_member(holder, "byteOffset", 0);
+    return view_bytes(source, view).data() + unsigned_member(holder, "byteOffset", 0);
 }
 
 template <class T>
@@ -32,7 +31,7 @@ T load(const std::uint8_t* bytes) {
 
 std::vector<std::uint32_t> sparse_indices(const SourceDocument& source, const Json& sparse) {
     const Json& indices = sparse["indices"];
-    const std::uint8_t* bytes = view_bytes(source, indices, nullptr);
+    const std::uint8_t* bytes = first_byte(source, indices, nullptr);
     std::vector<std::uint32_t> result(unsigned_member(sparse, "count", 0));
     visit_type(component_type(indices), [&](auto number) {
         for (std::uint32_t& index : result) {
@@ -100,6 +99,11 @@ double integer_step(const Json& accessor) {
     });
 }
 
+std::span<const std::uint8_t> view_bytes(const SourceDocument& source, const Json& view) {
+    return std::span(source.buffers[index_member(view, "buffer")])
+        .subspan(unsigned_member(view, "byteOffset", 0), unsigned_member(view, "byteLength", 0));
+}
+
 std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index index) {
     const Json& accessor = accessor_at(source, index);
     const std::uint64_t size = element_size(accessor);
@@ -107,7 +111,7 @@ std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index index)
     std::vector<std::uint8_t> dense(count * size);
     if (accessor.contains("bufferView")) {
         std::uint64_t stride = size;
-        const std::uint8_t* bytes = view_bytes(source, accessor, &stride);
+        const std::uint8_t* bytes = first_byte(source, accessor, &stride);
         if (stride == size)
             std::memcpy(dense.data(), bytes, dense.size());
         else
@@ -116,7 +120,7 @@ std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index index)
     }
     const Json& sparse = member(accessor, "sparse");
     if (!sparse.is_null()) {
-        const std::uint8_t* values = view_bytes(source, sparse["values"], nullptr);
+        const std::uint8_t* values = first_byte(source, sparse["values"], nullptr);
         for (const std::uint32_t element : sparse_indices(source, sparse)) {
             std::memcpy(dense.data() + element * size, values, size);
             values += size;

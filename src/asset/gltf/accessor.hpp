@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ std::size_t element_size(const Json& accessor);
 /// Distance of the values that neighbouring integers of an accessor stand for; 0 for floats and 32-bit integers.
 /// \param accessor  its description in the document
 double integer_step(const Json& accessor);
+
+/// The bytes of a buffer view, or of another object that refers to a buffer in this way. They belong to the source.
+std::span<const std::uint8_t> view_bytes(const SourceDocument& source, const Json& view);
 
 /// Reads the elements of an accessor as contiguous bytes, with sparse substitution applied. Elements are zero
 /// if the accessor has no buffer view.

@@ -136,12 +136,10 @@ void check_image(const GltfChecker& checker, const Json& image, const std::strin
     if (!uri.is_null() && !uri.is_string()) checker.fail(child_path(where, "uri"), "is not a string");
     const auto view = checker.reference(image, where, "bufferView", "bufferViews");
     if (view.has_value() == uri.is_string()) checker.fail(where, "must have either a uri or a bufferView");
-    if (view && is_fallback_buffer(member(
-                    checker.document,
-                    "buffers")[index_member(member(checker.document, "bufferViews")[*view], "buffer")]))
-        checker.fail(where, "refers to a buffer without data");
-    if (view &&
-        unsigned_member(member(checker.document, "bufferViews")[*view], "byteLength", 0) > max_image_bytes)
+    if (!view) return;
+    const Json& range = member(checker.document, "bufferViews")[*view];
+    if (has_fallback_buffer(checker.document, range)) checker.fail(where, "refers to a buffer without data");
+    if (unsigned_member(range, "byteLength", 0) > max_image_bytes)
         checker.fail_unsupported(where, "images of 2 GiB or more are not supported");
 }
 

@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::uint64_t max_meshopt_ratio = 128;  // the vertex codec expands a byte to at most 64 bytes
 
-[[maybe_unused]] std::span<const std::uint8_t> byte_range(const std::vector<std::uint8_t>& buffer,
-                                                          const Json& holder) {
-    return std::span(buffer).subspan(unsigned_member(holder, "byteOffset", 0),
-                                     unsigned_member(holder, "byteLength", 0));
-}
-
 std::uint64_t total_buffer_size(const SourceDocument& source) {
     std::uint64_t sum = 0;
     for (const auto& buffer : source.buffers) sum += buffer.size();
@@ -43,9 +37,8 @@ void decompress_views(SourceDocument& source, const std::string& file) {
         if (!compressed.is_null()) {
             const std::string where = child_path("/bufferViews", i);
             limit.consume(unsigned_member(views[i], "byteLength", 0), where, meshopt_name);
-            std::vector<std::uint8_t> bytes = decode_meshopt(
-                compressed, byte_range(source.buffers[index_member(compressed, "buffer")], compressed), file,
-                where);
+            std::vector<std::uint8_t> bytes =
+                decode_meshopt(compressed, view_bytes(source, compressed), file, where);
             views[i]["buffer"] = add_buffer(source, std::move(bytes));
             views[i].erase("byteOffset");
             source.has_meshopt = true;
@@ -104,8 +97,7 @@ void decompress_primitive(SourceDocument& source, const Json& primitive, const s
     }
     Json& indices = accessors[index_member(primitive, "indices")];
     const std::vector<std::uint32_t> corners =
-        decode_draco(byte_range(source.buffers[index_member(view, "buffer")], view),
-                     unsigned_member(accessors[targets.front()], "count", 0),
+        decode_draco(view_bytes(source, view), unsigned_member(accessors[targets.front()], "count", 0),
                      unsigned_member(indices, "count", 0), attributes, file, where);
     auto typed = encode_indices(corners, component_type(indices));
     if (!typed)
@@ -175,10 +167,13 @@ bool is_fallback_buffer(const Json& buffer) {
     return !buffer.contains("uri") && member(buffer, "extensions", meshopt_name, "fallback") == true;
 }
 
+bool has_fallback_buffer(const Json& document, const Json& view) {
+    return is_fallback_buffer(member(document, "buffers")[index_member(view, "buffer")]);
+}
+
 const Json& meshopt_extension(const Json& document, const Json& view) {
     static const Json none;
-    const bool plain = !is_fallback_buffer(member(document, "buffers")[index_member(view, "buffer")]);
-    return plain ? none : member(view, "extensions", meshopt_name);
+    return has_fallback_buffer(document, view) ? member(view, "extensions", meshopt_name) : none;
 }
 
 void check_meshopt(const GltfChecker& checker, const Json& view, const std::string& view_where) {
@@ -241,7 +236,7 @@ void check_draco(const GltfChecker& checker, const Json& primitive, const std::s
     const Json& compressed = primitive["extensions"][draco_name];
     const std::uint64_t view = checker.required_reference(compressed, where, "bufferView", "bufferViews");
     const Json& buffer_view = member(checker.document, "bufferViews")[view];
-    if (is_fallback_buffer(member(checker.document, "buffers")[index_member(buffer_view, "buffer")]))
+    if (has_fallback_buffer(checker.document, buffer_view))
         checker.fail(child_path(where, "bufferView"), "refers to a buffer without data");
     if (primitive_mode(primitive) != triangle_list)
         checker.fail_unsupported(child_path(primitive_where, "mode"),

@@ -24,6 +24,9 @@ std::string missing_decoder_message(std::string_view extension);
 /// EXT_meshopt_compression).
 bool is_fallback_buffer(const Json& buffer);
 
+/// The same for the buffer of a view.
+bool has_fallback_buffer(const Json& document, const Json& view);
+
 /// The meshopt extension of a view that must be decompressed; null if the view has uncompressed data.
 const Json& meshopt_extension(const Json& document, const Json& view);
 

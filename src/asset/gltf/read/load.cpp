@@ -120,10 +120,8 @@ std::vector<std::uint8_t> load_image(FileContext& context, const SourceDocument&
         if (const Index view = index_member(from, "bufferView"); view == no_index) {
             bytes = read_uri(context, string_member(from, "uri"), child_path(where, "uri"), max_image_bytes);
         } else {
-            const Json& range = context.document["bufferViews"][view];
-            const std::uint8_t* const first = source.buffers[index_member(range, "buffer")].data() +
-                                              unsigned_member(range, "byteOffset", 0);
-            bytes.assign(first, first + unsigned_member(range, "byteLength", 0));
+            const auto range = view_bytes(source, context.document["bufferViews"][view]);
+            bytes.assign(range.begin(), range.end());
         }
         const std::string reason = no_image_reason(bytes);
         if (!reason.empty())

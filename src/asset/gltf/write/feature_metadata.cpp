@@ -65,13 +65,6 @@ bool all_fit(const GltfWriter& writer, const Json& metadata, const char* list, c
     return true;
 }
 
-/// The bytes of a buffer view of the source.
-std::span<const std::uint8_t> view_bytes(const SourceDocument& source, Index index) {
-    const Json& view = member(source.document, "bufferViews")[index];
-    return std::span<const std::uint8_t>(source.buffers[index_member(view, "buffer")])
-        .subspan(unsigned_member(view, "byteOffset", 0), unsigned_member(view, "byteLength", 0));
-}
-
 /// Calls visit(reference) for the given members of the properties in a list of the extension.
 /// Returns false if a call does, or if the list is malformed.
 template <class Visit>
@@ -169,7 +162,8 @@ void remap_structural_metadata(GltfWriter& writer) {
         const auto view = reference.get<Index>();
         const auto [entry, is_new] = copied.try_emplace(view, no_index);
         if (is_new)
-            entry->second = writer.binary.add_view(view_bytes(writer.source, view), metadata_alignment);
+            entry->second = writer.binary.add_view(
+                view_bytes(writer.source, source_array(writer, "bufferViews")[view]), metadata_alignment);
         reference = entry->second;
         return true;
     });
