@@ -11,6 +11,7 @@
 
 #include "asset/image/srgb.hpp"
 #include "asset/io/little_endian.hpp"
+#include "asset/scene/affine.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
@@ -236,11 +237,7 @@ BinaryStl read_binary_stl(std::span<const std::uint8_t> bytes, const std::string
 }
 
 void put_facet(std::vector<std::uint8_t>& bytes, const std::array<Vec3, 3>& p) {
-    Vec3 n;
-    for (int k = 0; k < 3; ++k) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        n[k] = (p[1][i] - p[0][i]) * (p[2][j] - p[0][j]) - (p[1][j] - p[0][j]) * (p[2][i] - p[0][i]);
-    }
+    const Vec3 n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
     const double length = std::hypot(n[0], n[1], n[2]);
     const bool has_normal = length > 0 && std::isfinite(length);
     for (const double x : n)

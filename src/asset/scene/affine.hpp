@@ -2,7 +2,9 @@
 /// \file
 /// Affine transforms of points and normals, as column-major 4 x 4 matrices (Instance::transform).
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "faqem/export.hpp"
@@ -42,6 +44,18 @@ private:
     std::array<Vec3, 3>
         cofactors_;  // of the linear part, row by row: the inverse transpose times the determinant
     double sign_;
+};
+
+/// The bounding box of points. Without a point, `low` is infinite.
+struct PointBounds {
+    Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+    void add(const Vec3& p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
 };
 
 // Arithmetic of vectors, since the readers and writers are compiled without Eigen.

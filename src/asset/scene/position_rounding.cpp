@@ -206,13 +206,9 @@ double CoordinateRounding::tolerance(double magnitude) const {
 
 bool suits_floats(const std::vector<Vec3>& positions, const StoredPrecision& stored) {
     if (positions.empty()) return true;
-    Vec3 low = positions[0], high = low;
-    for (const Vec3& p : positions) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
-    }
+    PointBounds bounds;
+    for (const Vec3& p : positions) bounds.add(p);
+    const auto& [low, high] = bounds;
     double size = 0, largest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         size = std::max(size, high[k] - low[k]);

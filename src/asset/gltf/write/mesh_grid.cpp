@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "asset/scene/affine.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -19,34 +20,23 @@ constexpr std::array<StepRange, 4> step_ranges = {{{NumberType::i16, -32767, 327
                                                    {NumberType::i8, -127, 127, 1.0 / 127},
                                                    {NumberType::u8, 0, 255, 1.0 / 255}}};
 
+bool is_within(const PointBounds& bounds, const StepRange& range) {
+    return *std::min_element(bounds.low.begin(), bounds.low.end()) >= range.low &&
+           *std::max_element(bounds.high.begin(), bounds.high.end()) <= range.high;
+}
+
 /// Bounds of all positions in steps.
-struct StepBounds {
-    std::array<double, 3> low, high;
-
-    StepBounds() {
-        low.fill(std::numeric_limits<double>::infinity());
-        high.fill(-std::numeric_limits<double>::infinity());
-    }
-
-    bool is_within(const StepRange& range) const {
-        return std::all_of(low.begin(), low.end(), [&](double x) { return x >= range.low; }) &&
-               std::all_of(high.begin(), high.end(), [&](double x) { return x <= range.high; });
-    }
-
-    double extent() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
-};
-
-StepBounds bounds_in_steps(const std::vector<const Part*>& parts, const Vec3& origin, double spacing) {
-    StepBounds bounds;
+PointBounds bounds_in_steps(const std::vector<const Part*>& parts, const Vec3& origin, double spacing) {
+    PointBounds bounds;
     for (const Part* part : parts) {
         for (const Triangle& triangle : part->triangles) {
             for (const Index v : triangle) {
+                Vec3 step;
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     const auto stored = static_cast<float>(part->positions[v][axis] - origin[axis]);
-                    const double step = std::round(double{stored} / spacing);
-                    bounds.low[axis] = std::min(bounds.low[axis], step);
-                    bounds.high[axis] = std::max(bounds.high[axis], step);
+                    step[axis] = std::round(double{stored} / spacing);
                 }
+                bounds.add(step);
             }
         }
     }
@@ -80,14 +70,15 @@ MeshGrid choose_grid(const std::vector<const Part*>& parts, const Vec3& origin, 
         unfit = "its parts have different grids";
         return grid;
     }
-    const StepBounds bounds = bounds_in_steps(parts, origin, spacing);
+    const PointBounds bounds = bounds_in_steps(parts, origin, spacing);
     for (const StepRange& range : step_ranges)
-        if (spacing == range.unit && bounds.is_within(range)) return {spacing, {}, range.type, true};
+        if (spacing == range.unit && is_within(bounds, range)) return {spacing, {}, range.type, true};
     for (const StepRange& range : {step_ranges[0], step_ranges[1]})
-        if (bounds.is_within(range)) return {spacing, {}, range.type, false};
-    if (!(bounds.extent() <= max_extent) || !std::all_of(bounds.low.begin(), bounds.low.end(), [&](double x) {
-            return std::abs(x) <= max_origin;
-        })) {
+        if (is_within(bounds, range)) return {spacing, {}, range.type, false};
+    const Vec3 extent = minus(bounds.high, bounds.low);
+    if (!(*std::max_element(extent.begin(), extent.end()) <= max_extent) ||
+        !std::all_of(bounds.low.begin(), bounds.low.end(),
+                     [&](double x) { return std::abs(x) <= max_origin; })) {
         unfit = "it extends over more than 65536 steps of the grid";
         return grid;
     }

@@ -81,9 +81,7 @@ std::vector<Vec3> face_normal_sums(const PrimitiveData& data) {
             const Vec3f& q = data.positions[data.corners[c + k]];
             p[k] = {q[0], q[1], q[2]};
         }
-        const Vec3 e = {p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
-        const Vec3 f = {p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
-        const Vec3 n = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+        const Vec3 n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t i = 0; i < 3; ++i) sums[data.corners[c + k]][i] += n[i];
     }
@@ -153,15 +151,11 @@ void gather_influences(const Part& part, PrimitiveData& data) {
 
 Vec3 local_origin(const std::vector<Part>& parts) {
     constexpr double max_offset_ratio = 8;  // in half extents; costs 3 of the 24 significant bits of a float
-    Vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, origin = {};
-    for (const Part& part : parts) {
-        for (const Vec3& p : part.positions) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                low[i] = std::min(low[i], p[i]);
-                high[i] = std::max(high[i], p[i]);
-            }
-        }
-    }
+    Vec3 origin = {};
+    PointBounds bounds;
+    for (const Part& part : parts)
+        for (const Vec3& p : part.positions) bounds.add(p);
+    const auto& [low, high] = bounds;
     double half_extent = 0;
     for (std::size_t i = 0; i < 3; ++i) half_extent = std::max(half_extent, high[i] / 2 - low[i] / 2);
     if (!(half_extent > 0)) return origin;
