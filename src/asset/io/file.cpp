@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <string>
 #include <system_error>
 
@@ -21,13 +22,6 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 [[noreturn]] void fail_read(const fs::path& file, int error) {
     throw ReadError(file.string(), "", "cannot read: " + reason(error));
-}
-
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
 }
 
 /// The name in a reference, with slashes as separators.
@@ -88,10 +82,12 @@ std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_byte
 std::string percent_decoded(std::string_view text) {
     std::string decoded;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
-        const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
-        decoded.push_back(low >= 0 ? static_cast<char>(high * 16 + low) : text[i]);
-        if (low >= 0) i += 2;
+        const char* const digits = text.data() + i + 1;
+        std::uint8_t byte = 0;
+        const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
+                               std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+        decoded.push_back(is_escape ? static_cast<char>(byte) : text[i]);
+        if (is_escape) i += 2;
     }
     return decoded;
 }
