@@ -8,6 +8,7 @@
 #include "asset/gltf/write/feature_metadata.hpp"
 #include "asset/gltf/write/index_extensions.hpp"
 #include "asset/gltf/write/writer.hpp"
+#include "asset/scene/source_traits.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -93,12 +94,6 @@ Json copy_primitive(GltfWriter& writer, const Json& source, const std::string& m
     return primitive;
 }
 
-/// Marks the asset materials that came from a source material.
-void mark_materials_of(const GltfWriter& writer, Index source, std::vector<char>& used) {
-    for (std::size_t i = 0; i < used.size(); ++i)
-        if (writer.asset.materials[i].source == source && !writer.asset.materials[i].rebaked) used[i] = 1;
-}
-
 /// Writes the materials in the asset's order, whichever mesh uses them first.
 void write_used_materials(GltfWriter& writer) {
     write_numbered_objects(writer);
@@ -109,10 +104,8 @@ void write_used_materials(GltfWriter& writer) {
             if (material != no_index) used[material] = 1;
     // Material variants are left out if a material was rebaked.
     if (std::none_of(materials.begin(), materials.end(), [](const Material& m) { return m.rebaked; }))
-        for (const Json& mesh : source_array(writer, "meshes"))
-            for (const Json& primitive : member(mesh, "primitives"))
-                for (const Json& mapping : member(primitive, "extensions", variants_name, "mappings"))
-                    mark_materials_of(writer, index_member(mapping, "material"), used);
+        for (const Part& part : writer.asset.parts)
+            for (const Index material : variant_materials(writer.asset, part)) used[material] = 1;
     for (Index i = 0; i < used.size(); ++i)
         if (used[i]) write_material(writer, i);
 }

@@ -21,16 +21,11 @@ constexpr std::array<std::string_view, 11> remapped_extensions = {
     "MSFT_lod",      "EXT_instance_features",  features_name,      metadata_name,    manifold_name,
     outline_name};
 
-bool is_skinned(const GltfWriter& writer, Index mesh) {
-    for (const Json& primitive : member(writer.out, "meshes")[mesh]["primitives"])
-        if (primitive["attributes"].contains("JOINTS_0")) return true;
-    return false;
-}
-
-bool was_skinned(const GltfWriter& writer, Index mesh) {
-    for (const Json& primitive : member(source_array(writer, "meshes")[mesh], "primitives"))
-        if (member(primitive, "attributes").contains("JOINTS_0")) return true;
-    return false;
+bool is_skinned(const Json& mesh) {
+    const Json& primitives = member(mesh, "primitives");
+    return std::any_of(primitives.begin(), primitives.end(), [](const Json& primitive) {
+        return member(primitive, "attributes").contains("JOINTS_0");
+    });
 }
 
 void remap_instancing(GltfWriter& writer, Json& node) {
@@ -52,7 +47,8 @@ void update_node(GltfWriter& writer, Json& node) {
         return;
     }
     node["mesh"] = mesh;
-    if (node.contains("skin") && was_skinned(writer, source_mesh) && !is_skinned(writer, mesh)) {
+    if (node.contains("skin") && is_skinned(source_array(writer, "meshes")[source_mesh]) &&
+        !is_skinned(member(writer.out, "meshes")[mesh])) {
         node.erase("skin");
         writer.warnings.push_back("node '" + string_member(node, "name") +
                                   "': its mesh no longer has joints; the skin was left out");
