@@ -173,8 +173,8 @@ const FileFormat& written_format(const fs::path& file) {
 
 const FileFormat& result_format(ModelFormat wanted, ModelFormat loaded) {
     const ModelFormat known = wanted == ModelFormat::automatic ? loaded : wanted;
-    const auto found = std::find_if(formats.begin(), formats.end(),
-                                    [&](const FileFormat& format) { return format.format == known; });
+    const auto found =
+        std::ranges::find_if(formats, [&](const FileFormat& format) { return format.format == known; });
     return known == ModelFormat::automatic || found == formats.end() ? formats.front() : *found;
 }
 

@@ -280,8 +280,7 @@ std::optional<FinestLevel> finest_level(const Asset& asset) {
     if (!asset.source) return std::nullopt;
     const Json &nodes = member(asset.source->document, "nodes"),
                &materials = member(asset.source->document, "materials");
-    if (std::none_of(nodes.begin(), nodes.end(), has_levels) &&
-        std::none_of(materials.begin(), materials.end(), has_levels))
+    if (std::ranges::none_of(nodes, has_levels) && std::ranges::none_of(materials, has_levels))
         return std::nullopt;
     const CoarserLevels of_nodes = coarser_levels(nodes, parents_of(nodes));
     const CoarserLevels of_materials =

@@ -31,9 +31,8 @@ void check_levels(const std::vector<SavedLevel>& levels) {
 
 /// Returns the index of an image with the same bytes; appends the image if there is none.
 Index add_image(std::vector<Image>& images, Image&& image) {
-    const auto same = std::find_if(images.begin(), images.end(), [&](const Image& other) {
-        return !image.encoded.empty() && other.encoded == image.encoded;
-    });
+    const auto same = std::ranges::find_if(
+        images, [&](const Image& other) { return !image.encoded.empty() && other.encoded == image.encoded; });
     const auto index = static_cast<Index>(same - images.begin());
     if (same == images.end()) images.push_back(std::move(image));
     return index;

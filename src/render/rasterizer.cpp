@@ -280,10 +280,10 @@ void draw_scene(RenderTarget& target) {
             (is_blended ? blended : opaque).push_back({nearness, i, f});
         }
     }
-    std::stable_sort(opaque.begin(), opaque.end(),
-                     [](const DrawnFace& a, const DrawnFace& b) { return a.nearness > b.nearness; });
-    std::stable_sort(blended.begin(), blended.end(),
-                     [](const DrawnFace& a, const DrawnFace& b) { return a.nearness < b.nearness; });
+    std::ranges::stable_sort(opaque,
+                             [](const DrawnFace& a, const DrawnFace& b) { return a.nearness > b.nearness; });
+    std::ranges::stable_sort(blended,
+                             [](const DrawnFace& a, const DrawnFace& b) { return a.nearness < b.nearness; });
     for (const std::vector<DrawnFace>* const faces : {&opaque, &blended})
         for (const DrawnFace& drawn : *faces) {
             const ScreenTriangle face = *project_triangle(target, instances[drawn.instance], drawn.face);

@@ -73,7 +73,7 @@ void draw_text(Pixels& sheet, const std::string& text, std::uint32_t left, std::
                std::uint32_t dot_size) {
     for (const char character : text) {
         const auto* glyph =
-            std::find_if(font.begin(), font.end(), [&](const Glyph& g) { return g.character == character; });
+            std::ranges::find_if(font, [&](const Glyph& g) { return g.character == character; });
         if (glyph == font.end()) continue;
         for (std::uint32_t y = 0; y < glyph_height * dot_size; ++y) {
             for (std::uint32_t x = 0; x < glyph_width * dot_size; ++x) {

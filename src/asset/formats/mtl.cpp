@@ -81,7 +81,7 @@ bool read_option(Words& words, OptionPlace place, MtlTexture& texture, IgnoredSt
     };
     static constexpr std::array<std::string_view, 5> used = {"-bm", "-clamp", "-imfchan", "-o", "-s"};
     const std::string_view option = words.peek();
-    const bool takes_one = std::find(one_argument.begin(), one_argument.end(), option) != one_argument.end();
+    const bool takes_one = std::ranges::find(one_argument, option) != one_argument.end();
     const bool takes_pair = option == "-o" || option == "-s" || option == "-t";
     if ((!takes_one && !takes_pair && option != "-mm") || is_done()) return false;
     words.skip();
@@ -102,8 +102,7 @@ bool read_option(Words& words, OptionPlace place, MtlTexture& texture, IgnoredSt
         words.skip();
     }
     for (int i = 0; option == "-mm" && i < 2 && !is_done(); ++i) words.skip();
-    if (std::find(used.begin(), used.end(), option) == used.end())
-        ++ignored["option " + TextScanner::quoted(option)];
+    if (std::ranges::find(used, option) == used.end()) ++ignored["option " + TextScanner::quoted(option)];
     return fits || place == OptionPlace::before_name;
 }
 
@@ -170,8 +169,7 @@ private:
         } else if (materials_.empty() || !read_known_statement(key, materials_.back())) {
             static constexpr std::array<std::string_view, 7> ignored_keys = {"ka", "ks",    "ni",       "tf",
                                                                              "km", "illum", "sharpness"};
-            const bool is_ignored =
-                std::find(ignored_keys.begin(), ignored_keys.end(), key) != ignored_keys.end();
+            const bool is_ignored = std::ranges::find(ignored_keys, key) != ignored_keys.end();
             ++(is_ignored ? ignored_ : unused_)[TextScanner::quoted(key_as_written)];
         }
     }
@@ -288,7 +286,7 @@ private:
 bool is_texture_key(std::string_view key) {
     static constexpr std::array<std::string_view, 5> others = {"bump", "disp", "decal", "refl", "norm"};
     const std::string lower = lower_case(std::string(key));
-    return lower.starts_with("map_") || std::find(others.begin(), others.end(), lower) != others.end();
+    return lower.starts_with("map_") || std::ranges::find(others, lower) != others.end();
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ ScalarChannel data_channel(const MtlTexture& texture) {
 }
 
 bool is_constant(const ScalarImage& image, std::uint8_t value) {
-    return std::all_of(image.values.begin(), image.values.end(), [&](std::uint8_t v) { return v == value; });
+    return std::ranges::all_of(image.values, [&](std::uint8_t v) { return v == value; });
 }
 
 const char* const hides_everything = "map_d would hide everything, and is left out";

@@ -51,7 +51,7 @@ public:
 private:
     std::string unique_name(const std::string& name) const {
         const auto taken = [&](const std::string& candidate) {
-            return std::find(library_.names.begin(), library_.names.end(), candidate) != library_.names.end();
+            return std::ranges::find(library_.names, candidate) != library_.names.end();
         };
         std::string candidate = name;
         for (int i = 2; taken(candidate); ++i) candidate = name + "_" + std::to_string(i);
@@ -107,7 +107,7 @@ bool uses_other_uvs(const Material& m) {
 }
 
 bool has_unsupported_wrap(const Material& m) {
-    return std::any_of(mtl_textures.begin(), mtl_textures.end(), [&](auto texture) {
+    return std::ranges::any_of(mtl_textures, [&](auto texture) {
         const TextureRef& ref = m.*texture;
         return ref && (ref.wrap_u != ref.wrap_v || ref.wrap_u == Wrap::mirror);
     });
@@ -131,11 +131,11 @@ void add_losses(const std::vector<Material>& materials, std::vector<std::string>
         {"different UVs for the textures of a material", uses_other_uvs},
         {"mirrored wrapping, or wrapping that differs in u and v", has_unsupported_wrap}};
     for (const CoreSlot& slot : core_slots)
-        if (std::find(mtl_textures.begin(), mtl_textures.end(), slot.texture) == mtl_textures.end())
+        if (std::ranges::find(mtl_textures, slot.texture) == mtl_textures.end())
             kinds.insert(kinds.begin() + 1, {std::string(slot.title) + " textures",
                                              [&](const Material& m) { return bool(m.*slot.texture); }});
     for (const Loss& kind : kinds) {
-        const auto count = std::count_if(materials.begin(), materials.end(), kind.occurs);
+        const auto count = std::ranges::count_if(materials, kind.occurs);
         if (count)
             losses.push_back("OBJ cannot hold " + kind.what + " (" +
                              pluralized(static_cast<std::uint64_t>(count), "material") + ")");

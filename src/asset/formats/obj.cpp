@@ -241,8 +241,7 @@ void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& co
     part.positions.resize(count);
     if (!in.colors.empty()) part.colors.resize(count);
     const auto uses = [&](int kind) {
-        return std::any_of(in.corners.begin(), in.corners.end(),
-                           [kind](const ObjCorner& c) { return c[kind] != no_index; });
+        return std::ranges::any_of(in.corners, [kind](const ObjCorner& c) { return c[kind] != no_index; });
     };
     const bool has_uvs = uses(1), has_normals = uses(2);
     if (has_uvs) part.uvs.emplace_back(count, Vec2f{0, 0});
@@ -262,7 +261,7 @@ void add_objects(Part& part, const ObjStatements& in, const std::vector<Index>& 
                  const std::string& stem) {
     std::vector<Index> objects = gather(in.face_object, source_polygon);
     std::vector<std::string> names = in.objects;
-    std::replace(objects.begin(), objects.end(), no_index, static_cast<Index>(names.size()));
+    std::ranges::replace(objects, no_index, static_cast<Index>(names.size()));
     names.push_back(stem);
     set_objects(part, objects, names);
 }
@@ -296,10 +295,10 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::map<std::st
 /// The smoothing that all faces have if no corner has a normal.
 Smoothing common_smoothing(const ObjStatements& in) {
     const std::vector<std::int64_t>& groups = in.face_smoothing;
-    const bool has_normals = std::any_of(in.corners.begin(), in.corners.end(),
-                                         [](const ObjCorner& c) { return c[2] != no_index; });
+    const bool has_normals =
+        std::ranges::any_of(in.corners, [](const ObjCorner& c) { return c[2] != no_index; });
     if (has_normals || groups.empty() || groups[0] == unknown_smoothing ||
-        std::any_of(groups.begin(), groups.end(), [&](std::int64_t group) { return group != groups[0]; }))
+        std::ranges::any_of(groups, [&](std::int64_t group) { return group != groups[0]; }))
         return Smoothing::unknown;
     return groups[0] == 0 ? Smoothing::off : Smoothing::on;
 }

@@ -116,7 +116,7 @@ void list_obj_references(const fs::path& model, ReferenceList& files) {
                 const auto add = [&](const std::string& name) { libraries.add(name); };
                 for (const std::string& name : library_names(statement, files.finder().folder())) add(name);
                 for_each_possible_name(statement, add);
-            } else if (std::find(others.begin(), others.end(), key) != others.end()) {
+            } else if (std::ranges::find(others, key) != others.end()) {
                 for_each_possible_name(in.rest_of_line(), [&](const std::string& name) {
                     files.add(name, ReferenceSyntax::file_name, Readable::no);
                 });

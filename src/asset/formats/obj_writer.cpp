@@ -230,7 +230,7 @@ EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
     const std::string stem = file.stem().string();
     const UsedMaterials used = used_materials(flat, asset.materials.size());
     MtlLibrary library = make_mtl(asset, used.materials, stem, losses);
-    if (std::any_of(flat.colors.begin(), flat.colors.end(), [](const Vec4f& c) { return c[3] != 1; }))
+    if (std::ranges::any_of(flat.colors, [](const Vec4f& c) { return c[3] != 1; }))
         losses.push_back("OBJ cannot hold the alpha of vertex colours");
 
     VertexLines lines(asset, flat);

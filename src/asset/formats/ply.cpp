@@ -80,7 +80,7 @@ struct PlySlots {
     }
 
     bool has(std::initializer_list<VertexProperty> all) const {
-        return std::all_of(all.begin(), all.end(), [&](VertexProperty slot) { return scale[slot] > 0; });
+        return std::ranges::all_of(all, [&](VertexProperty slot) { return scale[slot] > 0; });
     }
 
     /// Reads a property, unless it has no meaning.
@@ -124,14 +124,14 @@ public:
 private:
     void check_elements() {
         for (const char* name : {"vertex", "face", "tristrips"}) {
-            const auto count = std::count_if(header_.elements.begin(), header_.elements.end(),
-                                             [&](const PlyElement& e) { return e.name == name; });
+            const auto count =
+                std::ranges::count_if(header_.elements, [&](const PlyElement& e) { return e.name == name; });
             if (count > 1) throw InputError(file_, "header", std::string("more than one element ") + name);
         }
         for (const PlyElement& element : header_.elements)
             check_index_count(element.count, file_, element.name);
-        const auto vertex = std::find_if(header_.elements.begin(), header_.elements.end(),
-                                         [](const PlyElement& e) { return e.name == "vertex"; });
+        const auto vertex =
+            std::ranges::find_if(header_.elements, [](const PlyElement& e) { return e.name == "vertex"; });
         if (vertex == header_.elements.end()) throw InputError(file_, "header", "no element vertex");
         vertex_count_ = vertex->count;
     }
@@ -233,9 +233,9 @@ private:
 
     /// The property with the vertices of faces or strips.
     std::size_t index_list(const PlyElement& element) const {
-        const auto indices = std::find_if(
-            element.properties.begin(), element.properties.end(),
-            [](const PlyProperty& p) { return p.name == "vertex_indices" || p.name == "vertex_index"; });
+        const auto indices = std::ranges::find_if(element.properties, [](const PlyProperty& p) {
+            return p.name == "vertex_indices" || p.name == "vertex_index";
+        });
         if (indices == element.properties.end() || !indices->is_list || !is_integer(indices->type))
             throw InputError(file_, "element " + element.name,
                              "must have an integer list property vertex_indices");
@@ -268,9 +268,8 @@ private:
         const std::size_t indices = index_list(element);
         const std::vector<PlyProperty>& properties = element.properties;
         const auto find = [&](std::string_view name, bool is_list) {
-            const auto found = std::find_if(properties.begin(), properties.end(), [&](const PlyProperty& p) {
-                return p.name == name && p.is_list == is_list;
-            });
+            const auto found = std::ranges::find_if(
+                properties, [&](const PlyProperty& p) { return p.name == name && p.is_list == is_list; });
             return static_cast<std::size_t>(found - properties.begin());
         };
         const std::size_t uvs = find("texcoord", true), texture = find("texnumber", false);
@@ -361,8 +360,8 @@ StoredPrecision position_precision(const PlyHeader& header) {
         const auto is_coordinate = [&](const PlyProperty& p) {
             return p.type == type && !p.is_list && vertex_property(p) <= z;
         };
-        return std::any_of(header.elements.begin(), header.elements.end(), [&](const PlyElement& e) {
-            return e.name == "vertex" && std::any_of(e.properties.begin(), e.properties.end(), is_coordinate);
+        return std::ranges::any_of(header.elements, [&](const PlyElement& e) {
+            return e.name == "vertex" && std::ranges::any_of(e.properties, is_coordinate);
         });
     };
     if (has_type(NumberType::f64)) return {StoredPrecision::Type::float64};

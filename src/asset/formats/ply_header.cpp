@@ -24,8 +24,8 @@ NumberType read_type(TextScanner& in) {
                                                                               {"float", "float32"},
                                                                               {"double", "float64"}}};
     const std::string_view word = in.word();
-    const auto found = std::find_if(names.begin(), names.end(),
-                                    [&](const auto& entry) { return entry[0] == word || entry[1] == word; });
+    const auto found =
+        std::ranges::find_if(names, [&](const auto& entry) { return entry[0] == word || entry[1] == word; });
     if (found == names.end()) in.fail("unknown type " + TextScanner::quoted(word));
     return static_cast<NumberType>(static_cast<std::uint32_t>(NumberType::i8) + (found - names.begin()));
 }

@@ -79,7 +79,7 @@ EncodedModel encode_ply(const Asset& asset, const std::filesystem::path& file) {
         material.rebaked = false;
         return material == material_or_default(asset, no_index);
     };
-    if (!std::all_of(asset.materials.begin(), asset.materials.end(), is_default))
+    if (!std::ranges::all_of(asset.materials, is_default))
         losses.push_back("PLY cannot hold materials and textures");
     if (flat.uvs.size() > 1) losses.push_back("PLY cannot hold more than one set of texture coordinates");
 
@@ -88,8 +88,7 @@ EncodedModel encode_ply(const Asset& asset, const std::filesystem::path& file) {
         asset.precision.type == StoredPrecision::Type::float64 || !is_float_representable(flat.positions);
     layout.normals = !flat.normals.empty();
     layout.colors = !flat.colors.empty();
-    layout.alpha = std::any_of(flat.colors.begin(), flat.colors.end(),
-                               [](const Vec4f& c) { return quantized(c[3]) != 255; });
+    layout.alpha = std::ranges::any_of(flat.colors, [](const Vec4f& c) { return quantized(c[3]) != 255; });
     layout.uvs = !flat.uvs.empty();
     const std::string text = header(flat, layout);
     std::vector<std::uint8_t> bytes(text.begin(), text.end());

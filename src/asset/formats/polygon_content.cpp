@@ -63,7 +63,7 @@ private:
         ReferencedImages images(asset_, finder);
         std::vector<Index> added(texture_files.size() + 1, no_index);  // the last one for no texture
         for (std::size_t i = 0; i < texture_files.size(); ++i) {
-            if (std::find(numbers.begin(), numbers.end(), i) == numbers.end()) continue;
+            if (std::ranges::find(numbers, i) == numbers.end()) continue;
             ReferencedImage* image = images.read("TextureFile", texture_files[i], {});
             if (!image) continue;
             Material material;
@@ -100,7 +100,7 @@ private:
             warn("face colours are ignored beside vertex colours");
             faces_.colors.clear();
         }
-        const auto textured = std::count_if(material_.begin(), material_.end(), has_value);
+        const auto textured = std::ranges::count_if(material_, has_value);
         if (textured == 0 || (faces_.colors.empty() && part_.colors.empty())) return;
         warn("colours of " + pluralized(static_cast<std::uint64_t>(textured), "face") +
              " with a texture left out");
@@ -115,7 +115,7 @@ private:
     /// Repeats the vertices whose corners differ in texture coordinates or colour.
     void repeat_vertices() {
         const bool has_colors = !faces_.colors.empty() || !part_.colors.empty();
-        const bool has_white_faces = has_colors && std::any_of(material_.begin(), material_.end(), has_value);
+        const bool has_white_faces = has_colors && std::ranges::any_of(material_, has_value);
         if (faces_.uvs.empty() && faces_.colors.empty() && !has_white_faces) return;
         const std::size_t old_count = part_.positions.size();
         check_index_count(faces_.polygons.vertices.size(), file_.string(), "corner");

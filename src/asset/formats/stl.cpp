@@ -50,7 +50,7 @@ public:
         part.positions.reserve(vertices.size());
         for (const auto& v : vertices) part.positions.push_back({v[0], v[1], v[2]});
         const std::vector<Vec4f>& colors = colors_.values();
-        if (std::any_of(colors.begin(), colors.end(), [](const Vec4f& c) { return c != Vec4f{1, 1, 1, 1}; }))
+        if (std::ranges::any_of(colors, [](const Vec4f& c) { return c != Vec4f{1, 1, 1, 1}; }))
             for (const auto& v : vertices) part.colors.push_back(colors[static_cast<std::size_t>(v[3])]);
         part.triangles = std::move(triangles_);
         part.face_material.assign(part.triangles.size(), no_index);
@@ -135,7 +135,7 @@ Part read_ascii(std::span<const std::uint8_t> text, const std::string& file, Sto
 
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
     const std::span<const std::uint8_t> start = bytes.first(std::min<std::size_t>(bytes.size(), 512));
-    return std::find(start.begin(), start.end(), 0) == start.end();
+    return std::ranges::find(start, 0) == start.end();
 }
 
 constexpr std::size_t label_bytes = 80;  // of the header of a binary file, before the count

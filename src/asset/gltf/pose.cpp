@@ -19,7 +19,7 @@ std::vector<double> default_morph_weights(const Json& document, const Json& node
     std::vector<double> weights;
     for (const Json& weight : member(node.contains("weights") ? node : mesh, "weights"))
         weights.push_back(weight.is_number() ? weight.get<double>() : 0);
-    if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; })) return {};
+    if (std::ranges::all_of(weights, [](double weight) { return weight == 0; })) return {};
     return weights;
 }
 
@@ -69,7 +69,7 @@ InverseBinds inverse_binds(const SourceDocument& source, const Json& skin) {
     for (std::size_t j = 0; j < result.matrices.size() && bytes.size() >= (j + 1) * sizeof stored; ++j) {
         std::memcpy(stored.data(), bytes.data() + j * sizeof stored, sizeof stored);
         if (is_finite(stored))
-            std::copy(stored.begin(), stored.end(), result.matrices[j].begin());
+            std::ranges::copy(stored, result.matrices[j].begin());
         else
             ++result.repaired;
     }

@@ -21,8 +21,8 @@ const Json& primitives_of(const Asset& asset, const Part& part) {
 
 bool is_dynamic(const Asset& asset) {
     if (asset.source && !member(asset.source->document, "animations").empty()) return true;
-    return std::any_of(asset.parts.begin(), asset.parts.end(),
-                       [](const Part& part) { return !part.joints.empty() || !part.morph_targets.empty(); });
+    return std::ranges::any_of(
+        asset.parts, [](const Part& part) { return !part.joints.empty() || !part.morph_targets.empty(); });
 }
 
 std::vector<Index> variant_materials(const Asset& asset, const Part& part) {
@@ -36,7 +36,7 @@ std::vector<Index> variant_materials(const Asset& asset, const Part& part) {
                     result.push_back(m);
         }
     }
-    std::sort(result.begin(), result.end());
+    std::ranges::sort(result);
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
 }
@@ -62,8 +62,8 @@ std::vector<std::uint8_t> parts_that_need_uvs(const Asset& asset) {
     const std::vector<std::uint8_t> moving = materials_with_moving_textures(asset);
     std::vector<std::uint8_t> result;
     for (const Part& part : asset.parts) {
-        const bool moves = std::any_of(part.face_material.begin(), part.face_material.end(),
-                                       [&](Index m) { return m != no_index && moving[m]; });
+        const bool moves =
+            std::ranges::any_of(part.face_material, [&](Index m) { return m != no_index && moving[m]; });
         result.push_back(moves || !variant_materials(asset, part).empty());
     }
     return result;

@@ -32,7 +32,7 @@ public:
 
 private:
     static std::uint64_t count_unused(const std::vector<std::uint8_t>& marks) {
-        return static_cast<std::uint64_t>(std::count(marks.begin(), marks.end(), 0));
+        return static_cast<std::uint64_t>(std::ranges::count(marks, 0));
     }
 
     void mark_primitive(const Json& primitive) {

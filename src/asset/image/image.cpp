@@ -79,8 +79,8 @@ std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
 
 const char* foreign_kind(std::string_view text) {
     const std::string begin = lower_case(std::string(text.substr(0, 64)));
-    const auto kind = std::find_if(foreign_kinds.begin(), foreign_kinds.end(),
-                                   [&](const auto& k) { return begin.starts_with(k.first); });
+    const auto kind =
+        std::ranges::find_if(foreign_kinds, [&](const auto& k) { return begin.starts_with(k.first); });
     return kind == foreign_kinds.end() ? nullptr : kind->second;
 }
 

@@ -28,14 +28,14 @@ std::string reason(int error) { return std::generic_category().message(error); }
 std::string name_in(std::string_view reference, ReferenceSyntax kind) {
     if (kind == ReferenceSyntax::uri) return percent_decoded(reference);
     std::string name(reference);
-    std::replace(name.begin(), name.end(), '\\', '/');
+    std::ranges::replace(name, '\\', '/');
     return name;
 }
 
 bool has_scheme(std::string_view text) {
     const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     if (text.empty() || !is_letter(text[0])) return false;
-    const auto end = std::find_if(text.begin(), text.end(), [&](char c) {
+    const auto end = std::ranges::find_if(text, [&](char c) {
         return !is_letter(c) && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.';
     });
     return end != text.end() && *end == ':';

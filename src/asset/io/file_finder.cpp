@@ -93,20 +93,19 @@ const FileFinder::Names& FileFinder::names_in(const fs::path& subfolder) {
     fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
     for (; !error && entry != fs::directory_iterator(); entry.increment(error))
         known->second.push_back(entry->path().filename().string());
-    std::sort(known->second.begin(), known->second.end());
+    std::ranges::sort(known->second);
     return known->second;
 }
 
 std::optional<fs::path> FileFinder::match(fs::path subfolder, const Names& steps, std::size_t first) {
     for (std::size_t i = first; i < steps.size(); ++i) {
         const Names& names = names_in(subfolder);
-        if (std::binary_search(names.begin(), names.end(), steps[i])) {
+        if (std::ranges::binary_search(names, steps[i])) {
             subfolder /= steps[i];
             continue;
         }
-        const auto other = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
-            return lower_case(name) == lower_case(steps[i]);
-        });
+        const auto other = std::ranges::find_if(
+            names, [&](const std::string& name) { return lower_case(name) == lower_case(steps[i]); });
         if (other == names.end()) return std::nullopt;
         subfolder /= *other;
     }

@@ -75,12 +75,12 @@ std::size_t uninstanced_part_count(const Asset& asset) {
     std::vector<std::uint8_t> is_uninstanced;
     for (const Part& part : asset.parts) is_uninstanced.push_back(!part.triangles.empty());
     for (const Instance& instance : instances(asset)) is_uninstanced[instance.part] = 0;
-    return static_cast<std::size_t>(std::count(is_uninstanced.begin(), is_uninstanced.end(), 1));
+    return static_cast<std::size_t>(std::ranges::count(is_uninstanced, 1));
 }
 
 bool has_morph_weights(const Asset& asset) {
     const std::vector<PosedInstance> all = posed_instances(asset);
-    return std::any_of(all.begin(), all.end(), [](const PosedInstance& instance) {
+    return std::ranges::any_of(all, [](const PosedInstance& instance) {
         return instance.pose && !instance.pose->morph_weights.empty();
     });
 }
@@ -123,7 +123,7 @@ Part flatten(const Asset& asset, const std::vector<PosedInstance>& all) {
 
 std::vector<std::string> flattening_losses(const Asset& asset, const std::string& format) {
     std::vector<std::string> losses;
-    const auto any = [&](auto&& test) { return std::any_of(asset.parts.begin(), asset.parts.end(), test); };
+    const auto any = [&](auto&& test) { return std::ranges::any_of(asset.parts, test); };
     const std::string cannot = format + " cannot hold ";
     if (asset.source)
         losses.push_back(
@@ -143,8 +143,8 @@ std::vector<std::string> flattening_losses(const Asset& asset, const std::string
 }
 
 bool is_float_representable(const std::vector<Vec3>& positions) {
-    return std::all_of(positions.begin(), positions.end(), [](const Vec3& p) {
-        return std::all_of(p.begin(), p.end(), [](double x) {
+    return std::ranges::all_of(positions, [](const Vec3& p) {
+        return std::ranges::all_of(p, [](double x) {
             return std::abs(x) <= std::numeric_limits<float>::max() &&
                    static_cast<double>(static_cast<float>(x)) == x;
         });

@@ -7,8 +7,7 @@ namespace faqem::detail {
 
 void Influences::add(std::uint16_t joint, double weight) {
     if (!(weight > 0)) return;
-    const auto found =
-        std::find_if(all_.begin(), all_.end(), [&](const Influence& x) { return x.joint == joint; });
+    const auto found = std::ranges::find_if(all_, [&](const Influence& x) { return x.joint == joint; });
     if (found == all_.end())
         all_.push_back({joint, weight});
     else
@@ -16,7 +15,7 @@ void Influences::add(std::uint16_t joint, double weight) {
 }
 
 double Influences::take_heaviest(std::array<std::uint16_t, 4>& joints, Vec4f& weights) {
-    std::sort(all_.begin(), all_.end(), [](const Influence& a, const Influence& b) {
+    std::ranges::sort(all_, [](const Influence& a, const Influence& b) {
         return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
     });
     joints = {};

@@ -64,9 +64,9 @@ inline constexpr std::array known_textures = {
 
 /// Finds a texture by extension and name; null if it is not known.
 inline const KnownTexture* find_known_texture(std::string_view extension, std::string_view name) {
-    const auto found = std::find_if(
-        known_textures.begin(), known_textures.end(),
-        [&](const KnownTexture& known) { return known.extension == extension && known.name == name; });
+    const auto found = std::ranges::find_if(known_textures, [&](const KnownTexture& known) {
+        return known.extension == extension && known.name == name;
+    });
     return found == known_textures.end() ? nullptr : &*found;
 }
 
@@ -108,8 +108,8 @@ inline constexpr std::array core_slots = {
 
 /// Finds a texture of glTF's material by its key; null if there is none.
 inline const CoreSlot* find_core_slot(std::string_view key) {
-    const auto found = std::find_if(core_slots.begin(), core_slots.end(),
-                                    [&](const CoreSlot& slot) { return key == slot.key; });
+    const auto found =
+        std::ranges::find_if(core_slots, [&](const CoreSlot& slot) { return key == slot.key; });
     return found == core_slots.end() ? nullptr : &*found;
 }
 

@@ -34,7 +34,7 @@ Part with_faces(const Part& part, const std::vector<Index>& faces, std::vector<I
 
 std::optional<DividedAsset> divided_into_objects(const Asset& asset) {
     const auto has_objects = [](const Part& part) { return !part.face_object.empty(); };
-    if (std::none_of(asset.parts.begin(), asset.parts.end(), has_objects)) return std::nullopt;
+    if (std::ranges::none_of(asset.parts, has_objects)) return std::nullopt;
     DividedAsset result;
     Asset& divided = result.asset;
     divided.materials = asset.materials;

@@ -136,7 +136,7 @@ inline void number_corners(const Part& part, const std::vector<Index>& faces, st
                 scratch[v] = 0;
                 vertices.push_back(v);
             }
-    std::sort(vertices.begin(), vertices.end());
+    std::ranges::sort(vertices);
     for (Index i = 0; i < vertices.size(); ++i) scratch[vertices[i]] = i;
     corners.reserve(faces.size() * 3);
     for (const Index f : faces)

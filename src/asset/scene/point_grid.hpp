@@ -32,7 +32,7 @@ public:
         for (const double r : reach) {
             if (!(r > 0)) continue;
             const int size = cell_size(r);
-            const auto at = std::lower_bound(counts.begin(), counts.end(), std::pair(size, std::size_t{0}));
+            const auto at = std::ranges::lower_bound(counts, std::pair(size, std::size_t{0}));
             if (at != counts.end() && at->first == size)
                 ++at->second;
             else
@@ -45,8 +45,7 @@ public:
     /// Adds a point whose reach is > 0. O(1) expected
     void insert(Index i) {
         const int size = cell_size(reach_[i]);
-        const auto level =
-            std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.size == size; });
+        const auto level = std::ranges::find_if(levels_, [&](const Level& l) { return l.size == size; });
         Index& head = *head_of(*level, cell_of(points_[i], size));
         if (head == no_index) {
             head = i;

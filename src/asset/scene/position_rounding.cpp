@@ -146,8 +146,8 @@ private:
     }
 
     bool keeps_areas_at(Index v) const {
-        return std::all_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
-            return std::find(t.begin(), t.end(), v) == t.end() || keeps_area(t);
+        return std::ranges::all_of(triangles_, [&](const Triangle& t) {
+            return std::ranges::find(t, v) == t.end() || keeps_area(t);
         });
     }
 
@@ -160,7 +160,7 @@ private:
 // Whether files without a scene have the positions of the parts.
 bool is_in_place(const Asset& asset) {
     const std::vector<Instance> all = instances(asset);
-    return !scene_center(asset) && std::all_of(all.begin(), all.end(), [](const Instance& instance) {
+    return !scene_center(asset) && std::ranges::all_of(all, [](const Instance& instance) {
         return instance.transform == identity_transform;
     });
 }
@@ -224,8 +224,8 @@ StoredPrecision result_precision(const Asset& source, ModelFormat format) {
     const StoredPrecision& stored = source.precision;
     if (stored.type == Type::float64) return {};
     if (stored.type != Type::decimal || format == ModelFormat::obj) return stored;
-    const bool is_float = std::all_of(source.parts.begin(), source.parts.end(),
-                                      [&](const Part& part) { return suits_floats(part.positions, stored); });
+    const bool is_float = std::ranges::all_of(
+        source.parts, [&](const Part& part) { return suits_floats(part.positions, stored); });
     return {is_float ? Type::float32 : Type::unknown};
 }
 

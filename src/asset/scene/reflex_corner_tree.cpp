@@ -26,8 +26,8 @@ bool ReflexCornerTree::is_right_of(const PlanarPoint& a, const PlanarPoint& b, c
     // Above the rounding errors of the outline and of the distance from the line.
     constexpr double rounding = 4e-15;
     const double tolerance = rounding * (std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]));
-    return std::all_of(node.outline.begin(), node.outline.end(),
-                       [&](const PlanarPoint& p) { return orient2d(a, b, p) < -tolerance; });
+    return std::ranges::all_of(node.outline,
+                               [&](const PlanarPoint& p) { return orient2d(a, b, p) < -tolerance; });
 }
 
 ReflexCornerTree::ReflexCornerTree(const std::vector<PlanarPoint>& points, std::span<const Index> corners)

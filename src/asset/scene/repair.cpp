@@ -11,7 +11,7 @@ namespace faqem::detail {
 namespace {
 
 std::uint64_t drop_vertices(Part& part) {
-    if (std::all_of(part.positions.begin(), part.positions.end(), is_finite<double, 3>)) return 0;
+    if (std::ranges::all_of(part.positions, is_finite<double, 3>)) return 0;
     std::vector<Index> renumbered(part.positions.size(), no_index), vertices, faces;
     for (Index v = 0; v < renumbered.size(); ++v) {
         if (!is_finite(part.positions[v])) continue;
@@ -22,7 +22,7 @@ std::uint64_t drop_vertices(Part& part) {
     for (Index f = 0; f < before; ++f) {
         Triangle& t = part.triangles[f];
         for (Index& v : t) v = renumbered[v];
-        if (std::find(t.begin(), t.end(), no_index) == t.end()) faces.push_back(f);
+        if (std::ranges::find(t, no_index) == t.end()) faces.push_back(f);
     }
     select_faces(part, faces, part);
     visit_vertex_arrays([&](const VertexArray&, auto& values) { values = gather(values, vertices); }, part);

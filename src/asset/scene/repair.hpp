@@ -21,7 +21,7 @@ inline constexpr std::uint64_t max_index_count = no_index;
 /// Whether no coordinate is infinite or NaN.
 template <class T, std::size_t N>
 bool is_finite(const std::array<T, N>& v) {
-    return std::all_of(v.begin(), v.end(), [](T x) { return std::isfinite(x); });
+    return std::ranges::all_of(v, [](T x) { return std::isfinite(x); });
 }
 
 /// Checks a number of vertices or faces.

@@ -39,7 +39,7 @@ std::optional<JointMatrix> blended_matrix(const std::vector<JointMatrix>& matric
         const bool is_used = weights[k] > 0 && joints[k] < matrices.size();
         influences[k] = {joints[k], is_used ? static_cast<double>(weights[k]) : 0};
     }
-    std::sort(influences.begin(), influences.end());
+    std::ranges::sort(influences);
     double sum = 0;
     for (const auto& [joint, weight] : influences) sum += weight;
     if (!(sum > 0 && std::isfinite(sum))) return std::nullopt;

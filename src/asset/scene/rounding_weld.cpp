@@ -81,7 +81,7 @@ std::vector<double> edge_lengths(const std::vector<Vec3>& positions, const std::
         std::array<double, 3> edges;
         for (std::size_t c = 0; c < 3; ++c)
             edges[c] = max_norm_distance(positions[t[c]], positions[t[(c + 1) % 3]]);
-        std::sort(edges.begin(), edges.end());
+        std::ranges::sort(edges);
         for (const Index v : t) length[v] = std::min(length[v], edges[1]);
     }
     return length;

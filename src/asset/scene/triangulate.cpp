@@ -91,7 +91,7 @@ public:
             }
             if (remaining_ > retests) continue;
             retests -= remaining_;
-            std::fill(is_candidate_.begin(), is_candidate_.end(), 1);
+            std::ranges::fill(is_candidate_, 1);
         }
         const Index apex = start_corner_;
         for (Index i = next_[apex]; next_[i] != apex; i = next_[i]) triangles.push_back({apex, i, next_[i]});
@@ -197,7 +197,7 @@ TriangulatedPolygons triangulate_polygons(const Polygons& polygons, std::span<co
         }
         ring.clear();
         for (const Index v : corners) ring.push_back(positions[v]);
-        const bool finite = std::all_of(ring.begin(), ring.end(), is_finite<double, 3>);
+        const bool finite = std::ranges::all_of(ring, is_finite<double, 3>);
         split.too_few_corners += corners.size() < 3;
         split.non_finite += corners.size() >= 3 && !finite;
         if (corners.size() < 3 || !finite) continue;

@@ -19,7 +19,7 @@ namespace {
 /// compare equal, faces of opposite orientation do not.
 std::array<Vec3, 3> corner_positions(const Part& part, const Triangle& t) {
     std::array<Vec3, 3> p = {part.positions[t[0]], part.positions[t[1]], part.positions[t[2]]};
-    std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
+    std::rotate(p.begin(), std::ranges::min_element(p), p.end());
     return p;
 }
 
@@ -38,7 +38,7 @@ void require_no_duplicate_faces(const Part& part, const std::string& where) {
         return std::pair(corner_positions(part, part.triangles[f]),
                          part.face_material.empty() ? no_index : part.face_material[f]);
     };
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    std::ranges::sort(order, [&](Index a, Index b) {
         const auto first = key(a), second = key(b);
         return first != second ? first < second : a < b;
     });

@@ -109,7 +109,7 @@ Overwrite check_outputs(std::vector<fs::path> files, bool force) {
 
 void check_extension(const fs::path& file, const std::vector<std::string_view>& extensions) {
     const std::string extension = detail::lower_case_extension(file);
-    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
+    if (std::ranges::find(extensions, extension) != extensions.end()) return;
     std::string known;
     for (const std::string_view one : extensions) known += (known.empty() ? "" : ", ") + std::string(one);
     throw OptionError(file.string() + ": the file name must end in one of " + known);
@@ -128,7 +128,7 @@ std::string default_format() {
 
 std::string extension_of_format(const std::string& format) {
     const std::vector<std::string_view> known = detail::format_extensions(detail::FormatUse::write);
-    if (std::find(known.begin(), known.end(), "." + format) != known.end()) return "." + format;
+    if (std::ranges::find(known, "." + format) != known.end()) return "." + format;
     throw OptionError("--format: unknown value '" + format + "' (known: " + format_names() + ")");
 }
 

@@ -114,7 +114,7 @@ void check_side_files_unshared(std::span<const fs::path> files) {
     for (const fs::path& model : files) {
         const detail::FileFormat* format = detail::format_by_name(model);
         if (format == nullptr || !format->has_image_files) continue;
-        const bool replaces_side_file = std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
+        const bool replaces_side_file = std::ranges::any_of(files, [&](const fs::path& file) {
             std::error_code error;
             return file != model && fs::exists(file, error);
         });

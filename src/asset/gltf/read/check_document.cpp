@@ -35,7 +35,7 @@ constexpr std::array<std::string_view, 8> other_known_extensions = {draco_name,
 
 template <class List>
 bool contains(const List& list, std::string_view name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
+    return std::ranges::find(list, name) != list.end();
 }
 
 bool is_supported(std::string_view extension) {

@@ -65,7 +65,7 @@ std::optional<std::vector<std::uint8_t>> encode_indices(const std::vector<std::u
                                                         NumberType type) {
     const std::size_t size = number_size(type);
     const std::uint64_t end = std::uint64_t{1} << 8 * size;
-    if (std::any_of(corners.begin(), corners.end(), [end](std::uint32_t v) { return v >= end; })) return {};
+    if (std::ranges::any_of(corners, [end](std::uint32_t v) { return v >= end; })) return {};
     std::vector<std::uint8_t> bytes(corners.size() * size);
     for (std::size_t i = 0; i < corners.size(); ++i) std::memcpy(&bytes[i * size], &corners[i], size);
     return bytes;
@@ -224,8 +224,8 @@ bool needs_draco(const Json& document, const Json& primitive) {
         return accessor < accessors.size() && !accessors[accessor].contains("bufferView");
     };
     const Json& attributes = member(primitive, "attributes");
-    return std::any_of(attributes.begin(), attributes.end(),
-                       [&](const Json& a) { return has_no_buffer_view(a.get<Index>()); }) ||
+    return std::ranges::any_of(attributes,
+                               [&](const Json& a) { return has_no_buffer_view(a.get<Index>()); }) ||
            has_no_buffer_view(index_member(primitive, "indices"));
 }
 

@@ -21,8 +21,7 @@ Vec2f pair_or(const Json& pair, Vec2f fallback) {
 }
 
 Wrap wrap_of(const Json& sampler, const char* key) {
-    const auto mode =
-        std::find(wrap_modes.begin(), wrap_modes.end(), unsigned_member(sampler, key, wrap_modes[0]));
+    const auto mode = std::ranges::find(wrap_modes, unsigned_member(sampler, key, wrap_modes[0]));
     return mode == wrap_modes.end() ? Wrap::repeat : static_cast<Wrap>(mode - wrap_modes.begin());
 }
 

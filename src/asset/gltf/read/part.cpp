@@ -303,9 +303,9 @@ void read_vertex_bits(const LoadedGltf& loaded, Asset& asset) {
         }
     }
     // Integers for texture coordinates alone need no extension, and do not tell of quantisation.
-    const bool is_quantized =
-        asset.normal_bits > 0 || std::any_of(asset.parts.begin(), asset.parts.end(),
-                                             [](const Part& part) { return part.position_spacing > 0; });
+    const bool is_quantized = asset.normal_bits > 0 || std::ranges::any_of(asset.parts, [](const Part& part) {
+                                  return part.position_spacing > 0;
+                              });
     if (!is_quantized) asset.uv_bits = 0;
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 bool is_listed(const Json& document, const char* list, const char* extension) {
     const Json& names = member(document, list);
-    return std::find(names.begin(), names.end(), extension) != names.end();
+    return std::ranges::find(names, extension) != names.end();
 }
 
 /// Some programs write KTX2, AVIF and DDS images as the core source of a texture, where glTF allows PNG and JPEG only.

@@ -22,10 +22,9 @@ void pad_to_4(std::vector<std::uint8_t>& bytes) { bytes.resize((bytes.size() + 3
 Index GltfBufferBuilder::find_or_add_group(AccessorUse use, std::uint64_t stride) {
     // Each list of triangles is compressed by itself.
     const bool is_separate = compression_ == Compression::meshopt && use == AccessorUse::triangles;
-    const auto found =
-        is_separate ? groups_.end() : std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
-            return group.use == use && group.stride == stride;
-        });
+    const auto found = is_separate ? groups_.end() : std::ranges::find_if(groups_, [&](const Group& group) {
+        return group.use == use && group.stride == stride;
+    });
     const auto index = static_cast<Index>(found - groups_.begin());
     if (index == groups_.size()) groups_.push_back({use, stride, {}});
     return index;
@@ -76,8 +75,7 @@ Index GltfBufferBuilder::add_accessor(Json description, std::span<const std::uin
 
 Index GltfBufferBuilder::add_indices(const std::vector<Index>& indices, AccessorUse use) {
     constexpr Index restart = 65535;
-    const bool is_short =
-        std::all_of(indices.begin(), indices.end(), [](Index index) { return index < restart; });
+    const bool is_short = std::ranges::all_of(indices, [](Index index) { return index < restart; });
     if (!is_short)
         return add_accessor(accessor_description(NumberType::u32, "SCALAR", indices.size()),
                             bytes_of(indices), use);

@@ -23,14 +23,14 @@ std::optional<Index> valid_index(const Json& reference, std::uint64_t count) {
 }
 
 bool has_attribute(const Part& part, const std::string& name) {
-    return std::any_of(part.custom_attributes.begin(), part.custom_attributes.end(),
-                       [&](const CustomAttribute& own) { return own.name == name; });
+    return std::ranges::any_of(part.custom_attributes,
+                               [&](const CustomAttribute& own) { return own.name == name; });
 }
 
 /// Whether the UV sets of the part are those of the source.
 bool has_source_uvs(const GltfWriter& writer, const Part& part) {
     const std::set<Index> materials(part.face_material.begin(), part.face_material.end());
-    return std::none_of(materials.begin(), materials.end(), [&](Index material) {
+    return std::ranges::none_of(materials, [&](Index material) {
         return material != no_index && writer.asset.materials[material].rebaked;
     });
 }

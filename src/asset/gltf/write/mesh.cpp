@@ -55,7 +55,7 @@ Json common_member(const std::vector<const Json*>& primitives, const char* key) 
 }
 
 bool any_has(const std::vector<const Json*>& primitives, const char* key) {
-    return std::any_of(primitives.begin(), primitives.end(), [&](const Json* p) { return p->contains(key); });
+    return std::ranges::any_of(primitives, [&](const Json* p) { return p->contains(key); });
 }
 
 /// Whether the accessor type is allowed only with KHR_mesh_quantization.
@@ -103,7 +103,7 @@ void write_used_materials(GltfWriter& writer) {
         for (const Index material : part.face_material)
             if (material != no_index) used[material] = 1;
     // Material variants are left out if a material was rebaked.
-    if (std::none_of(materials.begin(), materials.end(), [](const Material& m) { return m.rebaked; }))
+    if (std::ranges::none_of(materials, [](const Material& m) { return m.rebaked; }))
         for (const Part& part : writer.asset.parts)
             for (const Index material : variant_materials(writer.asset, part)) used[material] = 1;
     for (Index i = 0; i < used.size(); ++i)
@@ -123,7 +123,7 @@ MeshGrid grid_of(GltfWriter& writer, const Json& source, const std::vector<const
     std::string unfit;
     MeshGrid grid = choose_grid(parts, writer.origin, unfit);
     const Json& primitives = member(source, "primitives");
-    if (grid.needs_transform() && !std::all_of(primitives.begin(), primitives.end(), is_triangle_primitive)) {
+    if (grid.needs_transform() && !std::ranges::all_of(primitives, is_triangle_primitive)) {
         unfit = "it has points or lines";
         grid = {};
     }
@@ -172,8 +172,8 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
 std::vector<std::string> fitting_extensions(GltfWriter& writer, const Part& part,
                                             const std::vector<const Json*>& from, const PrimitiveData& data,
                                             Json& extensions) {
-    const bool has_any = std::any_of(vertex_extensions.begin(), vertex_extensions.end(),
-                                     [&](const char* name) { return extensions.contains(name); });
+    const bool has_any =
+        std::ranges::any_of(vertex_extensions, [&](const char* name) { return extensions.contains(name); });
     if (!has_any) return {};
     std::optional<VertexNumbers> vertices;
     if (from.size() == 1 && part.file_order == FileOrder::given)
@@ -225,9 +225,7 @@ Json carried_primitive_members(GltfWriter& writer, const Part& part, Index mater
         return members;
     }
     const std::vector<std::string> fitting = fitting_extensions(writer, part, from, data, extensions);
-    const auto fits = [&](const auto& name) {
-        return std::find(fitting.begin(), fitting.end(), name) != fitting.end();
-    };
+    const auto fits = [&](const auto& name) { return std::ranges::find(fitting, name) != fitting.end(); };
     for (const std::string name : vertex_extensions)
         if (!fits(name) && extensions.erase(name) != 0 && name != "KHR_draco_mesh_compression")
             warn_mesh(writer, part.name,

@@ -21,8 +21,8 @@ constexpr std::array<StepRange, 4> step_ranges = {{{NumberType::i16, -32767, 327
                                                    {NumberType::u8, 0, 255, 1.0 / 255}}};
 
 bool is_within(const PointBounds& bounds, const StepRange& range) {
-    return *std::min_element(bounds.low.begin(), bounds.low.end()) >= range.low &&
-           *std::max_element(bounds.high.begin(), bounds.high.end()) <= range.high;
+    return *std::ranges::min_element(bounds.low) >= range.low &&
+           *std::ranges::max_element(bounds.high) <= range.high;
 }
 
 /// Bounds of all positions in steps.
@@ -62,11 +62,11 @@ MeshGrid choose_grid(const std::vector<const Part*>& parts, const Vec3& origin, 
     constexpr double max_origin = 0x1p52, max_extent = 65535;
     MeshGrid grid;
     const auto has_faces = [](const Part* part) { return !part->triangles.empty(); };
-    const auto first = std::find_if(parts.begin(), parts.end(), has_faces);
+    const auto first = std::ranges::find_if(parts, has_faces);
     if (first == parts.end() || !((*first)->position_spacing > 0)) return grid;
     const double spacing = (*first)->position_spacing;
-    if (std::any_of(parts.begin(), parts.end(),
-                    [&](const Part* part) { return has_faces(part) && part->position_spacing != spacing; })) {
+    if (std::ranges::any_of(
+            parts, [&](const Part* part) { return has_faces(part) && part->position_spacing != spacing; })) {
         unfit = "its parts have different grids";
         return grid;
     }
@@ -76,9 +76,8 @@ MeshGrid choose_grid(const std::vector<const Part*>& parts, const Vec3& origin, 
     for (const StepRange& range : {step_ranges[0], step_ranges[1]})
         if (is_within(bounds, range)) return {spacing, {}, range.type, false};
     const Vec3 extent = minus(bounds.high, bounds.low);
-    if (!(*std::max_element(extent.begin(), extent.end()) <= max_extent) ||
-        !std::all_of(bounds.low.begin(), bounds.low.end(),
-                     [&](double x) { return std::abs(x) <= max_origin; })) {
+    if (!(*std::ranges::max_element(extent) <= max_extent) ||
+        !std::ranges::all_of(bounds.low, [&](double x) { return std::abs(x) <= max_origin; })) {
         unfit = "it extends over more than 65536 steps of the grid";
         return grid;
     }

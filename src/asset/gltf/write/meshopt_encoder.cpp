@@ -74,7 +74,7 @@ CompressedView encoded_triangles(std::span<const std::uint8_t> bytes, std::uint6
     CompressedView view{{}, bytes.size() / stride, "TRIANGLES", {}};
     std::vector<unsigned> indices(view.count);
     for (std::size_t i = 0; i < indices.size(); ++i) std::memcpy(&indices[i], &bytes[i * stride], stride);
-    const unsigned vertices = 1 + *std::max_element(indices.begin(), indices.end());
+    const unsigned vertices = 1 + *std::ranges::max_element(indices);
     view.bytes.resize(meshopt_encodeIndexBufferBound(view.count, vertices));
     view.bytes.resize(
         meshopt_encodeIndexBuffer(view.bytes.data(), view.bytes.size(), indices.data(), indices.size()));

@@ -105,8 +105,8 @@ Index add_directions(GltfWriter& writer, const std::vector<std::array<float, N>>
 /// compression rounds floats, these are smaller; vertices that are not new stay exact there.
 Index add_uvs(GltfWriter& writer, const std::vector<Vec2f>& values, bool is_new) {
     const bool is_compressed = writer.asset.compression == Compression::meshopt;
-    const bool fits = std::all_of(values.begin(), values.end(), [&](const Vec2f& uv) {
-        return std::all_of(uv.begin(), uv.end(), [&](float x) {
+    const bool fits = std::ranges::all_of(values, [&](const Vec2f& uv) {
+        return std::ranges::all_of(uv, [&](float x) {
             return x >= 0 && x <= 1 &&
                    (!is_compressed || static_cast<float>(std::round(x * unit_16) / unit_16) == x);
         });
@@ -121,8 +121,8 @@ Index add_uvs(GltfWriter& writer, const std::vector<Vec2f>& values, bool is_new)
 /// Writes colours as normalised 16-bit integers, since 8 bits are too few for linear colours; as floats if a
 /// value is outside [0, 1].
 Index add_colors(GltfWriter& writer, const std::vector<Vec4f>& colors) {
-    const bool in_range = std::all_of(colors.begin(), colors.end(), [](const Vec4f& color) {
-        return std::all_of(color.begin(), color.end(), [](float x) { return x >= 0 && x <= 1; });
+    const bool in_range = std::ranges::all_of(colors, [](const Vec4f& color) {
+        return std::ranges::all_of(color, [](float x) { return x >= 0 && x <= 1; });
     });
     if (!in_range) return add_float_vertices(writer, colors);
     return add_normalized<std::uint16_t>(writer, NumberType::u16, colors,
@@ -130,8 +130,8 @@ Index add_colors(GltfWriter& writer, const std::vector<Vec4f>& colors) {
 }
 
 Index add_joints(GltfWriter& writer, const std::vector<std::array<std::uint16_t, 4>>& joints) {
-    const bool fits_u8 = std::all_of(joints.begin(), joints.end(), [](const auto& four) {
-        return std::all_of(four.begin(), four.end(), [](std::uint16_t joint) { return joint < 256; });
+    const bool fits_u8 = std::ranges::all_of(joints, [](const auto& four) {
+        return std::ranges::all_of(four, [](std::uint16_t joint) { return joint < 256; });
     });
     if (!fits_u8)
         return add_vertices(writer, accessor_description(NumberType::u16, "VEC4", joints.size()), joints);
@@ -145,7 +145,7 @@ Index add_joints(GltfWriter& writer, const std::vector<std::array<std::uint16_t,
 Index add_displacements(GltfWriter& writer, const std::vector<Vec3f>& values, bool with_bounds) {
     Json description = accessor_description(NumberType::f32, "VEC3", values.size());
     if (with_bounds) add_vector_bounds(description, values);
-    if (std::all_of(values.begin(), values.end(), [](const Vec3f& v) { return v == Vec3f{}; }))
+    if (std::ranges::all_of(values, [](const Vec3f& v) { return v == Vec3f{}; }))
         return writer.binary.add_accessor(std::move(description), {}, AccessorUse::vertices);
     return add_vertices(writer, std::move(description), values);
 }

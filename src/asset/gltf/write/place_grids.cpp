@@ -65,8 +65,7 @@ void scale_node(Json& node, const MeshGrid& grid) {
 /// Whether nothing but the mesh of a node that is not animated depends on its transform.
 bool may_be_scaled(const Json& node) {
     for (const auto& [key, value] : node.items())
-        if (std::find(scalable_members.begin(), scalable_members.end(), key) == scalable_members.end())
-            return false;
+        if (std::ranges::find(scalable_members, key) == scalable_members.end()) return false;
     return true;
 }
 
@@ -118,8 +117,8 @@ void write_bind_matrices(GltfWriter& writer, Json& skin, const MeshGrid& grid) {
     std::vector<std::array<float, 16>> matrices;
     for (const Matrix& m : inverse_binds(writer.source, skin).matrices) {
         const Matrix scaled = product(m, matrix_of(grid));
-        std::transform(scaled.begin(), scaled.end(), matrices.emplace_back().begin(),
-                       [](double x) { return static_cast<float>(x); });
+        std::ranges::transform(scaled, matrices.emplace_back().begin(),
+                               [](double x) { return static_cast<float>(x); });
     }
     skin["inverseBindMatrices"] = add_floats(writer, matrices, "MAT4", AccessorUse::matrices);
 }
@@ -135,7 +134,7 @@ void place_skins(GltfWriter& writer) {
         MeshGrid grid = writer.grids[mesh];
         if (!grid.needs_transform()) grid = {};
         auto& own = copies[skin];
-        auto found = std::find_if(own.begin(), own.end(), [&](const auto& copy) {
+        auto found = std::ranges::find_if(own, [&](const auto& copy) {
             return copy.first.spacing == grid.spacing && copy.first.origin == grid.origin;
         });
         if (found == own.end()) {
@@ -186,8 +185,7 @@ Index move_mesh_to_child(GltfWriter& writer, Index node) {
 }
 
 bool any_needs_transform(const GltfWriter& writer) {
-    return std::any_of(writer.grids.begin(), writer.grids.end(),
-                       [](const MeshGrid& grid) { return grid.needs_transform(); });
+    return std::ranges::any_of(writer.grids, [](const MeshGrid& grid) { return grid.needs_transform(); });
 }
 
 void place_grids(GltfWriter& writer) {

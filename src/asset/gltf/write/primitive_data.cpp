@@ -140,7 +140,7 @@ void gather_influences(const Part& part, PrimitiveData& data) {
     if (part.joints.empty() || part.weights.empty()) return;
     data.joints = gather(part.joints, data.vertices);
     data.weights = gather(part.weights, data.vertices);
-    if (std::all_of(data.weights.begin(), data.weights.end(), [](const Vec4f& w) { return w == Vec4f{}; })) {
+    if (std::ranges::all_of(data.weights, [](const Vec4f& w) { return w == Vec4f{}; })) {
         data.joints.clear();
         data.weights.clear();
     }
@@ -185,9 +185,7 @@ PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces
     if (!part.colors.empty()) {
         data.colors = gather(part.colors, data.vertices);
         // A primitive without colours is white.
-        if (std::all_of(data.colors.begin(), data.colors.end(), [](const Vec4f& c) {
-                return c == Vec4f{1, 1, 1, 1};
-            }))
+        if (std::ranges::all_of(data.colors, [](const Vec4f& c) { return c == Vec4f{1, 1, 1, 1}; }))
             data.colors.clear();
     }
     return data;

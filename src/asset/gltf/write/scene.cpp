@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 11> remapped_extensions = {
 
 bool is_skinned(const Json& mesh) {
     const Json& primitives = member(mesh, "primitives");
-    return std::any_of(primitives.begin(), primitives.end(), [](const Json& primitive) {
+    return std::ranges::any_of(primitives, [](const Json& primitive) {
         return member(primitive, "attributes").contains("JOINTS_0");
     });
 }
@@ -142,7 +142,7 @@ void remap_image_lights(GltfWriter& writer) {
 
 bool contains_number(const Json& value) {
     if (value.is_number_unsigned()) return true;
-    return value.is_structured() && std::any_of(value.begin(), value.end(), contains_number);
+    return value.is_structured() && std::ranges::any_of(value, contains_number);
 }
 
 /// Whether what an extension names by number has the number of the source: meshes whose faces are gone and images that
@@ -150,8 +150,8 @@ bool contains_number(const Json& value) {
 bool keeps_numbers(const GltfWriter& writer) {
     for (Index mesh = 0; mesh < writer.mesh_map.size(); ++mesh)
         if (writer.mesh_map[mesh] != mesh) return false;
-    return std::none_of(writer.source.images.begin(), writer.source.images.end(),
-                        [](const Image& image) { return image.encoded.empty(); });
+    return std::ranges::none_of(writer.source.images,
+                                [](const Image& image) { return image.encoded.empty(); });
 }
 
 void warn_about_unknown_extensions(GltfWriter& writer) {
@@ -159,8 +159,7 @@ void warn_about_unknown_extensions(GltfWriter& writer) {
     for_each_extension(writer.out, [&](const std::string& name, const Json& value) {
         if (name.compare(0, 4, "KHR_") != 0 && name != center_name &&
             !(names_by_number(name) && keeps_numbers(writer)) &&
-            std::find(remapped_extensions.begin(), remapped_extensions.end(), name) ==
-                remapped_extensions.end() &&
+            std::ranges::find(remapped_extensions, name) == remapped_extensions.end() &&
             contains_number(value))
             unknown.insert(name);
     });

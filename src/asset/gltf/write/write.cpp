@@ -34,8 +34,7 @@ Json start_document(const Json& source) {
     Json out = Json::object();
     if (source.is_object())
         for (const auto& [key, value] : source.items())
-            if (std::find(rebuilt_arrays.begin(), rebuilt_arrays.end(), key) == rebuilt_arrays.end())
-                out[key] = value;
+            if (std::ranges::find(rebuilt_arrays, key) == rebuilt_arrays.end()) out[key] = value;
     out["asset"]["version"] = "2.0";
     out["asset"]["generator"] = "faqem " FAQEM_VERSION;
     return out;
@@ -49,9 +48,7 @@ void add_missing_bounds(Json& description, const std::vector<std::uint8_t>& dens
         return;
     std::vector<float> values(dense.size() / sizeof(float));
     if (!values.empty()) std::memcpy(values.data(), dense.data(), values.size() * sizeof(float));
-    if (values.empty() ||
-        !std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }))
-        return;
+    if (values.empty() || !std::ranges::all_of(values, [](float x) { return std::isfinite(x); })) return;
     add_bounds<float>(description, values, component_count(string_member(description, "type")));
 }
 
