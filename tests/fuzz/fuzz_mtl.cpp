@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Asset asset;
     detail::FileFinder finder("no-such-folder");
     detail::ReferencedImages images(asset, finder);
-    for (const detail::MtlMaterial& material : *materials) detail::MtlMaterials(asset, images).add(material);
+    for (const detail::MtlMaterial& material : *materials) detail::add_mtl_material(asset, images, material);
     fuzz::expect_sound(asset);
     return 0;
 }

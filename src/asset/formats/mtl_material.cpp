@@ -47,136 +47,151 @@ bool is_constant(const ScalarImage& image, std::uint8_t value) {
 
 const char* const hides_everything = "map_d would hide everything, and is left out";
 
-}  // namespace
+/// Adds materials and their images to an asset.
+class MtlMaterials {
+public:
+    MtlMaterials(Asset& asset, ReferencedImages& images) : asset_(asset), images_(images) {}
 
-void MtlMaterials::warn(const MtlMaterial& material, const std::string& what) {
-    asset_.warnings.push_back("material '" + material.name + "': " + what);
-}
+    /// Returns the index of the material in Asset::materials.
+    Index add(const MtlMaterial& source) {
+        Material material = source.values;
+        set_base_color(material, source);
+        if (ReferencedImage* image = read(source, source.emissive))
+            material.emissive_texture = placed(source.emissive, images_.use(*image));
+        set_normals(material, source);
+        set_roughness_metallic(material, source);
+        asset_.materials.push_back(std::move(material));
+        return static_cast<Index>(asset_.materials.size() - 1);
+    }
 
-ReferencedImage* MtlMaterials::read(const MtlMaterial& material, const MtlTexture& texture) {
-    if (texture.file.empty()) return nullptr;
-    return images_.read("material '" + material.name + "'", texture.file, material.folder);
-}
-
-Index MtlMaterials::add(const MtlMaterial& source) {
-    Material material = source.values;
-    set_base_color(material, source);
-    if (ReferencedImage* image = read(source, source.emissive))
-        material.emissive_texture = placed(source.emissive, images_.use(*image));
-    set_normals(material, source);
-    set_roughness_metallic(material, source);
-    asset_.materials.push_back(std::move(material));
-    return static_cast<Index>(asset_.materials.size() - 1);
-}
-
-void MtlMaterials::set_base_color(Material& to, const MtlMaterial& from) {
-    ReferencedImage* color = read(from, from.color);
-    ReferencedImage* alpha = read(from, from.alpha);
-    if (alpha) {
-        try {
-            set_alpha(to, from, color, *alpha);
-        } catch (const InputError& error) {
-            warn(from, std::string("map_d left out: ") + error.what());
+private:
+    void set_base_color(Material& to, const MtlMaterial& from) {
+        ReferencedImage* color = read(from, from.color);
+        ReferencedImage* alpha = read(from, from.alpha);
+        if (alpha) {
+            try {
+                set_alpha(to, from, color, *alpha);
+            } catch (const InputError& error) {
+                warn(from, std::string("map_d left out: ") + error.what());
+            }
         }
+        if (color && !to.base_color_texture) to.base_color_texture = placed(from.color, images_.use(*color));
     }
-    if (color && !to.base_color_texture) to.base_color_texture = placed(from.color, images_.use(*color));
-}
 
-void MtlMaterials::set_alpha(Material& to, const MtlMaterial& from, ReferencedImage* color,
-                             ReferencedImage& alpha) {
-    const bool is_own_alpha = color == &alpha && (from.alpha.channel == ScalarChannel::automatic ||
-                                                  from.alpha.channel == ScalarChannel::alpha);
-    if (is_own_alpha) {
-        try {
-            if (is_constant(scalar_image(images_.decode(alpha), ScalarChannel::alpha), 0))
-                return warn(from, hides_everything);
-        } catch (const InputError&) {  // reported when its pixels are needed
-        }
-        to.alpha_mode = AlphaMode::blend;
-        return;
-    }
-    if (color && !has_same_placement(from.color, from.alpha))
-        return warn(from, "map_d left out: its options differ from those of map_Kd");
-    const ScalarImage values = scalar_image(images_.decode(alpha), from.alpha.channel);
-    if (is_constant(values, 0)) return warn(from, hides_everything);
-    if (is_constant(values, 255)) return;
-    const std::string key =
-        "alpha|" + (color ? color->image.uri : std::string()) + "|" + value_key(&alpha, from.alpha);
-    const Index image = images_.derive(key, color ? color->image.name : alpha.image.name, [&] {
-        return with_alpha(color ? images_.decode(*color) : Pixels{1, 1, {255, 255, 255, 255}, false}, values);
-    });
-    to.base_color_texture = placed(from.alpha, image);
-    to.alpha_mode = AlphaMode::blend;
-}
-
-void MtlMaterials::set_normals(Material& to, const MtlMaterial& from) {
-    if (ReferencedImage* image = read(from, from.normal)) {
-        to.normal_texture = placed(from.normal, images_.use(*image));
-        to.normal_scale = from.normal.multiplier;
-        if (!from.bump.file.empty() && from.bump.file != from.normal.file)
-            warn(from, "bump left out beside norm");
-        return;
-    }
-    ReferencedImage* image = read(from, from.bump);
-    if (!image) return;
-    try {
-        set_bump(to, from, *image);
-    } catch (const InputError& error) {
-        warn(from, std::string("bump left out: ") + error.what());
-    }
-}
-
-void MtlMaterials::set_bump(Material& to, const MtlMaterial& from, ReferencedImage& image) {
-    const MtlTexture& bump = from.bump;
-    if (bump.channel == ScalarChannel::automatic) {
-        if (!image.is_normal_map) image.is_normal_map = is_normal_map(images_.decode(image));
-        if (*image.is_normal_map) {
-            to.normal_texture = placed(bump, images_.use(image));
-            to.normal_scale = bump.multiplier;
+    void set_alpha(Material& to, const MtlMaterial& from, ReferencedImage* color, ReferencedImage& alpha) {
+        const bool is_own_alpha = color == &alpha && (from.alpha.channel == ScalarChannel::automatic ||
+                                                      from.alpha.channel == ScalarChannel::alpha);
+        if (is_own_alpha) {
+            try {
+                if (is_constant(scalar_image(images_.decode(alpha), ScalarChannel::alpha), 0))
+                    return warn(from, hides_everything);
+            } catch (const InputError&) {  // reported when its pixels are needed
+            }
+            to.alpha_mode = AlphaMode::blend;
             return;
         }
-    }
-    const std::string key = "bump|" + value_key(&image, bump) + "|" + std::to_string(bump.multiplier);
-    const Index normals = images_.derive(key, image.image.name, [&] {
-        const ScalarImage heights = scalar_image(images_.decode(image), data_channel(bump));
-        if (is_constant(heights, heights.values.front())) return Pixels{};
-        return normals_of_heights(heights, bump.multiplier * bump_depth);
-    });
-    if (normals != no_index) to.normal_texture = placed(bump, normals);
-}
-
-void MtlMaterials::set_roughness_metallic(Material& to, const MtlMaterial& from) {
-    ReferencedImage* roughness = read(from, from.roughness);
-    ReferencedImage* metallic = read(from, from.metallic);
-    if (roughness && metallic && !has_same_placement(from.roughness, from.metallic)) {
-        warn(from, "map_Pm left out: its options differ from those of map_Pr");
-        metallic = nullptr;
-    }
-    if (!roughness && !metallic) return;
-    const MtlTexture& texture = roughness ? from.roughness : from.metallic;
-    const auto has_channels = [&](ScalarChannel r, ScalarChannel m) {
-        return roughness == metallic && from.roughness.channel == r && from.metallic.channel == m;
-    };
-    const bool is_packed = has_channels(ScalarChannel::green, ScalarChannel::blue);  // as in glTF
-    const bool may_be_packed = has_channels(ScalarChannel::automatic, ScalarChannel::automatic);
-    try {
+        if (color && !has_same_placement(from.color, from.alpha))
+            return warn(from, "map_d left out: its options differ from those of map_Kd");
+        const ScalarImage values = scalar_image(images_.decode(alpha), from.alpha.channel);
+        if (is_constant(values, 0)) return warn(from, hides_everything);
+        if (is_constant(values, 255)) return;
         const std::string key =
-            "metal|" + value_key(roughness, from.roughness) + "|" + value_key(metallic, from.metallic);
-        Index image = images_.derive(key, (roughness ? roughness : metallic)->image.name, [&] {
-            const auto values = [&](const ReferencedImage* source, const MtlTexture& of) {
-                return source ? scalar_image(images_.decode(*source), data_channel(of)) : ScalarImage{};
-            };
-            if (is_packed || (may_be_packed && !is_grey(images_.decode(*roughness)))) return Pixels{};
-            const ScalarImage r = values(roughness, from.roughness), m = values(metallic, from.metallic);
-            return roughness_metallic(roughness ? &r : nullptr, metallic ? &m : nullptr);
+            "alpha|" + (color ? color->image.uri : std::string()) + "|" + value_key(&alpha, from.alpha);
+        const Index image = images_.derive(key, color ? color->image.name : alpha.image.name, [&] {
+            return with_alpha(color ? images_.decode(*color) : Pixels{1, 1, {255, 255, 255, 255}, false},
+                              values);
         });
-        if (image == no_index) image = images_.use(*roughness);
-        to.metallic_roughness_texture = placed(texture, image);
-        if (roughness) to.roughness = 1;
-        if (metallic) to.metallic = 1;
-    } catch (const InputError& error) {
-        warn(from, std::string("map_Pr and map_Pm left out: ") + error.what());
+        to.base_color_texture = placed(from.alpha, image);
+        to.alpha_mode = AlphaMode::blend;
     }
+
+    void set_normals(Material& to, const MtlMaterial& from) {
+        if (ReferencedImage* image = read(from, from.normal)) {
+            to.normal_texture = placed(from.normal, images_.use(*image));
+            to.normal_scale = from.normal.multiplier;
+            if (!from.bump.file.empty() && from.bump.file != from.normal.file)
+                warn(from, "bump left out beside norm");
+            return;
+        }
+        ReferencedImage* image = read(from, from.bump);
+        if (!image) return;
+        try {
+            set_bump(to, from, *image);
+        } catch (const InputError& error) {
+            warn(from, std::string("bump left out: ") + error.what());
+        }
+    }
+
+    void set_bump(Material& to, const MtlMaterial& from, ReferencedImage& image) {
+        const MtlTexture& bump = from.bump;
+        if (bump.channel == ScalarChannel::automatic) {
+            if (!image.is_normal_map) image.is_normal_map = is_normal_map(images_.decode(image));
+            if (*image.is_normal_map) {
+                to.normal_texture = placed(bump, images_.use(image));
+                to.normal_scale = bump.multiplier;
+                return;
+            }
+        }
+        const std::string key = "bump|" + value_key(&image, bump) + "|" + std::to_string(bump.multiplier);
+        const Index normals = images_.derive(key, image.image.name, [&] {
+            const ScalarImage heights = scalar_image(images_.decode(image), data_channel(bump));
+            if (is_constant(heights, heights.values.front())) return Pixels{};
+            return normals_of_heights(heights, bump.multiplier * bump_depth);
+        });
+        if (normals != no_index) to.normal_texture = placed(bump, normals);
+    }
+
+    void set_roughness_metallic(Material& to, const MtlMaterial& from) {
+        ReferencedImage* roughness = read(from, from.roughness);
+        ReferencedImage* metallic = read(from, from.metallic);
+        if (roughness && metallic && !has_same_placement(from.roughness, from.metallic)) {
+            warn(from, "map_Pm left out: its options differ from those of map_Pr");
+            metallic = nullptr;
+        }
+        if (!roughness && !metallic) return;
+        const MtlTexture& texture = roughness ? from.roughness : from.metallic;
+        const auto has_channels = [&](ScalarChannel r, ScalarChannel m) {
+            return roughness == metallic && from.roughness.channel == r && from.metallic.channel == m;
+        };
+        const bool is_packed = has_channels(ScalarChannel::green, ScalarChannel::blue);  // as in glTF
+        const bool may_be_packed = has_channels(ScalarChannel::automatic, ScalarChannel::automatic);
+        try {
+            const std::string key =
+                "metal|" + value_key(roughness, from.roughness) + "|" + value_key(metallic, from.metallic);
+            Index image = images_.derive(key, (roughness ? roughness : metallic)->image.name, [&] {
+                const auto values = [&](const ReferencedImage* source, const MtlTexture& of) {
+                    return source ? scalar_image(images_.decode(*source), data_channel(of)) : ScalarImage{};
+                };
+                if (is_packed || (may_be_packed && !is_grey(images_.decode(*roughness)))) return Pixels{};
+                const ScalarImage r = values(roughness, from.roughness), m = values(metallic, from.metallic);
+                return roughness_metallic(roughness ? &r : nullptr, metallic ? &m : nullptr);
+            });
+            if (image == no_index) image = images_.use(*roughness);
+            to.metallic_roughness_texture = placed(texture, image);
+            if (roughness) to.roughness = 1;
+            if (metallic) to.metallic = 1;
+        } catch (const InputError& error) {
+            warn(from, std::string("map_Pr and map_Pm left out: ") + error.what());
+        }
+    }
+
+    ReferencedImage* read(const MtlMaterial& material, const MtlTexture& texture) {
+        if (texture.file.empty()) return nullptr;
+        return images_.read("material '" + material.name + "'", texture.file, material.folder);
+    }
+
+    void warn(const MtlMaterial& material, const std::string& what) {
+        asset_.warnings.push_back("material '" + material.name + "': " + what);
+    }
+
+    Asset& asset_;
+    ReferencedImages& images_;
+};
+
+}  // namespace
+
+Index add_mtl_material(Asset& asset, ReferencedImages& images, const MtlMaterial& material) {
+    return MtlMaterials(asset, images).add(material);
 }
 
 }  // namespace faqem::detail

@@ -271,7 +271,6 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::map<std::st
                    FileFinder& finder) {
     std::vector<Index>& of_face = asset.parts[0].face_material;
     ReferencedImages images(asset, finder);
-    MtlMaterials materials(asset, images);
     std::vector<Index> added(in.material_names.size(), no_index);
     for (Index& m : of_face) {
         if (m == no_index) continue;
@@ -283,7 +282,7 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::map<std::st
             unknown.values.metallic = 0;
             if (known == libraries.end())
                 asset.warnings.push_back("material '" + name + "' is not defined in any readable library");
-            added[m] = materials.add(known == libraries.end() ? unknown : known->second);
+            added[m] = add_mtl_material(asset, images, known == libraries.end() ? unknown : known->second);
         }
         m = added[m];
     }
