@@ -4,11 +4,7 @@
 #include <array>
 #include <fstream>
 
-#include "asset/formats/obj.hpp"
-#include "asset/formats/off.hpp"
-#include "asset/formats/ply.hpp"
-#include "asset/formats/ply_header.hpp"
-#include "asset/formats/stl.hpp"
+#include "asset/formats/formats.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/image/image.hpp"

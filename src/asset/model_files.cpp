@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "asset/file_format.hpp"
-#include "asset/formats/obj.hpp"
+#include "asset/formats/formats.hpp"
 #include "asset/io/file.hpp"
 #include "faqem/error.hpp"
 

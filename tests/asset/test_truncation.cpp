@@ -1,8 +1,5 @@
 #include "asset/formats/mtl.hpp"
-#include "asset/formats/obj.hpp"
-#include "asset/formats/off.hpp"
-#include "asset/formats/ply.hpp"
-#include "asset/formats/stl.hpp"
+#include "asset/formats/formats.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 

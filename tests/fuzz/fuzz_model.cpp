@@ -1,10 +1,7 @@
 // Complete files of the format FAQEM_FUZZ_FORMAT. The target glb, complete GLB or JSON glTF files, tests mainly the GLB
 // framing.
 
-#include "asset/formats/obj.hpp"
-#include "asset/formats/off.hpp"
-#include "asset/formats/ply.hpp"
-#include "asset/formats/stl.hpp"
+#include "asset/formats/formats.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "fuzz/fuzz.hpp"
 

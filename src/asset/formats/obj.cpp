@@ -1,4 +1,4 @@
-#include "asset/formats/obj.hpp"
+#include "asset/formats/formats.hpp"
 
 #include "asset/scene/messages.hpp"
 

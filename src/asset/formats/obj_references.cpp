@@ -4,8 +4,8 @@
 #include <set>
 #include <string_view>
 
+#include "asset/formats/formats.hpp"
 #include "asset/formats/mtl.hpp"
-#include "asset/formats/obj.hpp"
 #include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/obj_tiles.hpp"
 #include "asset/io/reference_list.hpp"

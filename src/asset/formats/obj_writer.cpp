@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "asset/formats/formats.hpp"
 #include "asset/formats/mtl_writer.hpp"
-#include "asset/formats/obj.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/flatten.hpp"

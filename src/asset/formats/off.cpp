@@ -1,4 +1,4 @@
-#include "asset/formats/off.hpp"
+#include "asset/formats/formats.hpp"
 
 #include "asset/scene/messages.hpp"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "asset/io/file_finder.hpp"
+#include "asset/formats/formats.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

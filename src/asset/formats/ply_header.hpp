@@ -4,13 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "asset/io/number_type.hpp"
-#include "asset/io/reference_list.hpp"
 
 namespace faqem::detail {
 
@@ -42,9 +40,5 @@ struct PlyHeader {
 /// \param file   path for messages
 /// \throws InputError  with the line, if the header is invalid
 PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);
-
-/// Adds the files of the comments `TextureFile` in the header.
-/// \param model  path of a regular file, which may be damaged
-void list_ply_references(const std::filesystem::path& model, ReferenceList& files);
 
 }  // namespace faqem::detail

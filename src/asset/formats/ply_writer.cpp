@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "asset/formats/ply.hpp"
+#include "asset/formats/formats.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/material_textures.hpp"

@@ -1,6 +1,6 @@
 #include "asset/formats/mtl.hpp"
 
-#include "asset/formats/obj.hpp"
+#include "asset/formats/formats.hpp"
 #include "asset/image/srgb.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"

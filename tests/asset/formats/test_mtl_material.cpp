@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "asset/formats/obj.hpp"
+#include "asset/formats/formats.hpp"
 #include "asset/model_files.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "asset/formats/obj.hpp"
+#include "asset/formats/formats.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 

@@ -3,7 +3,7 @@
 #include <random>
 #include <sstream>
 
-#include "asset/formats/obj.hpp"
+#include "asset/formats/formats.hpp"
 #include "asset/image/srgb.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"

@@ -1,4 +1,4 @@
-#include "asset/formats/ply.hpp"
+#include "asset/formats/formats.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "asset/formats/polygon_content.hpp"
 
-#include "asset/formats/ply.hpp"
+#include "asset/formats/formats.hpp"
 #include "asset/model_files.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"

@@ -1,4 +1,4 @@
-#include "asset/formats/stl.hpp"
+#include "asset/formats/formats.hpp"
 
 #include <bit>
 #include <cmath>

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "asset/formats/obj.hpp"
-#include "asset/formats/off.hpp"
-#include "asset/formats/ply.hpp"
+#include "asset/formats/formats.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
 
