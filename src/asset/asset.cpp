@@ -4,7 +4,7 @@
 
 #include "asset/file_format.hpp"
 #include "asset/gltf/gltf.hpp"
-#include "asset/gltf/pose.hpp"
+#include "asset/gltf/scene.hpp"
 #include "asset/io/file.hpp"
 #include "asset/io/set_folder.hpp"
 #include "asset/model_files.hpp"

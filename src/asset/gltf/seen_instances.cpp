@@ -5,7 +5,6 @@
 #include <string>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/pose.hpp"
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
 #include "asset/scene/affine.hpp"

@@ -1,9 +1,10 @@
 #pragma once
 /// \file
-/// The source document that the glTF reader keeps for the writer.
+/// The source document that the glTF reader keeps for the writer, and what of it no mesh uses.
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "asset/gltf/json.hpp"
@@ -21,5 +22,23 @@ struct SourceDocument {
     std::vector<Material> materials;  ///< one per material as read; TextureRef::image is an index in `images`
     std::string unused;  ///< unused_objects() of the file: what save() leaves out, with a warning
 };
+
+namespace detail {
+
+/// Whether an extension names materials, textures and images by number: VRM and VRMC_*.
+bool names_by_number(std::string_view extension);
+
+/// Whether a document has or uses such an extension, so that all of these objects and their order must stay.
+bool names_objects_by_number(const Json& document);
+
+/// Counts the materials that no primitive has, itself, in a variant or as a coarser level of its material, and the
+/// images that only these or nothing refers to. Images of image-based lights and of features and their properties are
+/// in use; all materials and images are if names_objects_by_number().
+/// \param document  validated
+/// \return `2 materials and 1 image that no mesh uses`; empty if there are none
+/// Complexity: O(size of the document)
+std::string unused_objects(const Json& document);
+
+}  // namespace detail
 
 }  // namespace faqem

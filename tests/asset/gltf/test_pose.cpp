@@ -1,4 +1,4 @@
-#include "asset/gltf/pose.hpp"
+#include "asset/gltf/scene.hpp"
 
 #include <cmath>
 #include <limits>

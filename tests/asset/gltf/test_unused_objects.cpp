@@ -1,4 +1,4 @@
-#include "asset/gltf/unused_objects.hpp"
+#include "asset/gltf/source_document.hpp"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/gltf/scene.hpp"
-#include "asset/gltf/unused_objects.hpp"
+#include "asset/gltf/source_document.hpp"
 #include "asset/image/image.hpp"
 
 namespace faqem::detail {

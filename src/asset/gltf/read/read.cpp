@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "asset/gltf/gltf.hpp"
-#include "asset/gltf/pose.hpp"
 #include "asset/gltf/read/checker.hpp"
-#include "asset/gltf/unused_objects.hpp"
+#include "asset/gltf/scene.hpp"
+#include "asset/gltf/source_document.hpp"
 #include "asset/image/image.hpp"
 #include "asset/scene/affine.hpp"
 #include "asset/scene/material_textures.hpp"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "asset/gltf/unused_objects.hpp"
+#include "asset/gltf/source_document.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/scene/material_textures.hpp"
 

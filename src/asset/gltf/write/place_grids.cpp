@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/pose.hpp"
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/writer.hpp"

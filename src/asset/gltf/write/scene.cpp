@@ -7,7 +7,7 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/scene.hpp"
-#include "asset/gltf/unused_objects.hpp"
+#include "asset/gltf/source_document.hpp"
 #include "asset/gltf/write/feature_metadata.hpp"
 #include "asset/gltf/write/index_extensions.hpp"
 #include "asset/gltf/write/writer.hpp"
