@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The source document that the glTF reader keeps for the writer, and what of it no mesh uses.
+/// The source document that the glTF reader keeps for the writer, what of it no mesh uses, and what its bytes are.
 
 #include <cstdint>
 #include <string>
@@ -9,6 +9,7 @@
 
 #include "asset/gltf/json.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/report.hpp"
 
 namespace faqem {
 
@@ -38,6 +39,10 @@ bool names_objects_by_number(const Json& document);
 /// \return `2 materials and 1 image that no mesh uses`; empty if there are none
 /// Complexity: O(size of the document)
 std::string unused_objects(const Json& document);
+
+/// Lists the buffer views of a document, without those of images, in their order.
+/// Complexity: O(size of the document).
+std::vector<ResultView> buffer_views(const Json& document);
 
 }  // namespace detail
 

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "asset/gltf/buffer_views.hpp"
+#include "asset/gltf/source_document.hpp"
 #include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
 

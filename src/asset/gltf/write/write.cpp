@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/buffer_views.hpp"
 #include "asset/gltf/container.hpp"
 #include "asset/gltf/gltf.hpp"
+#include "asset/gltf/source_document.hpp"
 #include "asset/gltf/write/feature_metadata.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
