@@ -4,7 +4,6 @@
 #include <charconv>
 #include <utility>
 
-#include "asset/formats/byte_colors.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/scene/messages.hpp"
 

@@ -8,7 +8,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "asset/formats/byte_colors.hpp"
 #include "asset/formats/ply_data.hpp"
 #include "asset/formats/ply_header.hpp"
 #include "asset/formats/polygon_content.hpp"
