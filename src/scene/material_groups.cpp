@@ -26,16 +26,16 @@ bool has_plain_materials(const Asset& asset, const BakeOptions& bake) {
     if (bake.kind != Bake::automatic || bake.normal_map == NormalMap::on ||
         bake.correspondence == Recording::on)
         return false;
-    return std::none_of(asset.materials.begin(), asset.materials.end(),
-                        [](const Material& material) { return has_textures(material); }) &&
-           std::none_of(asset.parts.begin(), asset.parts.end(), [](const Part& part) {
+    return std::ranges::none_of(asset.materials,
+                                [](const Material& material) { return has_textures(material); }) &&
+           std::ranges::none_of(asset.parts, [](const Part& part) {
                return !part.colors.empty() || !part.joints.empty() || !part.morph_targets.empty();
            });
 }
 
 std::vector<Index> materials_of(const Part& part) {
     std::vector<Index> result = part.face_material;
-    std::sort(result.begin(), result.end());
+    std::ranges::sort(result);
     result.erase(std::unique(result.begin(), result.end()), result.end());
     if (!result.empty() && result.back() == no_index) result.pop_back();
     return result;
@@ -77,16 +77,13 @@ MaterialGroups group_materials(const Asset& asset, const BakeOptions& bake,
 }
 
 bool has_non_white_colors(const Part& part) {
-    return std::any_of(part.colors.begin(), part.colors.end(), [](const Vec4f& c) {
-        return c != Vec4f{1, 1, 1, 1};
-    });
+    return std::ranges::any_of(part.colors, [](const Vec4f& c) { return c != Vec4f{1, 1, 1, 1}; });
 }
 
 bool has_spare_uvs_only(const Asset& asset, const Part& part) {
     const std::vector<Index> materials = materials_of(part);
     return !part.uvs.empty() && !has_non_white_colors(part) &&
-           std::none_of(materials.begin(), materials.end(),
-                        [&](Index m) { return has_textures(asset.materials[m]); });
+           std::ranges::none_of(materials, [&](Index m) { return has_textures(asset.materials[m]); });
 }
 
 std::vector<std::uint8_t> parts_with_own_uvs(const Asset& asset, const BakeOptions& bake) {
@@ -96,7 +93,7 @@ std::vector<std::uint8_t> parts_with_own_uvs(const Asset& asset, const BakeOptio
     const MaterialGroups groups = group_materials(asset, bake);
     std::vector<std::uint8_t> has_page;
     for (const MaterialGroup& group : groups.groups)
-        has_page.push_back(std::any_of(group.materials.begin(), group.materials.end(), [&](Index m) {
+        has_page.push_back(std::ranges::any_of(group.materials, [&](Index m) {
             const Material& material = material_or_default(asset, m);
             return has_textures(material) || !has_equal_factors(material, group.material);
         }));

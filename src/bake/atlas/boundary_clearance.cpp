@@ -36,8 +36,7 @@ std::vector<ChartBoundaryEdge> boundary_edges(std::span<const PageTriangle> all,
         const PageTriangle& face = all[chart.faces[i]];
         for (std::size_t c = 0; c < 3; ++c) {
             const Index other = face.adjacent[c].triangle;
-            if (other != no_index && std::binary_search(chart.faces.begin(), chart.faces.end(), other))
-                continue;
+            if (other != no_index && std::ranges::binary_search(chart.faces, other)) continue;
             const std::size_t from = (c + 1) % 3, to = (c + 2) % 3;
             edges.push_back({chart.points[i][from], chart.points[i][to], engine::to_eigen(face.corners[from]),
                              engine::to_eigen(face.corners[to]), face.density});

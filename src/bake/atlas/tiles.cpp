@@ -76,7 +76,7 @@ public:
             last = owner_[at];
             if (last != no_index) result.triangles.push_back(last);
         });
-        std::sort(result.triangles.begin(), result.triangles.end());
+        std::ranges::sort(result.triangles);
         result.triangles.erase(std::unique(result.triangles.begin(), result.triangles.end()),
                                result.triangles.end());
         result.owners.assign(owner_.size(), TileOwners::none);
@@ -85,7 +85,7 @@ public:
         for_each_owned_sample([&](std::size_t at) {
             if (owner_[at] != last) {
                 last = owner_[at];
-                const auto found = std::lower_bound(result.triangles.begin(), result.triangles.end(), last);
+                const auto found = std::ranges::lower_bound(result.triangles, last);
                 number = found != result.triangles.end()
                              ? static_cast<std::uint32_t>(found - result.triangles.begin())
                              : TileOwners::none;
@@ -219,8 +219,7 @@ TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart, std::span<co
     for (Index t : chart.triangles) {
         for (std::size_t c = 0; c < 3; ++c) {
             const Index other = triangles[t].adjacent[c].triangle;
-            const bool within = other != no_index &&
-                                std::binary_search(chart.triangles.begin(), chart.triangles.end(), other);
+            const bool within = other != no_index && std::ranges::binary_search(chart.triangles, other);
             if (!within) owners.assign_nearest(t, c, reach);
         }
     }

@@ -70,14 +70,13 @@ void pull(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t>& 
 }
 
 bool is_complete(const std::vector<std::uint8_t>& known) {
-    return std::find(known.begin(), known.end(), 0) == known.end();
+    return std::ranges::find(known, 0) == known.end();
 }
 
 }  // namespace
 
 void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRange channels) {
-    if (is_complete(known) || std::none_of(known.begin(), known.end(), [](std::uint8_t k) { return k; }))
-        return;
+    if (is_complete(known) || std::ranges::none_of(known, [](std::uint8_t k) { return k; })) return;
     std::vector<PyramidLevel> levels;
     levels.push_back(push(pixels.width, pixels.height, pixels.rgba, known));
     while (!is_complete(levels.back().known)) {

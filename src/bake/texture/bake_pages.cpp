@@ -64,7 +64,7 @@ void plan_layers(const Material& material, NormalMap normal_map, Page& page) {
     page.layers = extension_layers(material);
     if (normal_map == NormalMap::off) std::erase_if(page.layers, is_normal_map);
     page.channels.layers = !page.layers.empty();
-    page.channels.layer_normals = std::any_of(page.layers.begin(), page.layers.end(), is_normal_map);
+    page.channels.layer_normals = std::ranges::any_of(page.layers, is_normal_map);
 }
 
 // The pages of all groups, with their faces and channels.
@@ -106,8 +106,7 @@ bool layout_pages(const BakeJob& job, const SourceSampler& sampler, std::vector<
                 make_page_mesh(job.parts, std::move(page.mesh.faces), sampler, job.options, block_context);
             page.layout = layout_page(page.mesh, job.options.kind, job.options.texture_size, block_context);
         });
-    return std::all_of(pages.begin(), pages.end(),
-                       [&](const Page& page) { return page.layout || !needs_layout(page); });
+    return std::ranges::all_of(pages, [&](const Page& page) { return page.layout || !needs_layout(page); });
 }
 
 void warn_of_normal_maps(const Asset& source, const MaterialGroups& groups, const std::vector<Page>& pages,

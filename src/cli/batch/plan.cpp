@@ -83,8 +83,7 @@ std::vector<BatchFile> find_models(const fs::path& folder, std::size_t& others, 
     }
     if (files.empty()) throw InputError(folder.string(), "", "contains no models");
     // Sorted, so that nothing depends on the order of the directory entries.
-    std::sort(files.begin(), files.end(),
-              [](const BatchFile& a, const BatchFile& b) { return a.name < b.name; });
+    std::ranges::sort(files, [](const BatchFile& a, const BatchFile& b) { return a.name < b.name; });
     return files;
 }
 
@@ -95,8 +94,7 @@ std::vector<BatchFile> plan_batch(const fs::path& folder, const fs::path& out_fo
         throw OptionError(out_folder.string() + ": is the input directory; choose another output directory");
     std::vector<BatchFile> files = find_models(folder, others, out_folder);
     assign_output_paths(files, out_folder, extension);
-    std::stable_sort(files.begin(), files.end(),
-                     [](const BatchFile& a, const BatchFile& b) { return a.bytes > b.bytes; });
+    std::ranges::stable_sort(files, [](const BatchFile& a, const BatchFile& b) { return a.bytes > b.bytes; });
     return files;
 }
 

@@ -44,8 +44,7 @@ public:
 
 private:
     void sort() {
-        std::stable_sort(records_.begin(), records_.end(),
-                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        std::ranges::stable_sort(records_, [](const auto& a, const auto& b) { return a.first > b.first; });
         if (records_.size() > RunSummary::max_worst) records_.resize(RunSummary::max_worst);
     }
 

@@ -22,13 +22,10 @@ void exclude_mutually(std::vector<OptionInfo>& options) {
         for (OptionInfo& other : options) {
             const auto& excluded = option.excludes;
             const std::string& name = option.names.back();
-            const bool is_excluded =
-                std::find(excluded.begin(), excluded.end(), other.names.back()) != excluded.end();
-            if (!is_excluded ||
-                std::find(other.excludes.begin(), other.excludes.end(), name) != other.excludes.end())
-                continue;
+            const bool is_excluded = std::ranges::find(excluded, other.names.back()) != excluded.end();
+            if (!is_excluded || std::ranges::find(other.excludes, name) != other.excludes.end()) continue;
             other.excludes.push_back(name);
-            std::sort(other.excludes.begin(), other.excludes.end());
+            std::ranges::sort(other.excludes);
         }
     }
 }

@@ -56,8 +56,7 @@ std::string command_help(const CommandInfo& command, bool all) {
         add_entry(help, positional.names.back(), positional.description);
     std::vector<std::string> groups;
     for (const OptionInfo& option : command.options)
-        if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
-            groups.push_back(option.group);
+        if (std::ranges::find(groups, option.group) == groups.end()) groups.push_back(option.group);
     std::stable_partition(groups.begin(), groups.end(), [](const std::string& one) { return !one.empty(); });
     for (const std::string& group : groups) {
         if (group.empty() && !all) continue;
