@@ -30,15 +30,6 @@ Index GltfBufferBuilder::find_or_add_group(AccessorUse use, std::uint64_t stride
     return index;
 }
 
-bool GltfBufferBuilder::is_equal(const StoredAccessor& stored, const Json& description, Index group,
-                                 std::span<const std::uint8_t> strided) const {
-    if (stored.group != group || stored.size != strided.size() || stored.description != description)
-        return false;
-    if (group == no_index) return true;
-    const std::uint8_t* bytes = groups_[group].bytes.data() + stored.offset;
-    return std::equal(strided.begin(), strided.end(), bytes);
-}
-
 Index GltfBufferBuilder::add_accessor(Json description, std::span<const std::uint8_t> dense,
                                       AccessorUse use) {
     const std::uint64_t size = element_size(description);
@@ -58,8 +49,13 @@ Index GltfBufferBuilder::add_accessor(Json description, std::span<const std::uin
     const std::size_t hash =
         std::hash<std::string_view>()({reinterpret_cast<const char*>(dense.data()), dense.size()});
     std::vector<Index>& candidates = accessors_by_hash_[hash];
-    for (const Index candidate : candidates)
-        if (is_equal(stored_[candidate], description, group, dense)) return candidate;
+    for (const Index candidate : candidates) {
+        const StoredAccessor& known = stored_[candidate];
+        if (known.group == group && known.size == dense.size() && known.description == description &&
+            (group == no_index ||
+             std::equal(dense.begin(), dense.end(), groups_[group].bytes.data() + known.offset)))
+            return candidate;
+    }
 
     StoredAccessor stored{std::move(description), group, 0, dense.size()};
     if (group != no_index) {

@@ -128,8 +128,6 @@ private:
         std::uint64_t offset, size;
     };
     Index find_or_add_group(AccessorUse use, std::uint64_t stride);
-    bool is_equal(const StoredAccessor& stored, const Json& description, Index group,
-                  std::span<const std::uint8_t> strided) const;
 
     struct SeparateView {
         std::span<const std::uint8_t> bytes;
