@@ -1,5 +1,5 @@
-#include "asset/formats/mtl.hpp"
 #include "asset/formats/formats.hpp"
+#include "asset/formats/mtl.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 

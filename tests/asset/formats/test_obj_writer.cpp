@@ -193,8 +193,7 @@ TEST_CASE("an OBJ file has an object for each mesh with a unique name", "[obj_wr
     CHECK(any_contains(losses, "1 object without faces"));
     CHECK(get(folder / "m.obj") ==
           "v 0 0 0\nv 1 0 0\nv 1 1 0\no a\nf 1 2 3\no a_2\nf 1 2 3\no a_2_2\nf 1 2 3\n");
-    CHECK(load(folder / "m.obj").parts.at(0).object_names ==
-          std::vector<std::string>{"a", "a_2", "a_2_2"});
+    CHECK(load(folder / "m.obj").parts.at(0).object_names == std::vector<std::string>{"a", "a_2", "a_2_2"});
 }
 
 TEST_CASE("an OBJ file with groups in objects is unchanged by reading and writing", "[obj_writer]") {
