@@ -39,6 +39,9 @@ public:
     std::span<const Item> operator[](std::size_t bucket) const {
         return std::span(items_).subspan(begin_[bucket], begin_[bucket + 1] - begin_[bucket]);
     }
+    /// All items, by bucket, and in them the first item of each bucket; a last entry is their number.
+    std::vector<Item>& items() { return items_; }
+    const std::vector<std::size_t>& begin() const { return begin_; }
 
 private:
     std::vector<std::size_t> begin_;

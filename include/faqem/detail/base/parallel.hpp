@@ -123,6 +123,9 @@ private:
     std::exception_ptr error_;
 };
 
+/// Elements per block of loops with little work per element.
+inline constexpr std::size_t elements_per_block = 16384;
+
 /// Calls work(begin, end) once for each block of [0, size), in any order and on several threads. The blocks
 /// depend on `size` and `block` only, not on the number of threads, so that per-block results that are
 /// combined in block order are the same for any number of threads. If the system refuses to start a thread,

@@ -89,6 +89,8 @@ inline std::vector<Index> representatives(const MeshView& mesh, const std::vecto
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         for (const Index v : mesh.triangles[f]) is_used[v] = 1;
     }
+    if (std::find(is_used.begin(), is_used.end(), 0) == is_used.end())
+        return engine::weld_within(positions, settings.weld_distance);
     std::vector<Index> used;
     std::vector<Vec3> used_positions;
     for (Index v = 0; v < positions.size(); ++v) {

@@ -4,19 +4,25 @@
 #include "faqem/export.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/morton.hpp"
+#include "faqem/detail/base/parallel.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
+using engine::RunContext;
 using engine::Vector3;
 
 /// The referenced vertices in Morton order.
 inline std::vector<Index> vertices_in_morton_order(const std::vector<Vector3>& positions,
-                                                   const std::vector<Triangle>& triangles) {
+                                                   const std::vector<Triangle>& triangles,
+                                                   const RunContext& context) {
     std::vector<std::uint8_t> used(positions.size(), 0);
     for (const Triangle& t : triangles) {
         if (t[0] == no_index) continue;
@@ -28,47 +34,67 @@ inline std::vector<Index> vertices_in_morton_order(const std::vector<Vector3>& p
     }
     const double side = box.isEmpty() ? 0 : box.sizes().maxCoeff();
     const double per_side = side > 0 ? 1 / side : 0;
-    std::vector<std::pair<std::uint64_t, Index>> keys;
-    for (Index v = 0; v < used.size(); ++v) {
-        if (used[v]) keys.emplace_back(morton<21>((positions[v] - box.min()) * per_side), v);
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<Index> order;
-    order.reserve(keys.size());
-    for (const auto& [key, v] : keys) order.push_back(v);
+    std::vector<std::uint64_t> code(positions.size());
+    parallel_blocks(code.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
+        for (std::size_t v = first; v < end; ++v) code[v] = morton<21>((positions[v] - box.min()) * per_side);
+    });
+    // The vertices with the same first bits are sorted side by side.
+    const auto first_bits = std::min(static_cast<unsigned>(std::bit_width(code.size() / 64)), 15u);
+    Buckets<std::pair<std::uint64_t, Index>> keys(std::size_t{1} << first_bits, [&](auto&& put) {
+        for (Index v = 0; v < used.size(); ++v) {
+            if (used[v]) put(code[v] >> (63 - first_bits), {code[v], v});
+        }
+    });
+    std::vector<Index> order(keys.items().size());
+    parallel_blocks(keys.begin().size() - 1, 256, context, [&](std::size_t first, std::size_t end) {
+        const auto at = [&](std::size_t b) {
+            return keys.items().begin() + static_cast<std::ptrdiff_t>(keys.begin()[b]);
+        };
+        for (std::size_t b = first; b < end; ++b) std::sort(at(b), at(b + 1));
+        for (std::size_t i = keys.begin()[first]; i < keys.begin()[end]; ++i)
+            order[i] = keys.items()[i].second;
+    });
     return order;
 }
 
-/// The remaining faces, sorted by the smallest slot of their corners, then by index (counting sort).
-inline std::vector<Index> faces_by_first_vertex(const std::vector<Triangle>& triangles,
-                                                const std::vector<Index>& slot, std::size_t slots) {
-    const auto first = [&](const Triangle& t) { return std::min({slot[t[0]], slot[t[1]], slot[t[2]]}); };
-    std::vector<Index> offset(slots + 1, 0);
-    for (const Triangle& t : triangles) {
-        if (t[0] != no_index) ++offset[first(t) + 1];
-    }
-    for (std::size_t i = 1; i < offset.size(); ++i) offset[i] += offset[i - 1];
-    std::vector<Index> order(offset.back());
-    for (Index f = 0; f < triangles.size(); ++f) {
-        if (triangles[f][0] != no_index) order[offset[first(triangles[f])]++] = f;
-    }
-    return order;
-}
-
-FAQEM_INLINE ReorderedMesh reorder(const PreprocessedMesh& prepared) {
+FAQEM_INLINE ReorderedMesh reorder(const PreprocessedMesh& prepared, const RunContext& context) {
     ReorderedMesh out;
-    const std::vector<Vector3> positions = prepared.engine_positions();
-    out.vertex = vertices_in_morton_order(positions, prepared.triangles);
+    const std::vector<Triangle>& triangles = prepared.triangles;
+    std::vector<Vector3> positions = prepared.engine_positions();
+    out.vertex = vertices_in_morton_order(positions, triangles, context);
     std::vector<Index> slot(positions.size(), no_index);
-    for (Index i = 0; i < out.vertex.size(); ++i) slot[out.vertex[i]] = i;
-    out.face = faces_by_first_vertex(prepared.triangles, slot, out.vertex.size());
-    out.positions.reserve(out.vertex.size());
-    for (const Index v : out.vertex) out.positions.push_back(positions[v]);
-    out.triangles.reserve(out.face.size());
-    for (const Index f : out.face) {
-        const Triangle& t = prepared.triangles[f];
-        out.triangles.push_back({slot[t[0]], slot[t[1]], slot[t[2]]});
+    out.positions.resize(out.vertex.size());
+    parallel_blocks(out.vertex.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+            slot[out.vertex[i]] = static_cast<Index>(i);
+            out.positions[i] = positions[out.vertex[i]];
+        }
+    });
+    std::vector<Vector3>().swap(positions);
+    // Faces are sorted by the smallest slot of their corners, then by index (counting sort).
+    std::vector<Index> first_slot(triangles.size());
+    parallel_blocks(triangles.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
+        for (std::size_t f = first; f < end; ++f) {
+            const Triangle& t = triangles[f];
+            first_slot[f] = t[0] == no_index ? no_index : std::min({slot[t[0]], slot[t[1]], slot[t[2]]});
+        }
+    });
+    std::vector<Index> offset(out.vertex.size() + 1, 0);
+    for (const Index v : first_slot) {
+        if (v != no_index) ++offset[v + 1];
     }
+    std::partial_sum(offset.begin(), offset.end(), offset.begin());
+    out.face.resize(offset.back());
+    for (Index f = 0; f < first_slot.size(); ++f) {
+        if (first_slot[f] != no_index) out.face[offset[first_slot[f]]++] = f;
+    }
+    out.triangles.resize(out.face.size());
+    parallel_blocks(out.face.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+            const Triangle& t = triangles[out.face[i]];
+            out.triangles[i] = {slot[t[0]], slot[t[1]], slot[t[2]]};
+        }
+    });
     return out;
 }
 

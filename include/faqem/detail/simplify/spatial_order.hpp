@@ -41,8 +41,9 @@ struct ReorderedMesh {
 /// Sorts vertices by the Morton code of their position (ties by index), and faces by their first vertex in
 /// this order.
 /// \param prepared  read only during the call
+/// \param context   its threads are used; the result does not depend on their number
 /// Complexity: O(n log n)
-ReorderedMesh reorder(const PreprocessedMesh& prepared);
+ReorderedMesh reorder(const PreprocessedMesh& prepared, const engine::RunContext& context = {});
 
 }  // namespace detail
 FAQEM_NAMESPACE_END
