@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <set>
 
 #include "faqem/detail/simplify/block_decimation.hpp"
@@ -21,17 +22,22 @@ const TriangleMesh& lump() {
     return mesh;
 }
 
-// A preprocessed and reordered surface. Blocks of 500 vertices make it large enough for rounds.
-struct Fixture {
-    explicit Fixture(const TriangleMesh& mesh)
-        : reordered(reorder(preprocess(mesh.view(), settings({})))), locked(reordered.positions.size(), 0) {}
-    BlockInput input() const { return {reordered.positions, reordered.triangles, locked, 500}; }
-    BlockSteps steps(std::size_t target, const RunContext& context = 2) const {
-        return simplify_in_rounds(input(), target, Recording::on, context);
+// The collapses in rounds on two threads, and what they leave.
+struct Rounds {
+    Rounds(const TriangleMesh& mesh, std::size_t target, const RunContext& context = 2, Index lock_every = 0)
+        : input(reorder(preprocess(mesh.view(), settings({})))), locked(input.positions.size(), 0) {
+        for (std::size_t v = 0; lock_every && v < locked.size(); v += lock_every) locked[v] = 1;
+        ReorderedMesh copy = input;
+        std::vector<Links> links;
+        left = simplify_in_rounds({copy.positions, copy.triangles, links, locked}, target, Recording::on,
+                                  context, found);
+        if (!left) CHECK((copy.positions == input.positions && copy.triangles == input.triangles));
     }
 
-    ReorderedMesh reordered;
+    ReorderedMesh input;
     std::vector<std::uint8_t> locked;
+    BlockSteps found;
+    std::optional<CompactedMesh> left;
 };
 
 Options fast(double share) {
@@ -44,10 +50,9 @@ Options fast(double share) {
 }  // namespace
 
 TEST_CASE("rounds: 1, 2 and 8 threads find the same collapses in the same order") {
-    const Fixture fixture(lump());
-    const BlockSteps one = fixture.steps(2048, 1);
+    const BlockSteps one = Rounds(lump(), 2048, 1).found;
     for (const std::uint32_t threads : {2u, 8u}) {
-        const BlockSteps more = fixture.steps(2048, threads);
+        const BlockSteps more = Rounds(lump(), 2048, threads).found;
         REQUIRE(more.steps.size() == one.steps.size());
         bool same = true;
         for (std::size_t i = 0; i < one.steps.size(); ++i)
@@ -60,19 +65,32 @@ TEST_CASE("rounds: 1, 2 and 8 threads find the same collapses in the same order"
 }
 
 TEST_CASE("rounds: a quarter more faces than the target are left, and the surface stays a closed manifold") {
-    const Fixture fixture(lump());
-    const CompactedMesh left = apply_steps(fixture.input(), fixture.steps(2048).steps);
+    const CompactedMesh left = *Rounds(lump(), 2048).left;
     CHECK(left.triangles.size() >= 2560);
     CHECK(left.triangles.size() <= 2650);
     CHECK(test::closed_manifold(left.triangles));
     CHECK(test::euler(left.triangles) == 2);
 }
 
+TEST_CASE("rounds: the surface that is left is that of the steps, applied one by one") {
+    const Rounds rounds(lump(), 2048);
+    CHECK(rounds.found.collapses == rounds.found.steps.size());
+    const CompactedMesh& left = *rounds.left;
+    const CompactedMesh applied =
+        apply_steps({rounds.input.positions, rounds.input.triangles, rounds.locked, 500}, rounds.found.steps);
+    CHECK(left.vertices == applied.vertices);
+    CHECK(left.faces == applied.faces);
+    CHECK(left.source_slots == applied.source_slots);
+    CHECK(left.positions == applied.positions);
+    CHECK(left.triangles == applied.triangles);
+    CHECK(applied.isolated_slots == 0);
+}
+
 TEST_CASE("rounds: the patch of a collapse is the faces around its vertices just before it") {
-    const Fixture fixture(lump());
-    const BlockSteps found = fixture.steps(4096);
-    std::vector<Triangle> faces = fixture.reordered.triangles;
-    std::vector<std::set<Index>> around(fixture.reordered.positions.size());
+    const Rounds rounds(lump(), 4096);
+    const BlockSteps& found = rounds.found;
+    std::vector<Triangle> faces = rounds.input.triangles;
+    std::vector<std::set<Index>> around(rounds.input.positions.size());
     for (Index f = 0; f < faces.size(); ++f) {
         for (const Index v : faces[f]) around[v].insert(f);
     }
@@ -102,30 +120,27 @@ TEST_CASE("rounds: the patch of a collapse is the faces around its vertices just
 }
 
 TEST_CASE("rounds: no locked vertex is in a collapse") {
-    Fixture fixture(lump());
-    for (std::size_t v = 0; v < fixture.locked.size(); v += 100) fixture.locked[v] = 1;
-    const BlockSteps found = fixture.steps(2048);
-    CHECK(found.steps.size() > 5000);
+    const Rounds rounds(lump(), 2048, 2, 100);
+    CHECK(rounds.found.collapses > 5000);
     bool stay = true;
-    for (const BlockStep& step : found.steps)
-        stay = stay && !fixture.locked[step.survivor] && !fixture.locked[step.gone];
+    for (const BlockStep& step : rounds.found.steps)
+        stay = stay && !rounds.locked[step.survivor] && !rounds.locked[step.gone];
     CHECK(stay);
 }
 
 TEST_CASE("rounds: surfaces with many vertices that cannot move are left to blocks") {
-    CHECK(Fixture(test::grid(100)).steps(4000).steps.empty());  // 396 vertices on the border
-    CHECK(Fixture(test::soup(7, 3000, 9000)).steps(900).steps.empty());
-    CHECK(Fixture(lump()).steps(18'000).steps.empty());  // more than three quarters would remain
+    CHECK(!Rounds(test::grid(100), 4000).left);  // 396 vertices on the border
+    CHECK(!Rounds(test::soup(7, 3000, 9000), 900).left);
+    CHECK(!Rounds(lump(), 18'000).left);  // more than three quarters would remain
 }
 
 TEST_CASE("rounds: no collapse is made after the time limit, and the callback can cancel") {
-    const Fixture fixture(lump());
     const RunContext late(2, {}, std::chrono::steady_clock::now() - std::chrono::seconds(1));
-    const BlockSteps none = fixture.steps(2048, late);
-    CHECK(none.steps.empty());
-    CHECK(!none.is_cancelled);
+    const Rounds none(lump(), 2048, late);
+    CHECK(none.found.collapses == 0);
+    CHECK(none.left->positions == none.input.positions);
     const RunContext stopped(2, [](Phase, double) { return Continue::cancel; });
-    CHECK(fixture.steps(2048, stopped).is_cancelled);
+    CHECK_THROWS_AS(Rounds(lump(), 2048, stopped), engine::Cancelled);
 }
 
 TEST_CASE("rounds: powers of two scale the result bit by bit, and the target is met") {

@@ -33,8 +33,8 @@ struct LoopOptions {
     /// not all of their own faces are in the mesh. They and their neighbours must be locked. no_index:
     /// none.
     Index first_context_vertex = no_index;
-    /// Empty, or one per vertex: nonzero if its component is closed (see closed_vertices()), and stays so: no edge
-    /// gets more than two faces, and no two faces get the same corners. Referenced by run() only.
+    /// Empty, or one per vertex: nonzero if its component is closed (see closed_vertices() of detail), and stays so:
+    /// no edge gets more than two faces, and no two faces get the same corners. Referenced by run() only.
     std::span<const std::uint8_t> closed = {};
     /// Cost of a squared distance that the metric does not measure, >= 0; 0: not counted. It applies to the
     /// distance from a boundary loop that vanishes or appears to the nearest other one, and, doubled, to

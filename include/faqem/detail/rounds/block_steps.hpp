@@ -35,7 +35,20 @@ struct BlockSteps {
     /// are not counted.
     std::array<std::uint64_t, refusal_kinds> refusals = {};
     std::array<std::uint64_t, rung_kinds> rungs = {};
+    std::uint64_t collapses = 0;  ///< number of steps, including those that were not recorded
     bool is_cancelled = false;
+};
+
+/// The remaining vertices and faces after some collapses, numbered consecutively.
+struct CompactedMesh {
+    std::vector<Index> vertices, faces;  ///< the old slot of each new vertex and face, ascending
+    /// One per old vertex slot: the new vertex that it was merged into, or no_index. Rounds leave no_index also for merged
+    /// vertices.
+    std::vector<Index> vertex_map;
+    std::vector<Index> source_slots;         ///< one per new vertex: old slot with its position, or no_index
+    std::vector<engine::Vector3> positions;  ///< one per new vertex
+    std::vector<Triangle> triangles;         ///< one per new face, of new vertices
+    std::uint64_t isolated_slots = 0;  ///< old slots that were not merged into others and have no face left
 };
 
 /// A surface without attributes, groups or virtual edges. References its arguments. Vertices that are close

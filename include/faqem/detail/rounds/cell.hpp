@@ -21,32 +21,24 @@ FAQEM_NAMESPACE_BEGIN
 namespace detail {
 namespace rounds {
 
-/// An edge, and its cost at the beginning of the round.
+/// An edge, and its cost when it was queued.
 struct EdgeKey {
     Corner corner;
     float key;
 };
 
-struct CellSteps {
-    std::vector<BlockStep> steps;
-    std::vector<Index> patch_faces;
-    std::vector<std::size_t> patch_begin;
-    std::array<std::uint64_t, refusal_kinds> refusals = {};
-};
-
 /// Collapses edges of one cell, cheapest first.
 class CellCollapser {
 public:
-    CellCollapser(Mesh& mesh, std::uint32_t cell, float limit, Recording patches, CellSteps& out)
+    CellCollapser(Mesh& mesh, std::uint32_t cell, float limit, Recording patches, BlockSteps& out)
         : mesh_(mesh), cell_(cell), limit_(limit), patches_(patches), out_(out) {}
 
-    void run(std::span<const EdgeKey> candidates, std::size_t most) {
+    void run(std::span<const Corner> candidates, std::size_t most) {
         first_.fill(no_index);
         nodes_.reserve(candidates.size() * 2);
-        for (const EdgeKey& c : candidates) push(c);
-        out_.steps.reserve(std::min(most, candidates.size()));
+        for (const Corner c : candidates) push({c, mesh_.key(c)});
         for (bucket_ = 0; bucket_ < buckets; ++bucket_) {
-            while (first_[bucket_] != no_index && out_.steps.size() < most) {
+            while (first_[bucket_] != no_index && out_.collapses < most) {
                 const Node node = nodes_[first_[bucket_]];
                 first_[bucket_] = node.next;
                 prefetch(node.next);
@@ -133,7 +125,7 @@ private:
 
     void try_collapse(const EdgeKey& candidate) {
         const Corner c = candidate.corner;
-        float& key = mesh_.keys[c];
+        float& key = mesh_.key(c);
         if (key != candidate.key) return;
         const Index f = c >> 2, g = mesh_.faces[f].o[c & 3] >> 2;
         const unsigned k = c & 3, m = mesh_.faces[f].o[c & 3] & 3;
@@ -212,17 +204,22 @@ private:
                   const Planes& shared_f, const Planes& shared_g) {
         Vertex& at = mesh_.vertices[u];
         const auto t = mesh_.difference(u, v);
+        const auto old = at.p;
         if (x[0] == t[0] && x[1] == t[1] && x[2] == t[2]) {
             at.p = mesh_.vertices[v].p;
+            at.source = mesh_.vertices[v].source;
         } else {
             for (unsigned j = 0; j < 3; ++j) at.p[j] += static_cast<double>(x[j]);
+            if (at.p != old) at.source = no_index;
         }
-        record(f, g, u, v);
+        ++out_.collapses;
+        if (patches_ == Recording::on) record(f, g, u, v);
+        mesh_.vertices[v].slot = no_index;
         unite(mesh_.faces[f].o[next(k)], mesh_.faces[f].o[previous(k)]);
         unite(mesh_.faces[g].o[next(m)], mesh_.faces[g].o[previous(m)]);
         for (const Index dead : {f, g}) {
             mesh_.faces[dead].v[0] = no_index;
-            for (unsigned j = 0; j < 3; ++j) mesh_.keys[4 * dead + j] = never;
+            for (unsigned j = 0; j < 3; ++j) mesh_.key(4 * dead + j) = never;
         }
         for (int i = first; i < size_; ++i) mesh_.faces[corner_[i] >> 2].v[corner_[i] & 3] = u;
         Planes sum = {};
@@ -253,7 +250,6 @@ private:
     void record(Index f, Index g, Index u, Index v) {
         const auto& p = mesh_.vertices[u].p;
         out_.steps.push_back({mesh_.vertices[u].slot, mesh_.vertices[v].slot, {p[0], p[1], p[2]}});
-        if (patches_ == Recording::off) return;
         out_.patch_begin.push_back(out_.patch_faces.size());
         for (const Index dead : {f, g}) out_.patch_faces.push_back(mesh_.faces[dead].slot);
         for (int i = 0; i < size_; ++i) out_.patch_faces.push_back(mesh_.faces[corner_[i] >> 2].slot);
@@ -275,8 +271,8 @@ private:
                 const Corner a = (corner_[i] & ~3u) | previous(corner_[i] & 3);
                 const Corner b = mesh_.faces[a >> 2].o[a & 3];
                 const float key = mesh_.vertices[ring_[i]].lock ? never : batch_.cost[i - begin];
-                mesh_.keys[std::min(a, b)] = key;
-                mesh_.keys[std::max(a, b)] = never;
+                mesh_.key(std::min(a, b)) = key;
+                mesh_.key(std::max(a, b)) = never;
                 if (key <= limit_) push({std::min(a, b), key});
             }
         }
@@ -291,7 +287,7 @@ private:
     std::uint32_t cell_;
     float limit_;
     Recording patches_;
-    CellSteps& out_;
+    BlockSteps& out_;
     int size_ = 0;               // faces around the pair that remain
     Corner corner_[Star::room];  // their corners at the pair
     Index ring_[Star::room];     // see Star

@@ -8,55 +8,52 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/detail/rounds/block_steps.hpp"
 #include "faqem/detail/rounds/kernels.hpp"
+#include "faqem/detail/rounds/rounds.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 namespace rounds {
 
-/// Corner k of face f is 4 f + k.
-using Corner = std::uint32_t;
-
 inline constexpr float never = std::numeric_limits<float>::infinity();
-
-/// Elements per task of a parallel loop.
-inline constexpr std::size_t faces_per_block = 16384;
 
 /// Why vertices do not move: `unfit` ones are on a border, or the surface is not a manifold there.
 inline constexpr std::uint32_t user_lock = 1, unfit = 2;
 
 /// One cache line.
 struct alignas(64) Vertex {
-    std::array<double, 3> p;  ///< engine units
-    Planes planes;            ///< of its faces; they pass through the vertex
-    std::uint32_t cell;
-    std::uint32_t lock = 0;  ///< user_lock, unfit, both, or 0: it may move
-    Index slot;              ///< of the input
+    std::array<double, 3> p;        ///< engine units
+    Planes planes;                  ///< of its faces; they pass through the vertex
+    std::uint32_t cell;             ///< in sum_planes() the first corner, in compact() the place to move to
+    std::uint32_t lock : 2 = 0;     ///< user_lock, unfit, both, or 0: it may move
+    std::uint32_t degree : 30 = 0;  ///< used in sum_planes()
+    Index slot;                     ///< of the input; no_index: removed
+    Index source;                   ///< the slot of the input with the same position, or no_index
 };
 
 struct Face {
     std::array<Index, 3> v;   ///< no_index in the first: removed
     std::array<Corner, 3> o;  ///< the corner across the edge opposite corner k, or no_index
     Index slot;               ///< of the input
-    Index spare = 0;          ///< fills half a cache line
+    Index place;              ///< in compact(): to move to
 };
-
-inline constexpr unsigned next(unsigned k) { return k == 2 ? 0 : k + 1; }
-inline constexpr unsigned previous(unsigned k) { return k == 0 ? 2 : k - 1; }
 
 struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<Face> faces;
+    std::vector<float> keys;  ///< three per face; see key()
+    std::size_t alive = 0;    ///< number of faces
+    double area = 0;
+
     /// Cost of the edge opposite a corner, at the smaller of its two corners; `never` at the other one, at edges
     /// with a locked end, and at edges that were refused since an end moved.
-    std::vector<float> keys;
-    std::size_t alive = 0;  ///< number of faces
-    double area = 0;
+    float& key(Corner c) { return keys[c - (c >> 2)]; }
+    float key(Corner c) const { return keys[c - (c >> 2)]; }
 
     Vector difference(Index from, Index to) const {
         const auto &a = vertices[from].p, &b = vertices[to].p;
@@ -65,49 +62,9 @@ struct Mesh {
     }
 };
 
-/// A face as seen from one of its edges: the corner opposite the edge, and the other end than the lower one.
-struct HalfEdge {
-    std::uint32_t other;  ///< twice the higher end, plus 1 if the face passes the edge towards the lower one
-    Corner corner;
-};
-
-/// Links the corners of edges that have two faces of opposite direction; locks the ends of all others.
-inline void link(Mesh& mesh, const RunContext& context) {
-    const std::size_t vertices = mesh.vertices.size();
-    std::vector<std::uint32_t> offsets(vertices + 2, 0);
-    for (const Face& f : mesh.faces) {
-        for (unsigned k = 0; k < 3; ++k) ++offsets[std::min(f.v[k], f.v[next(k)]) + 2];
-    }
-    for (std::size_t v = 2; v < offsets.size(); ++v) offsets[v] += offsets[v - 1];
-    std::vector<HalfEdge> sides(offsets.back());
-    for (Index f = 0; f < mesh.faces.size(); ++f) {
-        const auto& v = mesh.faces[f].v;
-        for (unsigned k = 0; k < 3; ++k) {
-            const Index a = v[next(k)], b = v[previous(k)];
-            sides[offsets[std::min(a, b) + 1]++] = {2 * std::max(a, b) + (a < b ? 0 : 1), 4 * f + k};
-        }
-    }
-    std::vector<std::uint32_t>& begin = offsets;  // begin[v] is the first side of v
-    parallel_blocks(vertices, faces_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t v = first; v < end; ++v) {
-            for (std::uint32_t i = begin[v]; i < begin[v + 1]; ++i) {
-                unsigned same = 0;
-                Corner match = no_index;
-                for (std::uint32_t j = begin[v]; j < begin[v + 1]; ++j) {
-                    if (sides[j].other >> 1 != sides[i].other >> 1) continue;
-                    ++same;
-                    if (sides[j].other != sides[i].other) match = sides[j].corner;
-                }
-                mesh.faces[sides[i].corner >> 2].o[sides[i].corner & 3] = same == 2 ? match : no_index;
-            }
-        }
-    });
-    for (const Face& f : mesh.faces) {
-        for (unsigned k = 0; k < 3; ++k) {
-            if (f.o[k] == no_index)
-                mesh.vertices[f.v[next(k)]].lock |= unfit, mesh.vertices[f.v[previous(k)]].lock |= unfit;
-        }
-    }
+template <class T>
+void release(std::vector<T>& memory) {
+    std::vector<T>().swap(memory);
 }
 
 /// sqrt(area) x n of a face.
@@ -122,130 +79,166 @@ inline void add_square(const Vector& n, Planes& q) {
     q[3] += n[1] * n[1], q[4] += n[1] * n[2], q[5] += n[2] * n[2];
 }
 
-/// Sums the planes of all vertices that are not locked, and locks those with several fans of faces.
+/// Sums the planes of all vertices that are not locked, and locks those around which the faces are not
+/// one closed fan.
 /// \return root_of() of all faces
 inline std::vector<Vector> sum_planes(Mesh& mesh, const RunContext& context) {
-    const std::size_t faces = mesh.faces.size();
-    std::vector<Vector> roots(faces);
-    std::vector<Corner> start(mesh.vertices.size(), no_index);
-    std::vector<std::uint32_t> degree(mesh.vertices.size(), 0);
-    parallel_blocks(faces, faces_per_block, context, [&](std::size_t first, std::size_t end) {
+    std::vector<Vector> roots(mesh.faces.size());
+    parallel_blocks(roots.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
         for (std::size_t f = first; f < end; ++f) roots[f] = root_of(mesh, mesh.faces[f]);
     });
     mesh.area = 0;
-    for (Index f = 0; f < faces; ++f) {
-        const auto& n = roots[f];
-        mesh.area += static_cast<double>(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (const auto& n : roots) mesh.area += static_cast<double>(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (Index f = static_cast<Index>(roots.size()); f-- > 0;) {
         for (unsigned k = 0; k < 3; ++k) {
-            const Index v = mesh.faces[f].v[k];
-            ++degree[v];
-            if (start[v] == no_index) start[v] = 4 * f + k;
+            Vertex& at = mesh.vertices[mesh.faces[f].v[k]];
+            at.cell = 4 * f + k;
+            ++at.degree;
         }
     }
-    parallel_blocks(mesh.vertices.size(), faces_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t v = first; v < end; ++v) {
-            Vertex& at = mesh.vertices[v];
-            if (at.lock || degree[v] == 0) continue;
-            Planes q = {};
-            std::uint32_t seen = 0;
-            Corner c = start[v];
-            do {
-                add_square(roots[c >> 2], q);
-                const Corner across = mesh.faces[c >> 2].o[next(c & 3)];
-                c = (across & ~3u) | next(across & 3);
-            } while (++seen < degree[v] && c != start[v]);
-            if (seen != degree[v] || c != start[v]) at.lock = unfit;  // several fans
-            at.planes = q;
-        }
-    });
+    parallel_blocks(mesh.vertices.size(), elements_per_block, context,
+                    [&](std::size_t first, std::size_t end) {
+                        for (std::size_t v = first; v < end; ++v) {
+                            Vertex& at = mesh.vertices[v];
+                            at.planes = {};
+                            Corner c = at.lock ? no_index : at.cell;
+                            while (c != no_index) {
+                                --at.degree;
+                                add_square(roots[c >> 2], at.planes);
+                                const Corner across = mesh.faces[c >> 2].o[next(c & 3)];
+                                c = across == no_index ? no_index : (across & ~3u) | next(across & 3);
+                                if (c == at.cell) break;
+                            }
+                            if (!at.lock && (c == no_index || at.degree > 0))
+                                at.lock = unfit;  // a border, or several fans
+                            at.degree = 0;
+                        }
+                    });
     return roots;
 }
 
-/// Computes the keys of all edges.
-inline void evaluate_edges(Mesh& mesh, const std::vector<Vector>& roots, const RunContext& context) {
-    mesh.keys.resize(4 * mesh.faces.size());
-    parallel_blocks(mesh.faces.size(), faces_per_block, context, [&](std::size_t first, std::size_t end) {
-        EdgeBatch batch = {};
-        Corner waiting[EdgeBatch::size];
-        int count = 0;
-        const auto flush = [&] {
-            solve(batch);
-            for (int i = 0; i < count; ++i) mesh.keys[waiting[i]] = batch.cost[i];
-            count = 0;
-        };
-        for (Index f = static_cast<Index>(first); f < end; ++f) {
-            const Face& face = mesh.faces[f];
-            mesh.keys[4 * f + 3] = never;
-            for (unsigned k = 0; k < 3; ++k) {
-                const Corner c = 4 * f + k, across = face.o[k];
-                mesh.keys[c] = never;
-                const Vertex &u = mesh.vertices[face.v[next(k)]], &v = mesh.vertices[face.v[previous(k)]];
-                if (across < c || u.lock || v.lock) continue;
-                Planes shared = {};
-                add_square(roots[f], shared);
-                add_square(roots[across >> 2], shared);
-                const auto t = mesh.difference(face.v[next(k)], face.v[previous(k)]);
-                put(batch, count, u.planes, v.planes, shared, t);
-                waiting[count++] = c;
-                if (count == EdgeBatch::size) flush();
-            }
+/// Computes the keys of the edges of some faces.
+inline void evaluate_edges(Mesh& mesh, const std::vector<Vector>& roots, Index first, Index end) {
+    EdgeBatch batch = {};
+    Corner waiting[EdgeBatch::size];
+    int count = 0;
+    const auto flush = [&] {
+        solve(batch);
+        for (int i = 0; i < count; ++i) mesh.key(waiting[i]) = batch.cost[i];
+        count = 0;
+    };
+    for (Index f = first; f < end; ++f) {
+        const Face& face = mesh.faces[f];
+        for (unsigned k = 0; k < 3; ++k) {
+            const Corner c = 4 * f + k, across = face.o[k];
+            mesh.key(c) = never;
+            const Vertex &u = mesh.vertices[face.v[next(k)]], &v = mesh.vertices[face.v[previous(k)]];
+            if (across < c || u.lock || v.lock) continue;
+            Planes shared = {};
+            add_square(roots[f], shared);
+            add_square(roots[across >> 2], shared);
+            const auto t = mesh.difference(face.v[next(k)], face.v[previous(k)]);
+            put(batch, count, u.planes, v.planes, shared, t);
+            waiting[count++] = c;
+            if (count == EdgeBatch::size) flush();
         }
-        flush();
-    });
+    }
+    flush();
 }
 
 /// Makes the mesh, with the costs of all edges. Locked are the vertices that `input` locks, those on a border, and
-/// those at which the surface is not a manifold with consistent windings.
-inline Mesh load(const BlockInput& input, const RunContext& context) {
-    Mesh mesh;
+/// those at which the surface is not a manifold with consistent windings. Releases the arrays of the input.
+/// \return no mesh, and positions and triangles as they were, if more than `most_unfit` vertices are locked that the
+///     input does not lock
+inline std::optional<Mesh> load(const RoundInput& input, double most_unfit, const RunContext& context) {
+    std::optional<Mesh> made(std::in_place);
+    Mesh& mesh = *made;
+    mesh.alive = input.triangles.size();
+    if (input.links.empty()) input.links = link_corners(input.triangles, input.positions.size(), context);
+    mesh.faces.resize(mesh.alive);
+    parallel_blocks(mesh.alive, elements_per_block, context, [&](std::size_t first, std::size_t end) {
+        for (std::size_t f = first; f < end; ++f)
+            mesh.faces[f] = {input.triangles[f], input.links[f], static_cast<Index>(f), 0};
+    });
+    release(input.links);
+    release(input.triangles);
     mesh.vertices.resize(input.positions.size());
-    mesh.faces.resize(input.triangles.size());
-    mesh.alive = mesh.faces.size();
     const bool has_borders = input.borders && !input.borders->at.empty();
-    for (Index v = 0; v < mesh.vertices.size(); ++v) {
-        Vertex& at = mesh.vertices[v];
-        const engine::Vector3& p = input.positions[v];
-        at.p = {p.x(), p.y(), p.z()};
-        if (has_borders && input.borders->at[v] != no_index) at.lock = unfit;
-        if (input.locked[v]) at.lock |= user_lock;
-        at.slot = v;
+    parallel_blocks(mesh.vertices.size(), elements_per_block, context,
+                    [&](std::size_t first, std::size_t end) {
+                        for (std::size_t v = first; v < end; ++v) {
+                            Vertex& at = mesh.vertices[v];
+                            at.p = engine::to_array(input.positions[v]);
+                            if (has_borders && input.borders->at[v] != no_index) at.lock = unfit;
+                            if (input.locked[v]) at.lock |= user_lock;
+                            at.slot = at.source = static_cast<Index>(v);
+                        }
+                    });
+    const std::vector<Vector> roots = sum_planes(mesh, context);
+    const auto stuck = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
+                                     [](const Vertex& v) { return v.lock == unfit; });
+    if (static_cast<double>(stuck) > most_unfit) {
+        input.triangles.reserve(mesh.alive);
+        for (const Face& f : mesh.faces) input.triangles.push_back(f.v);
+        return {};
     }
-    for (Index f = 0; f < mesh.faces.size(); ++f) {
-        mesh.faces[f].v = {input.triangles[f][0], input.triangles[f][1], input.triangles[f][2]};
-        mesh.faces[f].slot = f;
-    }
-    link(mesh, context);
-    evaluate_edges(mesh, sum_planes(mesh, context), context);
-    return mesh;
+    release(input.positions);
+    mesh.keys.resize(3 * mesh.alive);
+    parallel_blocks(mesh.alive, elements_per_block, context, [&](std::size_t first, std::size_t end) {
+        evaluate_edges(mesh, roots, static_cast<Index>(first), static_cast<Index>(end));
+    });
+    return made;
 }
 
-/// Removes vertices and faces without use, and sums the planes anew, since small ones are lost in the rounding errors
-/// of large ones that were subtracted. O(faces)
+/// Removes vertices and faces without use. O(faces)
 inline void compact(Mesh& mesh, const RunContext& context) {
-    std::vector<Index> vertex(mesh.vertices.size(), no_index), face(mesh.faces.size(), no_index);
-    Index faces = 0, vertices = 0;
-    for (Index f = 0; f < mesh.faces.size(); ++f) {
-        if (mesh.faces[f].v[0] == no_index) continue;
-        face[f] = faces++;
-        for (const Index v : mesh.faces[f].v) vertex[v] = 0;
+    Index vertices = 0, faces = 0;
+    for (Vertex& v : mesh.vertices) {
+        if (v.slot != no_index) v.cell = vertices++;
     }
-    for (Index v = 0; v < mesh.vertices.size(); ++v) {
-        if (vertex[v] == no_index) continue;
-        vertex[v] = vertices;
-        mesh.vertices[vertices++] = mesh.vertices[v];
+    for (Face& f : mesh.faces) {
+        if (f.v[0] != no_index) f.place = faces++;
+    }
+    parallel_blocks(mesh.faces.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+            Face& f = mesh.faces[i];
+            if (f.v[0] == no_index) continue;
+            for (Index& v : f.v) v = mesh.vertices[v].cell;
+            for (Corner& c : f.o) c = c == no_index ? c : 4 * mesh.faces[c >> 2].place + (c & 3);
+        }
+    });
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const Vertex moved = mesh.vertices[v];
+        if (moved.slot != no_index) mesh.vertices[moved.cell] = moved;
+    }
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const Face moved = mesh.faces[f];
+        if (moved.v[0] == no_index) continue;
+        for (unsigned k = 0; k < 3; ++k) mesh.keys[3 * moved.place + k] = mesh.keys[3 * f + k];
+        mesh.faces[moved.place] = moved;
     }
     mesh.vertices.resize(vertices);
-    for (Index f = 0; f < mesh.faces.size(); ++f) {
-        if (face[f] == no_index) continue;
-        Face moved = mesh.faces[f];
-        for (Index& v : moved.v) v = vertex[v];
-        for (Corner& c : moved.o) c = c == no_index ? c : 4 * face[c >> 2] + (c & 3);
-        mesh.faces[face[f]] = moved;
-        for (unsigned k = 0; k < 4; ++k) mesh.keys[4 * face[f] + k] = mesh.keys[4 * f + k];
-    }
     mesh.faces.resize(faces);
-    mesh.keys.resize(std::size_t{4} * faces);
-    sum_planes(mesh, context);
+    mesh.keys.resize(std::size_t{3} * faces);
+}
+
+/// The surface of a mesh without unused elements.
+/// \param slots  number of vertex slots of the input
+inline CompactedMesh surface_of(const Mesh& mesh, std::size_t slots) {
+    CompactedMesh out;
+    out.vertex_map.assign(slots, no_index);
+    for (Index v = 0; v < mesh.vertices.size(); ++v) {
+        const Vertex& at = mesh.vertices[v];
+        out.vertex_map[at.slot] = v;
+        out.vertices.push_back(at.slot);
+        out.source_slots.push_back(at.source);
+        out.positions.push_back(engine::to_eigen(at.p));
+    }
+    for (const Face& f : mesh.faces) {
+        out.faces.push_back(f.slot);
+        out.triangles.push_back(f.v);
+    }
+    return out;
 }
 
 }  // namespace rounds

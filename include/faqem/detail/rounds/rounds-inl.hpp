@@ -55,38 +55,42 @@ inline std::size_t assign_cells(Mesh& mesh, double area, std::uint64_t round, co
     // The diagonal is 1 and the centre 0; new vertices may be a little outside.
     const double per_side = 1 / side;
     const auto cells = static_cast<std::uint32_t>(1.25 * per_side) + 2;
-    parallel_blocks(mesh.vertices.size(), faces_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t v = first; v < end; ++v) {
-            std::uint32_t cell = 0;
-            for (unsigned k = 0; k < 3; ++k) {
-                const double at = (mesh.vertices[v].p[k] + 0.625) * per_side + shift[k];
-                const auto most = static_cast<double>(cells - 1);
-                cell = cell * cells + static_cast<std::uint32_t>(std::clamp(at, 0.0, most));
-            }
-            mesh.vertices[v].cell = cell;
-        }
-    });
+    parallel_blocks(mesh.vertices.size(), elements_per_block, context,
+                    [&](std::size_t first, std::size_t end) {
+                        for (std::size_t v = first; v < end; ++v) {
+                            std::uint32_t cell = 0;
+                            for (unsigned k = 0; k < 3; ++k) {
+                                const double at = (mesh.vertices[v].p[k] + 0.625) * per_side + shift[k];
+                                const auto most = static_cast<double>(cells - 1);
+                                cell = cell * cells + static_cast<std::uint32_t>(std::clamp(at, 0.0, most));
+                            }
+                            mesh.vertices[v].cell = cell;
+                        }
+                    });
     return std::size_t{cells} * cells * cells;
 }
 
 /// The edges with a cost of at most `limit` and both ends in a cell, by cell.
-inline std::vector<EdgeKey> candidates(const Mesh& mesh, std::size_t cells, float limit,
-                                       std::vector<std::uint32_t>& begin, const RunContext& context) {
+inline std::vector<Corner> candidates(const Mesh& mesh, std::size_t cells, float limit,
+                                      std::vector<std::uint32_t>& begin, const RunContext& context) {
     struct Found {
         std::uint32_t cell;
-        EdgeKey candidate;
+        Corner corner;
     };
-    std::vector<std::vector<Found>> found((mesh.faces.size() + faces_per_block - 1) / faces_per_block);
-    parallel_blocks(mesh.faces.size(), faces_per_block, context, [&](std::size_t first, std::size_t end) {
-        std::vector<Found>& here = found[first / faces_per_block];
-        here.reserve(faces_per_block / 2);
-        for (std::size_t c = 4 * first; c < 4 * end; ++c) {
-            const float key = mesh.keys[c];
-            if (!(key <= limit)) continue;
-            const Face& f = mesh.faces[c >> 2];
-            const std::uint32_t cell = mesh.vertices[f.v[next(c & 3)]].cell;
-            if (cell != mesh.vertices[f.v[previous(c & 3)]].cell) continue;
-            here.push_back({cell, {static_cast<Corner>(c), key}});
+    std::vector<std::vector<Found>> found((mesh.faces.size() + elements_per_block - 1) / elements_per_block);
+    parallel_blocks(mesh.faces.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
+        const auto keys = std::span(mesh.keys).subspan(3 * first, 3 * (end - first));
+        std::vector<Found>& here = found[first / elements_per_block];
+        here.reserve(static_cast<std::size_t>(
+            std::count_if(keys.begin(), keys.end(), [&](float key) { return key <= limit; })));
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            if (!(keys[i] <= limit)) continue;
+            const std::size_t face = first + i / 3;
+            const auto k = static_cast<unsigned>(i % 3);
+            const Face& f = mesh.faces[face];
+            const std::uint32_t cell = mesh.vertices[f.v[next(k)]].cell;
+            if (cell == mesh.vertices[f.v[previous(k)]].cell)
+                here.push_back({cell, static_cast<Corner>(4 * face + k)});
         }
     });
     begin.assign(cells + 2, 0);
@@ -94,73 +98,74 @@ inline std::vector<EdgeKey> candidates(const Mesh& mesh, std::size_t cells, floa
         for (const Found& f : some) ++begin[f.cell + 2];
     }
     for (std::size_t i = 2; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    std::vector<EdgeKey> sorted(begin.back());
+    std::vector<Corner> sorted(begin.back());
     for (const auto& some : found) {
-        for (const Found& f : some) sorted[begin[f.cell + 1]++] = f.candidate;
+        for (const Found& f : some) sorted[begin[f.cell + 1]++] = f.corner;
     }
     return sorted;
 }
 
-inline void append(CellSteps& from, Recording patches, BlockSteps& to) {
+inline void append(const BlockSteps& from, BlockSteps& to) {
+    to.collapses += from.collapses;
     to.steps.insert(to.steps.end(), from.steps.begin(), from.steps.end());
     for (std::size_t i = 0; i < refusal_kinds; ++i) to.refusals[i] += from.refusals[i];
-    if (patches == Recording::off) return;
     for (const std::size_t at : from.patch_begin) to.patch_begin.push_back(at + to.patch_faces.size());
     to.patch_faces.insert(to.patch_faces.end(), from.patch_faces.begin(), from.patch_faces.end());
 }
 
 }  // namespace rounds
 
-FAQEM_INLINE BlockSteps simplify_in_rounds(const BlockInput& input, std::size_t target, Recording patches,
-                                           const RunContext& context) {
+FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t target,
+                                                             Recording patches, const RunContext& context,
+                                                             BlockSteps& result) {
     using namespace rounds;
-    BlockSteps result;
+    const std::size_t slots = input.positions.size(), faces = input.triangles.size();
     const auto least = static_cast<std::size_t>(spare_faces * static_cast<double>(target));
-    if (input.positions.size() <= 2 * input.per_block || 4 * least > 3 * input.triangles.size())
-        return result;
+    if (4 * least > 3 * faces) return {};
     const RunContext untimed = context.untimed();
-    try {
-        Mesh mesh = load(input, untimed);
-        const auto stuck = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
-                                         [](const Vertex& v) { return v.lock == unfit; });
-        if (static_cast<double>(stuck) > most_unfit * static_cast<double>(least)) return result;
-        result.steps.reserve((mesh.alive - least) / 2);
-        const std::size_t all = mesh.alive - least;
-        unsigned idle = 0;
-        for (std::uint64_t round = 1; round <= most_rounds && idle < most_idle_rounds; ++round) {
-            const std::size_t need = mesh.alive - least;
-            if (need < least / 64 || context.is_late()) break;
-            if (10 * mesh.alive < 6 * mesh.faces.size()) compact(mesh, untimed);
-            context.show(Phase::simplify, 1 - static_cast<double>(need) / static_cast<double>(all));
-            const float limit = threshold(mesh, need);
-            const std::size_t cells = assign_cells(mesh, mesh.area, round, untimed);
-            std::vector<std::uint32_t> begin;
-            const std::vector<EdgeKey> sorted = candidates(mesh, cells, limit, begin, untimed);
-            std::vector<std::uint32_t> used;
-            for (std::uint32_t cell = 0; cell < cells; ++cell) {
-                if (begin[cell] != begin[cell + 1]) used.push_back(cell);
-            }
-            if (used.empty()) break;
-            std::vector<CellSteps> steps(used.size());
-            const double quota = 0.5 * static_cast<double>(need) / static_cast<double>(sorted.size());
-            parallel_blocks(used.size(), 1, untimed, [&](std::size_t i, std::size_t) {
-                if (context.is_late()) return;
-                const std::uint32_t first = begin[used[i]], end = begin[used[i] + 1];
-                const auto most = static_cast<std::size_t>(quota * static_cast<double>(end - first));
-                CellCollapser(mesh, used[i], limit, patches, steps[i])
-                    .run({sorted.data() + first, sorted.data() + end}, most);
-            });
-            const std::size_t before = mesh.alive;
-            for (CellSteps& cell : steps) {
-                mesh.alive -= 2 * cell.steps.size();
-                append(cell, patches, result);
-            }
-            idle = 16 * (before - mesh.alive) < need ? idle + 1 : 0;
+    std::optional<Mesh> made = load(input, most_unfit * static_cast<double>(least), untimed);
+    if (!made) return {};
+    Mesh& mesh = *made;
+    if (patches == Recording::on) result.steps.reserve((faces - least) / 2);
+    unsigned idle = 0;
+    for (std::uint64_t round = 1; round <= most_rounds && idle < most_idle_rounds; ++round) {
+        const std::size_t need = mesh.alive - least;
+        if (need < least / 64 || context.is_late()) break;
+        if (2 * mesh.alive < mesh.faces.size()) {
+            compact(mesh, untimed);
+            sum_planes(
+                mesh,
+                untimed);  // small ones are lost in the rounding errors of large ones that were subtracted
         }
-    } catch (const engine::Cancelled&) {
-        result.is_cancelled = true;
+        const float limit = threshold(mesh, need);
+        const std::size_t cells = assign_cells(mesh, mesh.area, round, untimed);
+        std::vector<std::uint32_t> begin;
+        const std::vector<Corner> sorted = candidates(mesh, cells, limit, begin, untimed);
+        std::vector<std::uint32_t> used;
+        for (std::uint32_t cell = 0; cell < cells; ++cell) {
+            if (begin[cell] != begin[cell + 1]) used.push_back(cell);
+        }
+        if (used.empty()) break;
+        std::vector<BlockSteps> steps(used.size());
+        const double quota = 0.5 * static_cast<double>(need) / static_cast<double>(sorted.size());
+        context.show(Phase::simplify, 1 - static_cast<double>(need) / static_cast<double>(faces - least));
+        parallel_blocks(used.size(), 1, untimed, [&](std::size_t i, std::size_t) {
+            if (context.is_late()) return;
+            const std::uint32_t first = begin[used[i]], end = begin[used[i] + 1];
+            const auto most = static_cast<std::size_t>(quota * static_cast<double>(end - first));
+            CellCollapser(mesh, used[i], limit, patches, steps[i])
+                .run({sorted.data() + first, sorted.data() + end}, most);
+        });
+        const std::size_t before = mesh.alive;
+        for (BlockSteps& cell : steps) {
+            mesh.alive -= 2 * cell.collapses;
+            append(cell, result);
+        }
+        idle = 16 * (before - mesh.alive) < need ? idle + 1 : 0;
     }
-    return result;
+    compact(mesh, untimed);
+    release(mesh.keys);
+    return surface_of(mesh, slots);
 }
 
 }  // namespace detail

@@ -376,6 +376,7 @@ FAQEM_INLINE BlockSteps simplify_in_blocks(const BlockInput& input, const engine
         if (patches == Recording::on) patch_faces += block.patch_end(selected.steps(block));
     }
     result.steps.reserve(steps);
+    result.collapses = steps;
     if (patches == Recording::on) result.patch_begin.reserve(steps);
     result.patch_faces.reserve(patch_faces);
     for (BlockResult& block : results) {

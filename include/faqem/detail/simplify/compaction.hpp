@@ -6,23 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "faqem/detail/rounds/block_steps.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
-
-/// The remaining vertices and faces after some collapses, numbered consecutively.
-struct CompactedMesh {
-    std::vector<Index> vertices, faces;  ///< the old slot of each new vertex and face, ascending
-    std::vector<Index>
-        vertex_map;  ///< one per old vertex slot: new vertex that it was merged into, or no_index
-    std::vector<Index> source_slots;         ///< one per new vertex: old slot with its position, or no_index
-    std::vector<engine::Vector3> positions;  ///< one per new vertex
-    std::vector<Triangle> triangles;         ///< one per new face, of new vertices
-    std::uint64_t isolated_slots = 0;  ///< old slots that were not merged into others and have no face left
-};
 
 /// Tracks into which slot each vertex slot is merged by collapses, and which slots keep an original position.
 class SlotTrace {

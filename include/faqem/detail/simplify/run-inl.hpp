@@ -80,7 +80,7 @@ private:
         totals_.faces_dropped = prepared_.dropped_faces;
         totals_.seconds.weld = stopwatch_.seconds();
         state_ = RunState(prepared_, welded_locks(mesh_, prepared_.welded, prepared_.positions.size()),
-                          options_.topology.boundary);
+                          options_.topology.boundary, untimed_);
         if (options_.history == Recording::off) prepared_.release_triangles();
         if (mesh_.vertex_weights.empty()) prepared_.release_welded();
         if (settings_.fit_vertices) state_.keep_initial_surface();
@@ -89,6 +89,7 @@ private:
         if (settings_.quadric_policy != Settings::QuadricPolicy::memory &&
             options_.topology.virtual_edges != VirtualEdges::on)
             state_.find_planar_borders();
+        if (state_.original() || !supports_blocks()) state_.links() = {};
         untimed_.check_now();
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length(),
@@ -161,36 +162,41 @@ private:
         // After a first round, smaller surfaces are split as well: tracking distances in parallel saves more
         // time than the faces between blocks cost.
         const std::size_t few = has_used_blocks_ ? max_vertices_per_block / 4 : max_vertices_per_block;
-        const ReorderedMesh& now = state_.mesh();
-        const BlockInput input{now.positions,   now.triangles,
-                               state_.locked(), vertices_per_block(now.positions.size(), few),
-                               closed(),        &state_.borders()};
+        ReorderedMesh& now = state_.mesh();
         const RunContext step = context_.step(Phase::simplify, progress_at(done_in_blocks_),
                                               progress_at(done_in_blocks_ + share));
-        BlockSteps blocks;
-        if (!state_.original()) blocks = simplify_in_rounds(input, least, options_.history, step);
-        if (!blocks.is_cancelled && blocks.steps.empty())
-            blocks = simplify_in_blocks(input, loop_, least, tracking, options_.history, step);
-        if (blocks.is_cancelled) return false;
-        if (blocks.steps.empty()) return true;
+        BlockSteps found;
+        std::optional<CompactedMesh> left;
+        if (!state_.original() && now.positions.size() > few)
+            left = simplify_in_rounds(
+                {now.positions, now.triangles, state_.links(), state_.locked(), &state_.borders()}, least,
+                options_.history, step, found);
+        if (!left) {
+            const BlockInput input{now.positions,   now.triangles,
+                                   state_.locked(), vertices_per_block(now.positions.size(), few),
+                                   closed(),        &state_.borders()};
+            found = simplify_in_blocks(input, loop_, least, tracking, options_.history, step);
+            if (found.is_cancelled) return false;
+            if (found.steps.empty()) return true;
+            left = apply_steps(input, found.steps);
+        }
         has_used_blocks_ = true;
         done_in_blocks_ += share;
-        totals_.collapses += blocks.steps.size();
-        for (std::size_t i = 0; i < refusal_kinds; ++i) totals_.refusals[i] += blocks.refusals[i];
-        for (std::size_t i = 0; i < rung_kinds; ++i) totals_.rungs[i] += blocks.rungs[i];
-        CompactedMesh compacted = apply_steps(input, blocks.steps);
-        totals_.components_collapsed += compacted.isolated_slots;  // blocks do not delete components
-        if (history_) record_blocks(blocks, compacted);
-        state_.advance_to(std::move(compacted));
+        totals_.collapses += found.collapses;
+        for (std::size_t i = 0; i < refusal_kinds; ++i) totals_.refusals[i] += found.refusals[i];
+        for (std::size_t i = 0; i < rung_kinds; ++i) totals_.rungs[i] += found.rungs[i];
+        totals_.components_collapsed += left->isolated_slots;  // blocks do not delete components
+        if (history_) record_blocks(found, *left);
+        state_.advance_to(std::move(*left));
         return true;
     }
 
     // Reserves memory for the remaining collapses as well: growing the arrays later would need twice the
     // memory.
     void record_blocks(const BlockSteps& blocks, const CompactedMesh& compacted) {
-        const double faces_to_go = static_cast<double>(state_.mesh().triangles.size() - loop_.target_faces);
-        const double wanted = std::max(faces_to_go / 2, static_cast<double>(blocks.steps.size()));
-        const double share = 1.05 * wanted / static_cast<double>(blocks.steps.size());
+        const std::size_t to_go = compacted.triangles.size() - loop_.target_faces;
+        const auto steps = static_cast<double>(std::max<std::size_t>(blocks.steps.size(), 1));
+        const double share = 1.05 * (1 + 0.5 * static_cast<double>(to_go) / steps);
         history_->reserve(static_cast<std::size_t>(share * static_cast<double>(blocks.steps.size())),
                           static_cast<std::size_t>(share * static_cast<double>(blocks.patch_faces.size())));
         for (std::size_t i = 0; i < blocks.steps.size(); ++i) {
@@ -238,6 +244,7 @@ private:
         while (results_.size() < targets_.size()) {
             set_target();
             const bool is_cancelled = !simplify_in_blocks_first();
+            state_.links() = {};
             EngineInput work(state_.mesh());
             RunRecorder recorder(work.collapse_mesh.vertex_slots(), history_ ? &*history_ : nullptr);
             engine::LoopResult loop_result;

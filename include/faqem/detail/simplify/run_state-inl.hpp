@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/simplify/run_state.hpp"
-#include "faqem/engine/mesh/closed_vertices.hpp"
 #include "faqem/export.hpp"
 
 #include <algorithm>
@@ -21,9 +20,10 @@ std::vector<T> gather(const std::vector<T>& of, const std::vector<Index>& slots)
 }
 
 FAQEM_INLINE RunState::RunState(const PreprocessedMesh& prepared, const std::vector<std::uint8_t>& locked,
-                                Boundary boundary)
-    : mesh_(reorder(prepared)), source_vertices_(mesh_.vertex), locked_(gather(locked, mesh_.vertex)) {
-    closed_ = engine::closed_vertices(mesh_.triangles, mesh_.positions.size());
+                                Boundary boundary, const engine::RunContext& context)
+    : mesh_(reorder(prepared, context)), locked_(gather(locked, mesh_.vertex)) {
+    links_ = link_corners(mesh_.triangles, mesh_.positions.size(), context);
+    closed_ = closed_vertices(mesh_.triangles, links_, mesh_.positions.size());
     if (boundary != Boundary::locked) return;
     for (const auto& [a, b] : engine::find_boundary_edges(mesh_.triangles, mesh_.positions.size()))
         locked_[a] = locked_[b] = 1;
@@ -45,7 +45,7 @@ FAQEM_INLINE void RunState::advance_to(CompactedMesh&& compacted) {
         }
         borders_.at = std::move(at);
     }
-    source_vertices_ = gather(source_vertices_, compacted.source_slots);
+    source_vertices_ = gather(source_vertices(), compacted.source_slots);
     vertex_map_ = gather(compacted.vertex_map, vertex_map_);
     locked_ = gather(locked_, compacted.vertices);
     closed_ = gather(closed_, compacted.vertices);
@@ -58,7 +58,7 @@ FAQEM_INLINE void RunState::advance_to(CompactedMesh&& compacted) {
 }
 
 FAQEM_INLINE std::vector<Index> RunState::source_vertices_of(const std::vector<Index>& slots) const {
-    return gather(source_vertices_, slots);
+    return gather(source_vertices(), slots);
 }
 
 FAQEM_INLINE MeshRef RunState::initial_surface() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
+#include "faqem/detail/rounds/links.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "faqem/engine/constraints/planar_borders.hpp"
@@ -27,7 +28,9 @@ public:
     /// \param locked    one per vertex of `prepared`; nonzero: must not move
     /// \param boundary  locked: the vertices of boundary edges are locked, too
     /// Complexity: O(n log n)
-    RunState(const PreprocessedMesh& prepared, const std::vector<std::uint8_t>& locked, Boundary boundary);
+    /// \param context   its threads are used
+    RunState(const PreprocessedMesh& prepared, const std::vector<std::uint8_t>& locked, Boundary boundary,
+             const engine::RunContext& context = {});
 
     /// Retains the current surface for initial_surface(). \pre advance_to() has not been called. O(1)
     void keep_initial_surface() { keeps_initial_surface_ = true; }
@@ -51,6 +54,10 @@ public:
     void advance_to(CompactedMesh&& compacted);
 
     const ReorderedMesh& mesh() const { return mesh_; }
+    /// The same surface and its links, which are known before the first advance_to(). Positions and triangles may be
+    /// released if advance_to() follows; links may be released anyway.
+    ReorderedMesh& mesh() { return mesh_; }
+    std::vector<Links>& links() { return links_; }
     /// One per vertex slot; nonzero: must not move.
     const std::vector<std::uint8_t>& locked() const { return locked_; }
     /// One per vertex slot; nonzero: in a closed component of the preprocessed mesh.
@@ -59,7 +66,9 @@ public:
     const engine::PlanarBorders& borders() const { return borders_; }
     /// One per vertex slot: the vertex of the preprocessed mesh that has exactly the same position, or
     /// no_index.
-    const std::vector<Index>& source_vertices() const { return source_vertices_; }
+    const std::vector<Index>& source_vertices() const {
+        return source_vertices_.empty() ? mesh_.vertex : source_vertices_;
+    }
     /// The entries of source_vertices() for the given slots; no_index stays no_index. O(slots)
     std::vector<Index> source_vertices_of(const std::vector<Index>& slots) const;
     /// One per vertex of original(): the slot that it was merged into, or no_index if that vertex was
@@ -75,12 +84,13 @@ public:
 
 private:
     ReorderedMesh mesh_;
+    std::vector<Links> links_;
     // The initial surface once mesh_ has been replaced. original_ references these arrays.
     std::vector<engine::Vector3> initial_positions_;
     std::vector<Triangle> initial_triangles_;
     bool keeps_initial_surface_ = false;
     std::optional<engine::OriginalSurface> original_;
-    std::vector<Index> vertex_map_, source_vertices_;
+    std::vector<Index> vertex_map_, source_vertices_;  // the latter is empty before the first advance_to()
     std::vector<std::uint8_t> locked_, closed_;
     engine::PlanarBorders borders_;
 };

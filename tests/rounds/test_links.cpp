@@ -1,21 +1,51 @@
-#include "faqem/engine/mesh/closed_vertices.hpp"
+#include "faqem/detail/rounds/links.hpp"
 
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
 using namespace faqem;
-using faqem::engine::closed_vertices;
+using namespace faqem::detail;
 
 namespace {
 
 // Number of vertices in closed components.
 std::size_t closed_count(const TriangleMesh& mesh) {
-    const std::vector<std::uint8_t> closed = closed_vertices(mesh.triangles, mesh.positions.size());
+    const std::size_t vertices = mesh.positions.size();
+    const std::vector<std::uint8_t> closed =
+        closed_vertices(mesh.triangles, link_corners(mesh.triangles, vertices, 2), vertices);
     REQUIRE(closed.size() == mesh.positions.size());
     return static_cast<std::size_t>(std::count(closed.begin(), closed.end(), 1));
 }
 
+// The links by comparing all corners with each other.
+std::vector<Links> brute_force_links(const std::vector<Triangle>& faces) {
+    std::vector<Links> links(faces.size());
+    for (Index f = 0; f < faces.size(); ++f) {
+        for (unsigned k = 0; k < 3; ++k) {
+            const Index a = faces[f][(k + 1) % 3], b = faces[f][(k + 2) % 3];
+            unsigned same = 0, opposite = 0;
+            for (Index g = 0; g < faces.size(); ++g) {
+                for (unsigned m = 0; m < 3; ++m) {
+                    const Index c = faces[g][(m + 1) % 3], d = faces[g][(m + 2) % 3];
+                    same += a == c && b == d;
+                    opposite += a == d && b == c;
+                    if (a == d && b == c) links[f][k] = 4 * g + m;
+                }
+            }
+            if (same != 1 || opposite != 1) links[f][k] = no_index;
+        }
+    }
+    return links;
+}
+
 }  // namespace
+
+TEST_CASE("links: closed, open and non-manifold edges, at vertices of small and of high valence") {
+    // Hubs have more sides than are compared with each other.
+    for (const TriangleMesh& mesh :
+         {test::torus(9, 5), test::grid(6), test::soup(3, 30, 400), test::fan(100)})
+        CHECK(link_corners(mesh.triangles, mesh.positions.size(), 2) == brute_force_links(mesh.triangles));
+}
 
 TEST_CASE("closed vertices: each component is closed or not for itself") {
     const TriangleMesh cube = test::cube(), sheet = test::grid(4);

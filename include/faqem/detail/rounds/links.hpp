@@ -1,0 +1,128 @@
+#pragma once
+/// \file
+/// The faces on the other sides of the edges of a face.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/export.hpp"
+#include "faqem/mesh.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace detail {
+
+/// Corner k of face f is 4 f + k.
+using Corner = std::uint32_t;
+
+/// Per corner of a face: the corner across the edge opposite it, if this edge has two faces of opposite direction, else
+/// no_index.
+using Links = std::array<Corner, 3>;
+
+namespace rounds {
+
+inline constexpr unsigned next(unsigned k) { return k == 2 ? 0 : k + 1; }
+inline constexpr unsigned previous(unsigned k) { return k == 0 ? 2 : k - 1; }
+
+/// The corner with the smallest vertex.
+inline unsigned lowest(const Triangle& t) {
+    const unsigned k = t[1] < t[0] ? 1 : 0;
+    return t[2] < t[k] ? 2 : k;
+}
+
+/// An edge of a face, seen from its lower end.
+struct Side {
+    std::uint32_t other;  ///< twice the higher end, plus 1 if the face passes the edge towards the lower one
+    Corner corner;        ///< opposite the edge
+};
+
+/// Sets the links of all sides at a vertex.
+inline void match_sides(std::vector<Side>& sides, std::vector<Links>& links) {
+    const bool is_hub = sides.size() > 32;
+    const auto is_lower = [](const Side& a, const Side& b) { return a.other >> 1 < b.other >> 1; };
+    if (is_hub) std::sort(sides.begin(), sides.end(), is_lower);
+    for (const Side& side : sides) {
+        auto at = is_hub ? std::lower_bound(sides.begin(), sides.end(), side, is_lower) : sides.begin();
+        unsigned same = 0;
+        Corner match = no_index;
+        for (; at != sides.end() && same < 3; ++at) {
+            if (at->other >> 1 != side.other >> 1) {
+                if (is_hub) break;
+                continue;
+            }
+            ++same;
+            if (at->other != side.other) match = at->corner;
+        }
+        links[side.corner >> 2][side.corner & 3] = same == 2 ? match : no_index;
+    }
+}
+
+}  // namespace rounds
+
+/// Finds the links of all faces. O(triangles), times a logarithm at vertices of high valence; parallel in part
+/// \param triangles  with pairwise different corners
+/// \param vertices   number of vertices; larger than any corner, below 2^31
+inline std::vector<Links> link_corners(std::span<const Triangle> triangles, std::size_t vertices,
+                                       const RunContext& context) {
+    using namespace rounds;
+    // At its lowest vertex a face has two sides, which are one entry, at the middle one the third side.
+    const auto middle = [](const Triangle& t, unsigned k) { return std::min(t[next(k)], t[previous(k)]); };
+    std::vector<std::uint32_t> begin(vertices + 2, 0);
+    for (const Triangle& t : triangles) {
+        const unsigned k = lowest(t);
+        ++begin[t[k] + 2], ++begin[middle(t, k) + 2];
+    }
+    for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    std::vector<Corner> entries(begin.back());
+    for (Index f = 0; f < triangles.size(); ++f) {
+        const Triangle& t = triangles[f];
+        const unsigned k = lowest(t);
+        entries[begin[t[k] + 1]++] = entries[begin[middle(t, k) + 1]++] = 4 * f + k;
+    }
+    std::vector<Links> links(triangles.size());
+    parallel_blocks(vertices, elements_per_block, context, [&](std::size_t first, std::size_t end) {
+        std::vector<Side> sides;
+        for (std::size_t v = first; v < end; ++v) {
+            sides.clear();
+            for (std::uint32_t i = begin[v]; i < begin[v + 1]; ++i) {
+                const Corner c = entries[i], face = c & ~3u;
+                const unsigned k = c & 3;
+                const Triangle& t = triangles[c >> 2];
+                const Index a = t[next(k)], b = t[previous(k)];
+                if (t[k] == v) {
+                    sides.push_back({2 * a, face | previous(k)});
+                    sides.push_back({2 * b + 1, face | next(k)});
+                } else {
+                    sides.push_back({a < b ? 2 * b : 2 * a + 1, c});
+                }
+            }
+            match_sides(sides, links);
+        }
+    });
+    return links;
+}
+
+/// Finds the vertices of closed components: those in which every edge has two faces of opposite direction.
+/// O(triangles)
+/// \return one per vertex: 1 if it belongs to a closed component
+inline std::vector<std::uint8_t> closed_vertices(std::span<const Triangle> triangles,
+                                                 std::span<const Links> links, std::size_t vertices) {
+    std::vector<std::uint8_t> closed(vertices, 1);
+    const auto is_open = [](const Links& of) { return std::count(of.begin(), of.end(), no_index) > 0; };
+    if (std::none_of(links.begin(), links.end(), is_open)) return closed;
+    engine::UnionFind component(vertices);
+    for (const Triangle& t : triangles) component.unite(t[0], t[1]), component.unite(t[0], t[2]);
+    for (std::size_t f = 0; f < links.size(); ++f) {
+        if (is_open(links[f])) closed[component.find(triangles[f][0])] = 0;
+    }
+    for (Index v = 0; v < vertices; ++v) closed[v] = closed[component.find(v)];  // the root comes first
+    return closed;
+}
+
+}  // namespace detail
+FAQEM_NAMESPACE_END
