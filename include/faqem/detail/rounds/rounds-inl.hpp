@@ -153,8 +153,10 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
             if (context.is_late()) return;
             const std::uint32_t first = begin[used[i]], end = begin[used[i] + 1];
             const auto most = static_cast<std::size_t>(quota * static_cast<double>(end - first));
-            CellCollapser(mesh, used[i], limit, patches, steps[i])
-                .run({sorted.data() + first, sorted.data() + end}, most);
+            vectorised([&] {
+                CellCollapser(mesh, used[i], limit, patches, steps[i])
+                    .run({sorted.data() + first, sorted.data() + end}, most);
+            });
         });
         const std::size_t before = mesh.alive;
         for (BlockSteps& cell : steps) {
