@@ -11,6 +11,7 @@
 #include "support/sanitizers.hpp"
 
 using faqem::detail::parallel_blocks;
+using faqem::detail::parallel_each;
 using faqem::detail::thread_count;
 
 TEST_CASE("parallel_blocks processes each index once, and its blocks do not depend on the threads") {
@@ -24,6 +25,8 @@ TEST_CASE("parallel_blocks processes each index once, and its blocks do not depe
                 end_of[begin / 10] = end;
             });
             CHECK(std::count(touched.begin(), touched.end(), 1) == static_cast<std::ptrdiff_t>(size));
+            parallel_each(size, 10, threads, [&](std::size_t i) { touched[i] += 2; });
+            CHECK(std::count(touched.begin(), touched.end(), 3) == static_cast<std::ptrdiff_t>(size));
             for (std::size_t b = 0; b < end_of.size(); ++b) CHECK(end_of[b] == std::min(size, 10 * b + 10));
         }
     }

@@ -235,9 +235,8 @@ Charts make_charts(std::span<const PageTriangle> faces, const RunContext& contex
     const double page_side = std::sqrt(texels);
     std::vector<Charts> by_region(regions.size());
     parallel_blocks(regions.size(), 1, context,
-                    [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
-                        for (std::size_t i = begin; i < end; ++i)
-                            by_region[i] = parametrize_region(faces, regions[i], page_side, block_context);
+                    [&](std::size_t i, std::size_t, const RunContext& block_context) {
+                        by_region[i] = parametrize_region(faces, regions[i], page_side, block_context);
                     });
     Charts result;
     for (Charts& region : by_region) {

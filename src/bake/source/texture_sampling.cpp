@@ -158,9 +158,9 @@ MipImage::Level MipImage::downsample(std::size_t from, const RunContext& context
     all_columns.reserve(result.width);
     for (std::uint32_t x = 0; x < result.width; ++x)
         all_columns.push_back(taps(x, width(from), result.width));
-    const auto fill_row = [&](std::uint32_t y) {
-        const Taps rows = taps(y, height(from), result.height);
-        std::uint16_t* to = &result.rgba[std::size_t{y} * result.width * 4];
+    const auto fill_row = [&](std::size_t y) {
+        const Taps rows = taps(static_cast<std::uint32_t>(y), height(from), result.height);
+        std::uint16_t* to = &result.rgba[y * result.width * 4];
         with_reader(from, [&](const auto& read) {
             for (const Taps& columns : all_columns) {
                 TexelLanes weighted = {};
@@ -175,11 +175,7 @@ MipImage::Level MipImage::downsample(std::size_t from, const RunContext& context
         });
     };
     constexpr std::size_t rows_at_once = 16;
-    parallel_blocks(result.height, rows_at_once, context, [&](std::size_t y, std::size_t end) {
-        for (; y < end; ++y) {
-            fill_row(static_cast<std::uint32_t>(y));
-        }
-    });
+    parallel_each(result.height, rows_at_once, context, fill_row);
     return result;
 }
 

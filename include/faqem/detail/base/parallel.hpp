@@ -160,6 +160,14 @@ void parallel_blocks(std::size_t size, std::size_t block, const RunContext& cont
     queue.rethrow();
 }
 
+/// parallel_blocks() with work(i) for each element i.
+template <class Work>
+void parallel_each(std::size_t size, std::size_t block, const RunContext& context, Work&& work) {
+    parallel_blocks(size, block, context, [&](std::size_t begin, std::size_t end) {
+        for (; begin < end; ++begin) work(begin);
+    });
+}
+
 /// parallel_blocks() that reports a share of a phase.
 /// \param from, to  fractions of the phase that are done before and after the loop
 /// \param work      called as work(begin, end, context)

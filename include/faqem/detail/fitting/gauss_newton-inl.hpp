@@ -94,13 +94,10 @@ inline std::vector<FaceSystem> face_systems(std::size_t faces,
         }
     });
     std::vector<FaceSystem> all(faces);
-    parallel_blocks(faces, 512, context, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f) {
-            for (const std::size_t i : by_face[f]) {
-                const double distance =
-                    std::max(correspondences[i].residual.norm(), min_distance_share * mean);
-                add(correspondences[i], distance > 0 ? power_of(distance / mean, power) : 0, all[f]);
-            }
+    parallel_each(faces, 512, context, [&](std::size_t f) {
+        for (const std::size_t i : by_face[f]) {
+            const double distance = std::max(correspondences[i].residual.norm(), min_distance_share * mean);
+            add(correspondences[i], distance > 0 ? power_of(distance / mean, power) : 0, all[f]);
         }
     });
     return all;

@@ -152,9 +152,8 @@ FAQEM_INLINE std::span<const Correspondence> TwoSidedError::correspondences() {
     correspondences_.resize(count);
     std::size_t first = 0;
     const auto add = [&](const auto& tracker) {
-        parallel_blocks(tracker.size(), 4096, context_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) correspondences_[first + i] = tracker.correspondence(i);
-        });
+        parallel_each(tracker.size(), 4096, context_,
+                      [&](std::size_t i) { correspondences_[first + i] = tracker.correspondence(i); });
         first += tracker.size();
     };
     add(from_mesh_), add(*from_mesh_corners_), add(from_reference_);
