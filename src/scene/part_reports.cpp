@@ -30,8 +30,12 @@ std::string part_warning(const std::string& title, const std::string& warning) {
 
 }  // namespace
 
-void add_part_report(Report& sum, const Report& part, const std::string& title) {
+void add_counts(Report& sum, const Report& part) {
     for_each_count(sum, part, [](std::uint64_t& total, std::uint64_t own) { total += own; });
+}
+
+void add_part_report(Report& sum, const Report& part, const std::string& title) {
+    add_counts(sum, part);
     const bool is_stopped = sum.stop == StopReason::cancelled || sum.stop == StopReason::reached_time_limit;
     if (part.stop != StopReason::reached_target && !is_stopped) sum.stop = part.stop;
     for (const std::string& warning : part.warnings) sum.warnings.push_back(part_warning(title, warning));

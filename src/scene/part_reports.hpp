@@ -9,6 +9,9 @@
 
 namespace faqem::detail {
 
+/// Adds the counts of a report, other than the hidden vertices.
+void add_counts(Report& sum, const Report& part);
+
 /// Adds the report of a part.
 /// \param title  of the part, for its warnings
 void add_part_report(Report& sum, const Report& part, const std::string& title);

@@ -9,6 +9,7 @@
 #include "asset/finest_level.hpp"
 #include "faqem/error.hpp"
 #include "faqem/truncate.hpp"
+#include "scene/part_reports.hpp"
 
 namespace faqem::detail {
 
@@ -35,14 +36,8 @@ bool matches(const Part& part, const CollapseHistory& history) {
 
 SimplifiedParts parts_from_histories(std::vector<CollapseHistory> cuts) {
     SimplifiedParts simplified;
-    for (CollapseHistory& cut : cuts) {
-        const Report& report = simplified.parts.emplace_back(restore(std::move(cut))).report;
-        simplified.report.faces_in += report.faces_in;
-        simplified.report.faces_out += report.faces_out;
-        simplified.report.vertices_in += report.vertices_in;
-        simplified.report.vertices_out += report.vertices_out;
-        simplified.report.collapses += report.collapses;
-    }
+    for (CollapseHistory& cut : cuts)
+        add_counts(simplified.report, simplified.parts.emplace_back(restore(std::move(cut))).report);
     return simplified;
 }
 
