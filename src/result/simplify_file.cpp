@@ -9,6 +9,7 @@
 #include "asset/file_format.hpp"
 #include "asset/finest_level.hpp"
 #include "asset/io/encoded_model.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/error.hpp"
 #include "result/simplify.hpp"
@@ -100,9 +101,7 @@ Asset detail::load_triangles(const fs::path& file) {
     Asset asset = load(file);
     const std::string left_out = keep_finest_level(asset);
     if (!left_out.empty()) asset.warnings.push_back(file.string() + ": " + left_out);
-    const bool is_empty = std::all_of(asset.parts.begin(), asset.parts.end(),
-                                      [](const Part& part) { return part.triangles.empty(); });
-    if (is_empty) throw InputError(file.string(), "", "has no triangles");
+    if (!some_part_has(asset, &Part::triangles)) throw InputError(file.string(), "", "has no triangles");
     return asset;
 }
 

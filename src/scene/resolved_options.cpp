@@ -5,17 +5,12 @@
 #include "asset/file_format.hpp"
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "faqem/error.hpp"
 #include "scene/position_grids.hpp"
 
 namespace faqem::detail {
 namespace {
-
-template <class Values>
-bool no_part_has(const Asset& source, Values values) {
-    return std::all_of(source.parts.begin(), source.parts.end(),
-                       [&](const Part& part) { return (part.*values).empty(); });
-}
 
 // Whether the vertex colours of a part are classes, such as the labels of a segmented scan: nearly all faces have one
 // colour, and most vertices are inside a class. A colour between two classes means nothing. O(faces)
@@ -39,13 +34,13 @@ void resolve_normals(const Asset& source, const FileFormat& format, BakeOptions&
     // Flat normals need no map to the original. If the source has normals, save() warns that the format cannot store
     // them.
     if (!format.holds_normals)
-        bake.normals = no_part_has(source, &Part::normals) ? Normals::none : Normals::flat;
+        bake.normals = some_part_has(source, &Part::normals) ? Normals::flat : Normals::none;
 }
 
 // Replaces what is automatic by what the format can hold.
 void resolve_bake(const Asset& source, const FileFormat& format, BakeOptions& bake) {
-    const bool is_bare = source.materials.empty() && no_part_has(source, &Part::colors);
-    const bool keeps_uvs = format.keeps_plain_parts && !no_part_has(source, &Part::uvs);
+    const bool is_bare = source.materials.empty() && !some_part_has(source, &Part::colors);
+    const bool keeps_uvs = format.keeps_plain_parts && some_part_has(source, &Part::uvs);
     bake.kind = !is_bare ? format.bake : keeps_uvs ? Bake::keep : format.bare_bake;
     if (bake.kind == Bake::vertex && source.images.empty() &&
         std::any_of(source.parts.begin(), source.parts.end(), has_color_classes))

@@ -28,6 +28,13 @@ inline constexpr FaceArray group_array = {&Part::face_group, &Part::group_names,
 /// All arrays by face, except for the triangles.
 inline constexpr std::array face_arrays = {material_array, object_array, group_array};
 
+/// Whether an array is not empty in some part.
+template <class T>
+bool some_part_has(const Asset& asset, std::vector<T> Part::*values) {
+    return std::any_of(asset.parts.begin(), asset.parts.end(),
+                       [&](const Part& part) { return !(part.*values).empty(); });
+}
+
 /// What an array of vertices is.
 struct VertexArray {
     std::string_view name;                       ///< for messages

@@ -1,8 +1,8 @@
 #include "bake/parts/map_parts.hpp"
 
-#include <algorithm>
 #include <memory>
 
+#include "asset/scene/part_arrays.hpp"
 #include "bake/parts/corner_normals.hpp"
 #include "bake/parts/corner_transfer.hpp"
 
@@ -13,9 +13,7 @@ namespace {
 // a normal map or a correspondence is asked for, or several materials with different factors share a page.
 bool may_make_images(const Asset& asset, const BakeOptions& bake) {
     return !asset.images.empty() || asset.materials.size() > 1 || bake.normal_map == NormalMap::on ||
-           bake.correspondence == Recording::on ||
-           std::any_of(asset.parts.begin(), asset.parts.end(),
-                       [](const Part& part) { return !part.colors.empty(); });
+           bake.correspondence == Recording::on || some_part_has(asset, &Part::colors);
 }
 
 // Normals need no map, see make_normals().
@@ -33,9 +31,7 @@ std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyRes
                                 std::span<const std::uint8_t> kept, const BakeOptions& bake,
                                 const RunContext& context) {
     std::vector<BakePart> parts(source.parts.size());
-    const bool has_normals = source.smoothing == Smoothing::unknown &&
-                             std::any_of(source.parts.begin(), source.parts.end(),
-                                         [](const Part& part) { return !part.normals.empty(); });
+    const bool has_normals = source.smoothing == Smoothing::unknown && some_part_has(source, &Part::normals);
     const bool writes_normals =
         bake.normals == Normals::automatic ? has_normals : bake.normals != Normals::none;
     for (std::size_t p = 0; p < parts.size(); ++p) {

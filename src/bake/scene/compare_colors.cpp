@@ -7,6 +7,7 @@
 
 #include "asset/image/srgb.hpp"
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "bake/source/source_sampler.hpp"
 #include "bake/texture/picture_difference.hpp"
 #include "faqem/detail/base/parallel.hpp"
@@ -106,10 +107,8 @@ void add_sample(ColorErrorSums& sums, const Model& from, const Model& to, const 
 OneSidedColors one_sided(const Model& from, const Model& to, const CompareOptions& options,
                          std::uint64_t seed) {
     std::vector<ColorErrorSums> sums((options.samples + block - 1) / block);
-    detail::parallel_blocks(options.samples, block, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            add_sample(sums[begin / block], from, to, sample(from.surface, i, options.samples, seed));
-        }
+    detail::parallel_each(options.samples, block, options.threads, [&](std::size_t i) {
+        add_sample(sums[i / block], from, to, sample(from.surface, i, options.samples, seed));
     });
     ColorErrorSums total;
     for (const ColorErrorSums& s : sums) {
@@ -133,8 +132,7 @@ OneSidedColors one_sided(const Model& from, const Model& to, const CompareOption
 }  // namespace
 
 bool has_colors(const Asset& asset) {
-    return !asset.materials.empty() || std::any_of(asset.parts.begin(), asset.parts.end(),
-                                                   [](const Part& part) { return !part.colors.empty(); });
+    return !asset.materials.empty() || detail::some_part_has(asset, &Part::colors);
 }
 
 ColorComparison compare_colors(const Asset& a, const Asset& b, const CompareOptions& options) {
