@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/scene/part_arrays.hpp"
 #include "asset/scene/position_rounding.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
@@ -54,10 +55,7 @@ std::uint64_t total_faces(const Asset& asset) {
 }
 
 // Whether no part has normals, so that viewers show its faces flat (glTF 2.0, "Meshes").
-bool is_shown_flat(const Asset& asset) {
-    return std::all_of(asset.parts.begin(), asset.parts.end(),
-                       [](const Part& part) { return part.normals.empty(); });
-}
+bool is_shown_flat(const Asset& asset) { return !some_part_has(asset, &Part::normals); }
 
 /// One search, see best_picture_within_bytes().
 class BestPictureSearch {
@@ -94,10 +92,8 @@ public:
         try_choices();
         return reported_best();
     } catch (const engine::Cancelled& stopped) {
-        if (stopped.reason != StopReason::cancelled) return reported_best();
-        SimplifiedAsset none;
-        none.report.stop = StopReason::cancelled;
-        return none;
+        if (stopped.reason == StopReason::cancelled) throw;
+        return reported_best();
     }
 
 private:
@@ -106,7 +102,6 @@ private:
         const Stopwatch watch;
         std::vector<SimplifiedParts> result = simplify_parts_in_steps(source_, targets, options_, of_step);
         seconds_of_simplify_ += watch.seconds();
-        if (result.back().report.stop == StopReason::cancelled) throw engine::Cancelled{};
         return result;
     }
 
@@ -115,7 +110,8 @@ private:
         Options own = options_;
         if (!pending) own.bake.image_format = ImageFormat::source;
         if (parts.report.faces_out >= least_flat_faces_) own.bake.normals = Normals::none;
-        return baked(parts, own);
+        return own.bake.kind == Bake::keep ? bake_with_uvs(source_, parts, own, context_.quiet())
+                                           : bake_unencoded(source_, parts, own, context_.quiet());
     }
 
     // The same for a level that is tried, which are in descending order. As long as it looks better, normals are left
@@ -131,14 +127,6 @@ private:
         least_flat_faces_ = before;
         may_omit_normals_ = false;
         return with_normals;
-    }
-
-    UnencodedResult baked(const SimplifiedParts& parts, const Options& own) {
-        UnencodedResult result = own.bake.kind == Bake::keep
-                                     ? bake_with_uvs(source_, parts, own, context_.quiet())
-                                     : bake_unencoded(source_, parts, own, context_.quiet());
-        if (result.asset.report.stop == StopReason::cancelled) throw engine::Cancelled{};
-        return result;
     }
 
     // Tries the levels of the first run, and makes the images for all faces.
@@ -289,7 +277,6 @@ private:
     void finish(UnencodedResult result, const SimplifiedParts& parts, std::uint32_t image_side,
                 const ModelSize& size) {
         encode_images(result, options_, context_.quiet());  // none is pending, but all are reported
-        if (result.asset.report.stop == StopReason::cancelled) throw engine::Cancelled{};
         Asset shown = result.asset.asset;
         round_vertices(shown);
         const double psnr = picture_psnr((*meter_)(std::move(shown)));

@@ -26,9 +26,8 @@ bool searches_best_picture(const Options& options);
 /// Images stay as they are with Bake::keep and ImageFormat::source. BakeOptions::texture_size limits their sides, and
 /// BakeOptions::image_quality is ignored.
 /// \param options  resolved, searches_best_picture() must be true
-/// \return nothing if no choice fits, or Options::max_seconds was over before one was complete. If the progress
-///     callback cancels, the report has StopReason::cancelled
-/// \throws whatever simplify() and save() throw
+/// \return nothing if no choice fits, or Options::max_seconds was over before one was complete
+/// \throws whatever simplify() and save() throw, and engine::Cancelled
 /// Complexity: two to six simplifications, about 20 encodings of each image with fewer texels than it has, and 40
 /// renderings from six sides.
 std::optional<SimplifiedAsset> best_picture_within_bytes(const Asset& source, const Options& options,

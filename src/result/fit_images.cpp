@@ -67,10 +67,8 @@ ModelSize fit_images(UnencodedResult& result, const Options& options, const RunC
     encode_images(result, options, context.quiet());  // none is pending, but all are reported
     return size;
 } catch (const engine::Cancelled& stopped) {
-    if (stopped.reason != StopReason::cancelled)
-        throw TimeLimitError("max_seconds was over before images were found that fit max_bytes");
-    set_cancelled(result.asset);
-    return {};
+    if (stopped.reason == StopReason::cancelled) throw;
+    throw TimeLimitError("max_seconds was over before images were found that fit max_bytes");
 }
 
 }  // namespace faqem::detail

@@ -23,8 +23,6 @@ struct SizedResult {
     UnencodedResult result;
     ModelSize size;
     std::vector<std::string> given_up;
-
-    bool is_cancelled() const { return result.asset.report.stop == StopReason::cancelled; }
 };
 
 class SmallerResultSearch {
@@ -40,11 +38,11 @@ public:
     SimplifiedAsset operator()() {
         SizedResult best{bake_unencoded(source_, simplified_, requested_, context_), {}, {}};
         encode(best);
-        if (has_rule() && !best.is_cancelled() && best.result.asset.report.faces_out > 0) {
+        if (has_rule() && best.result.asset.report.faces_out > 0) {
             measure(best);
             if (may_give_up(best)) give_up_normal_map(best);
             if (may_give_up(best)) give_up_images(best);
-            if (!best.is_cancelled()) report(best);
+            report(best);
         }
         return std::move(best.result.asset);
     }
@@ -58,7 +56,7 @@ private:
     bool fits(const SizedResult& one) const { return one.size.total() <= source_.file_bytes; }
 
     bool may_give_up(const SizedResult& one) const {
-        return !fits(one) && !one.is_cancelled() && !one.result.pending.empty() && !context_.is_late();
+        return !fits(one) && !one.result.pending.empty() && !context_.is_late();
     }
 
     void encode(SizedResult& one) const { encode_images(one.result, options_, context_); }
@@ -68,16 +66,13 @@ private:
     void give_up_normal_map(SizedResult& best) const {
         if (options_.bake.normal_map != NormalMap::automatic || !remove_new_normal_maps(best.result)) return;
         encode(best);
-        if (best.is_cancelled()) return;
         measure(best);
         best.given_up.emplace_back("the normal map, which the source does not have");
     }
 
     void give_up_images(SizedResult& best) const {
         std::optional<SizedResult> kept = with_source_uvs();
-        if (kept && kept->is_cancelled()) return void(best = std::move(*kept));
         std::optional<SizedResult> fitted = with_fitted_images(best);
-        if (fitted && fitted->is_cancelled()) return void(best = std::move(*fitted));
         const bool takes_kept =
             kept && (!fitted ? kept->size.total() < best.size.total() : is_better(*kept, *fitted));
         if (takes_kept)
@@ -91,7 +86,7 @@ private:
         if (options_.bake.image_quality || from.size.geometry >= source_.file_bytes) return std::nullopt;
         SizedResult one = from;
         one.size = fit_images(one.result, options_, context_, source_.file_bytes);
-        if (!one.is_cancelled() && !fits(one)) return std::nullopt;
+        if (!fits(one)) return std::nullopt;
         one.given_up.emplace_back("size and quality of the images");
         return one;
     } catch (const TimeLimitError&) {
@@ -106,7 +101,6 @@ private:
         const SimplifiedParts parts{simplified_.with_uvs, report_with_uvs(source_, simplified_, all), {}};
         SizedResult one{bake_with_uvs(source_, parts, options_, context_), {}, {}};
         encode(one);
-        if (one.is_cancelled()) return one;
         remove_unused_materials(one.result);
         measure(one);
         one.given_up.emplace_back("the new texture: UVs and images are those of the source");

@@ -13,8 +13,15 @@ namespace faqem {
 
 namespace {
 
-// Adds what is known of the files and images of the source.
-SimplifiedAsset with_source_report(const Asset& source, SimplifiedAsset result) {
+// The result of `work()`, with what is known of the files and images of the source; an empty one if it was cancelled.
+template <class Work>
+SimplifiedAsset with_source_report(const Asset& source, const Work& work) {
+    SimplifiedAsset result;
+    try {
+        result = work();
+    } catch (const engine::Cancelled&) {
+        result.report.stop = StopReason::cancelled;
+    }
     Report& report = result.report;
     report.warnings.insert(report.warnings.begin(), source.warnings.begin(), source.warnings.end());
     report.bytes_in = source.file_bytes;
@@ -29,20 +36,23 @@ SimplifiedAsset with_source_report(const Asset& source, SimplifiedAsset result) 
 
 SimplifiedAsset detail::bake(const Asset& source, const SimplifiedParts& simplified, const Options& options,
                              const RunContext& context) {
-    SimplifiedAsset result = options.max_bytes ? bake_within_bytes(source, simplified, options, context)
-                                               : bake_no_larger(source, simplified, options, context);
-    add_histories(simplified, options, result);
-    return with_source_report(source, std::move(result));
+    return with_source_report(source, [&] {
+        SimplifiedAsset result = options.max_bytes ? bake_within_bytes(source, simplified, options, context)
+                                                   : bake_no_larger(source, simplified, options, context);
+        add_histories(simplified, options, result);
+        return result;
+    });
 }
 
 SimplifiedAsset detail::simplify(const Asset& source, const Options& options, const RunContext& context) {
-    if (options.max_bytes) return with_source_report(source, simplify_within_bytes(source, options, context));
-    SimplifiedParts simplified = simplify_parts(source, options, context);
-    SimplifiedAsset result = bake_no_larger(source, simplified, options, context);
-    if (options.history == Recording::on) {
-        for (SimplifyResult& part : simplified.parts) result.histories.push_back(std::move(part.history));
-    }
-    return with_source_report(source, std::move(result));
+    return with_source_report(source, [&] {
+        if (options.max_bytes) return simplify_within_bytes(source, options, context);
+        SimplifiedParts simplified = simplify_parts(source, options, context);
+        SimplifiedAsset result = bake_no_larger(source, simplified, options, context);
+        if (options.history == Recording::on)
+            for (SimplifyResult& part : simplified.parts) result.histories.push_back(std::move(part.history));
+        return result;
+    });
 }
 
 SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, const Options& options) {

@@ -23,7 +23,7 @@ SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simpl
 /// Bakes. If the result exceeds Options::max_bytes, its images are fitted (fit_images()), and a warning has the number of
 /// bytes before.
 /// \param options  max_bytes is set
-/// \return a result within the limit. If the progress callback cancels, the report has StopReason::cancelled
+/// \return a result within the limit
 /// \throws ByteLimitError  even the smallest images exceed the limit; the message has the size of the result with them
 /// \throws whatever bake() throws
 /// Complexity: that of bake() and fit_images().

@@ -39,7 +39,6 @@ public:
         std::uint64_t last_faces = 0;
         for (int run = 0; run < most_runs; ++run) {
             simplify_again();
-            if (is_cancelled()) return std::move(result_.asset);
             if (fits()) return finish(run > 0);
             const std::uint64_t faces = result_.asset.report.faces_out;
             const bool is_smallest = run > 0 && faces >= last_faces;
@@ -47,7 +46,6 @@ public:
             if (!geometry_limit_) geometry_limit_ = first_geometry_limit();
             if (!result_.pending.empty() && (size_.geometry <= *geometry_limit_ || is_smallest)) {
                 size_ = fit_images(result_, resolved_options(source_, options_), context_, limit_);
-                if (is_cancelled()) return std::move(result_.asset);
                 if (fits()) return finish(true);
                 geometry_limit_ = left_by(size_.images);
             }
@@ -67,7 +65,6 @@ public:
     }
 
 private:
-    bool is_cancelled() const { return result_.asset.report.stop == StopReason::cancelled; }
     bool fits() const { return size_.total() <= limit_; }
     std::uint64_t left_by(std::uint64_t images) const { return limit_ - std::min(limit_, images); }
 
@@ -80,7 +77,7 @@ private:
         parts_ = simplify_parts(source_, options_, context_);
         result_ = bake_unencoded(source_, parts_, options_, context_);
         encode_images(result_, options_, context_);
-        if (!is_cancelled()) size_ = model_size(result_.asset.asset, result_.asset.asset.format);
+        size_ = model_size(result_.asset.asset, result_.asset.asset.format);
     }
 
     SimplifiedAsset finish(bool is_reduced) {
@@ -107,13 +104,10 @@ SimplifiedAsset bake_within_bytes(const Asset& source, const SimplifiedParts& si
     const Options options = resolved_options(source, requested);
     UnencodedResult result = bake_unencoded(source, simplified, requested, context);
     encode_images(result, options, context);
-    const auto is_cancelled = [&] { return result.asset.report.stop == StopReason::cancelled; };
-    if (is_cancelled()) return std::move(result.asset);
     ModelSize size = model_size(result.asset.asset, options.format);
     const std::uint64_t before = size.total();
     if (before <= *options.max_bytes) return std::move(result.asset);
     if (!result.pending.empty()) size = fit_images(result, options, context, *options.max_bytes);
-    if (is_cancelled()) return std::move(result.asset);
     if (size.total() > *options.max_bytes)
         throw ByteLimitError("the smallest result with " + std::to_string(result.asset.report.faces_out) +
                              " faces has " + std::to_string(size.total()) + " bytes, but max_bytes allows " +

@@ -31,7 +31,7 @@ std::vector<double> proportional_shares(const Asset& asset, std::uint64_t target
 
 /// Warns of the parts that have less than a tenth of their proportional share, and names up to five of them.
 /// \param shares      of proportional_shares()
-/// \param simplified  not cancelled; the warning is added to its report
+/// \param simplified  the warning is added to its report
 /// Complexity: O(parts)
 void warn_of_small_shares(const Asset& source, std::span<const double> shares, SimplifiedParts& simplified);
 

@@ -42,7 +42,7 @@ MeasuredDistance ReferenceParts::operator()(const SimplifiedParts& simplified, d
 }
 
 SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options,
-                                            const RunContext& context) try {
+                                            const RunContext& context) {
     context.show(Phase::simplify, 0);
     const ReferenceParts measured(source, options, context.untimed());
     const double allowed = measured.size()(*options.max_error);
@@ -56,10 +56,6 @@ SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& 
         [&](const SimplifiedParts& simplified, MeasureMode mode, const RunContext& of_measurement) {
             return measured(simplified, allowed, mode, of_measurement);
         });
-} catch (const engine::Cancelled&) {
-    SimplifiedParts nothing = cancelled_result<SimplifiedParts>();
-    nothing.parts.resize(source.parts.size());
-    return nothing;
 }
 
 }  // namespace faqem::detail

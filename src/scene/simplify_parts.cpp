@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "asset/scene/messages.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "asset/scene/position_rounding.hpp"
 #include "asset/scene/source_traits.hpp"
 #include "faqem/bake.hpp"
@@ -111,37 +112,37 @@ public:
     }
 
     std::vector<SimplifiedParts> operator()(std::span<const std::uint64_t> targets) {
-        results_.resize(targets.size());
-        for (SimplifiedParts& level : results_) {
-            level.parts.resize(source_.parts.size());
-            level.report.preset = options_.preset;
-        }
-        if (options_.visibility == Visibility::weighted) compute_visibility();
+        begin(targets.size());
         std::vector<SimplifiedParts> results = run(budgets(targets));
-        for (std::size_t i = 0; i < results.size() && i < shares_.size(); ++i) {
-            if (results[i].report.stop != StopReason::cancelled)
-                detail::warn_of_small_shares(source_, shares_[i], results[i]);
-        }
+        for (std::size_t i = 0; i < shares_.size(); ++i)
+            detail::warn_of_small_shares(source_, shares_[i], results[i]);
         return results;
     }
 
     /// Simplifies all parts to given face counts, by part.
     SimplifiedParts to_face_counts(std::span<const std::uint64_t> counts) {
-        results_.resize(1);
-        results_.front().parts.resize(source_.parts.size());
-        if (options_.visibility == Visibility::weighted) compute_visibility();
+        begin(1);
         std::vector<std::vector<std::uint64_t>> share;
         for (const std::uint64_t count : counts) share.push_back({count});
         return std::move(run(share).front());
     }
 
 private:
+    void begin(std::size_t levels) {
+        results_.resize(levels);
+        for (SimplifiedParts& level : results_) {
+            level.parts.resize(source_.parts.size());
+            level.report.preset = options_.preset;
+        }
+        if (options_.visibility == Visibility::weighted) compute_visibility();
+    }
+
     std::vector<SimplifiedParts> run(const std::vector<std::vector<std::uint64_t>>& share) {
         for_each_part([&](std::size_t p, const MeshView& view, Options& own, const RunContext& of_part) {
             own.history = Recording::on;
             std::vector<SimplifyResult> results =
                 simplify_part(source_.parts[p], view, share[p], own, of_part);
-            is_cancelled_ = results.back().report.stop == StopReason::cancelled;
+            if (results.back().report.stop == StopReason::cancelled) throw engine::Cancelled{};
             for (std::size_t i = 0; i < results.size(); ++i) {
                 round_result(results[i]);
                 results_[i].parts[p] = std::move(results[i]);
@@ -150,17 +151,12 @@ private:
                                         detail::part_title(source_, p));
             }
         });
-        if (is_cancelled_) {
-            results_.resize(1);
-            results_.front().report.stop = StopReason::cancelled;
-        } else {
-            for (SimplifiedParts& level : results_) {
-                detail::report_removed_components(source_, level);
-                if (level.report.stop == StopReason::reached_time_limit)
-                    level.report.warnings.push_back("max_seconds was over before the target was reached");
-            }
+        for (SimplifiedParts& level : results_) {
+            detail::report_removed_components(source_, level);
+            if (level.report.stop == StopReason::reached_time_limit)
+                level.report.warnings.push_back("max_seconds was over before the target was reached");
+            level.report.seconds.total = level.report.seconds.simplify;
         }
-        for (SimplifiedParts& level : results_) level.report.seconds.total = level.report.seconds.simplify;
         return std::move(results_);
     }
 
@@ -182,10 +178,11 @@ private:
         return detail::run_to_targets(view, targets, own, context);
     }
 
-    void compute_visibility() try {
+    void compute_visibility() {
         const detail::Stopwatch watch;
         context_.show(Phase::simplify, 0);
-        detail::VertexVisibility seen = detail::vertex_visibility(source_, context_);
+        detail::VertexVisibility seen;
+        if (!context_.in_time([&] { seen = detail::vertex_visibility(source_, context_); })) return;
         weights_ = std::move(seen.weights);
         const std::string warning = detail::visibility_warning(source_);
         for (SimplifiedParts& level : results_) {
@@ -193,8 +190,6 @@ private:
             if (!warning.empty()) level.report.warnings.push_back(warning);
         }
         results_.front().report.seconds.simplify += watch.seconds();
-    } catch (const engine::Cancelled& stopped) {
-        is_cancelled_ = stopped.reason == StopReason::cancelled;
     }
 
     // Face counts by part and target; in descending order for every part.
@@ -245,7 +240,7 @@ private:
                     curves_[p] = detail::curve_in_motion(std::move(curves_[p]), part, view, own, of_part,
                                                          static_cast<std::uint64_t>(share));
                 }
-                is_cancelled_ = curves_[p].stop == StopReason::cancelled;
+                if (curves_[p].stop == StopReason::cancelled) throw engine::Cancelled{};
             });
         cost_weights_ = detail::cost_weights(curves_.size(), detail::seen_instances(source_));
         return !context_.is_late();
@@ -263,12 +258,12 @@ private:
             result.mesh.face_groups.push_back(result.history.face_groups[f]);
     }
 
-    // Calls work(part, view, options, context) for every part with faces, until cancelled.
+    // Calls work(part, view, options, context) for every part with faces.
     template <class Work>
     void for_each_part(Work&& work) {
         for (std::size_t p = 0; p < source_.parts.size(); ++p) {
             const Part& part = source_.parts[p];
-            if (part.triangles.empty() || is_cancelled_) continue;
+            if (part.triangles.empty()) continue;
             const double size = static_cast<double>(part.triangles.size());
             Options own = detail::part_options(options_, size_, size_.scales[p]);
             // Materials that stay apart are not mixed on flat surfaces.
@@ -296,7 +291,6 @@ private:
     std::vector<std::vector<double>> shares_;      // by target: of proportional_shares(), or empty
     std::vector<detail::CostCurve> curves_;
     std::vector<double> cost_weights_;  // by part
-    bool is_cancelled_ = false;
     detail::SceneSize size_;
     std::vector<std::vector<float>> weights_;  // by part and vertex; empty: equal weights
     double faces_ = 0;                         // of all parts
@@ -319,8 +313,7 @@ namespace {
 // Whether a new atlas could have images: for textures, vertex colours, or several materials on one page.
 bool has_appearance(const Asset& source) {
     return !source.images.empty() || source.materials.size() > 1 ||
-           std::any_of(source.parts.begin(), source.parts.end(),
-                       [](const Part& part) { return !part.colors.empty(); });
+           detail::some_part_has(source, &Part::colors);
 }
 
 // Simplifies all parts again, with UVs, to the face counts that they have.
@@ -332,10 +325,7 @@ void add_parts_with_uvs(const Asset& source, Options own, const RunContext& cont
     SimplifiedParts with_uvs = PartsRun(source, own, context).to_face_counts(counts);
     simplified.report.seconds.simplify += with_uvs.report.seconds.simplify;
     simplified.report.seconds.total += with_uvs.report.seconds.simplify;
-    if (with_uvs.report.stop == StopReason::cancelled)
-        simplified.report.stop = with_uvs.report.stop;
-    else
-        simplified.with_uvs = std::move(with_uvs.parts);
+    simplified.with_uvs = std::move(with_uvs.parts);
 }
 
 }  // namespace
@@ -352,7 +342,7 @@ SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options
     const RunContext step = context.step(Phase::simplify, 0, tries_uvs ? 0.5 : 1);
     SimplifiedParts result =
         std::move(detail::simplify_parts_to_targets(source, {&target, 1}, options, step, levels).front());
-    if (tries_uvs && result.report.stop != StopReason::cancelled && !context.is_late())
+    if (tries_uvs && !context.is_late())
         add_parts_with_uvs(source, options, context.step(Phase::simplify, 0.5, 1), result);
     return result;
 }
@@ -383,8 +373,12 @@ SimplifiedParts detail::simplify_parts(const Asset& source, const Options& reque
     return result;
 }
 
-SimplifiedParts simplify_parts(const Asset& source, const Options& options) {
+SimplifiedParts simplify_parts(const Asset& source, const Options& options) try {
     return detail::simplify_parts(source, options, RunContext(options));
+} catch (const engine::Cancelled&) {
+    auto nothing = detail::cancelled_result<SimplifiedParts>();
+    nothing.parts.resize(source.parts.size());
+    return nothing;
 }
 
 }  // namespace faqem

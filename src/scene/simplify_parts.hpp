@@ -18,7 +18,8 @@ namespace faqem::detail {
 /// \param options  must be valid
 /// \param levels   what the targets are for, at least as many: a target that was found for a distance is distributed by
 ///                 error alone. Empty: all targets were asked for, and Options::budget may limit how little a part gets
-/// \return one result per target; a single one with StopReason::cancelled if the progress callback cancels
+/// \return one result per target
+/// \throws engine::Cancelled if the progress callback cancels
 std::vector<SimplifiedParts> simplify_parts_to_targets(const Asset& source,
                                                        std::span<const std::uint64_t> targets,
                                                        const Options& options, const RunContext& context,
@@ -35,14 +36,14 @@ SimplifiedParts simplify_welded_parts(const Asset& source, const Options& option
 /// SimplifiedParts::with_uvs.
 /// \param targets    face counts of all parts together: at least one, in descending order
 /// \param requested  as for simplify_parts(); target and max_error are ignored
-/// \return one result per target; a single one with StopReason::cancelled if the progress callback cancels
-/// \throws whatever simplify_parts() throws
+/// \return one result per target
+/// \throws whatever simplify_parts() throws, and engine::Cancelled
 /// Complexity: that of one call of simplify_parts(), and O(faces) for each target.
 std::vector<SimplifiedParts> simplify_parts_in_steps(const Asset& source,
                                                      std::span<const std::uint64_t> targets,
                                                      const Options& requested, const RunContext& context);
 
-/// simplify_parts() as a part of the call that has the context.
+/// simplify_parts() as a part of the call that has the context. \throws also engine::Cancelled
 SimplifiedParts simplify_parts(const Asset& source, const Options& requested, const RunContext& context);
 
 }  // namespace faqem::detail

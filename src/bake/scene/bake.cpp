@@ -129,8 +129,9 @@ void add_kept(const Asset& source, const BakeOptions& bake, std::span<const Kept
 
 // Bakes all parts, except for the encoding of images.
 // \param requested  the kind before what is automatic was replaced
+// \param fits_images  with Bake::keep: whether the images of all parts are pending, instead of those of the source
 void bake_parts(const Asset& source, const SimplifiedParts& simplified, const BakeOptions& bake,
-                Bake requested, const RunContext& context, UnencodedResult& out) {
+                Bake requested, bool fits_images, const RunContext& context, UnencodedResult& out) {
     const Stopwatch watch;
     const RunContext untimed = context.untimed();
     Report& report = out.asset.report;
@@ -172,7 +173,8 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
     if (bake.kind == Bake::none) bake_none(job, out);
     std::vector<KeptPart> kept =
         add_kept_parts(source, parts, untouched, std::move(with_uvs.asset), keeps_images, out.asset);
-    if (bake.kind == Bake::keep && requested == Bake::automatic && names_objects_by_number(source))
+    if (fits_images ||
+        (bake.kind == Bake::keep && requested == Bake::automatic && names_objects_by_number(source)))
         for (const BakePart& part : parts)
             if (!part.is_kept) kept.push_back({part.index, false});
     add_kept(source, bake, kept, is_late, untimed, out);
@@ -182,30 +184,12 @@ void bake_parts(const Asset& source, const SimplifiedParts& simplified, const Ba
     untimed.report(Phase::bake, 1);
 }
 
-// Keeps the UVs of all parts, with pending images.
-void keep_all_parts(const Asset& source, const SimplifiedParts& simplified, const BakeOptions& bake,
-                    const RunContext& context, UnencodedResult& out) {
-    const Stopwatch watch;
-    const std::vector<std::uint8_t> untouched(source.parts.size(), 0);
-    const std::vector<BakePart> parts = map_parts(source, simplified.parts, untouched, bake, context);
-    out.asset.report.seconds.map = watch.seconds();
-    bake_keep({source, bake, parts, context}, out);
-    std::vector<KeptPart> kept;
-    for (const BakePart& part : parts) kept.push_back({part.index, false});
-    add_kept(source, bake, kept, false, context, out);
-    keep_file_records(parts, untouched, out.asset.asset);
-    for (Part& part : out.asset.asset.parts) part.file_order = FileOrder::for_gpu;
-    context.report(Phase::bake, 1);
-}
-
 // Replaces normals that follow from a smoothing group by this group, unless a new normal map needs them.
 void restore_smoothing(const Asset& source, const BakeOptions& bake, Asset& result) {
     if (bake.normals != Normals::automatic || source.smoothing == Smoothing::unknown) return;
     const bool has_normal_map = std::any_of(result.materials.begin(), result.materials.end(),
                                             [](const Material& m) { return bool(m.normal_texture); });
-    const bool has_normals = std::any_of(result.parts.begin(), result.parts.end(),
-                                         [](const Part& part) { return !part.normals.empty(); });
-    if (has_normal_map && has_normals) return;
+    if (has_normal_map && some_part_has(result, &Part::normals)) return;
     result.smoothing = source.smoothing;
     for (Part& part : result.parts) part.normals.clear();
 }
@@ -228,25 +212,20 @@ UnencodedResult run_bake(const Asset& given, const SimplifiedParts& simplified, 
     out.asset.asset.format = options.format;
     out.asset.asset.warnings = source.warnings;
     out.asset.asset.precision = source.precision;
-    if (report.stop == StopReason::cancelled) return out;
+    if (report.stop == StopReason::cancelled) throw engine::Cancelled{};
     const Stopwatch watch;
-    try {
-        work(source, options, out);
-        restore_smoothing(source, options.bake, out.asset.asset);
-        // Those of simplify_parts() are rounded already, those of histories are not.
-        const StoredPrecision precision = result_precision(source, options.format);
-        for (std::size_t p = 0; p < source.parts.size(); ++p) {
-            Part& part = out.asset.asset.parts[p];
-            round_positions(precision, part.triangles, part.positions);
-            const std::size_t vertices = part.positions.size();
-            const std::size_t unsplit = simplified.parts[p].mesh.positions.size();
-            report.vertices_split += vertices - std::min(vertices, unsplit);
-        }
-        set_quantization(source, options, out.asset.asset, report);
-    } catch (const engine::Cancelled&) {
-        set_cancelled(out.asset);
-        out.pending.clear();
+    work(source, options, out);
+    restore_smoothing(source, options.bake, out.asset.asset);
+    // Those of simplify_parts() are rounded already, those of histories are not.
+    const StoredPrecision precision = result_precision(source, options.format);
+    for (std::size_t p = 0; p < source.parts.size(); ++p) {
+        Part& part = out.asset.asset.parts[p];
+        round_positions(precision, part.triangles, part.positions);
+        const std::size_t vertices = part.positions.size();
+        const std::size_t unsplit = simplified.parts[p].mesh.positions.size();
+        report.vertices_split += vertices - std::min(vertices, unsplit);
     }
+    set_quantization(source, options, out.asset.asset, report);
     report.seconds.bake = watch.seconds() - report.seconds.map;
     report.seconds.total += watch.seconds();
     return out;
@@ -265,7 +244,7 @@ UnencodedResult bake_unencoded(const Asset& given, const SimplifiedParts& simpli
                 "images of KTX2, AVIF, DDS and of unknown kinds cannot be baked: the UVs and images of the "
                 "source are "
                 "kept");
-        bake_parts(source, simplified, options.bake, requested.bake.kind, context, out);
+        bake_parts(source, simplified, options.bake, requested.bake.kind, false, context, out);
     };
     return run_bake(given, simplified, requested, context, work);
 }
@@ -275,7 +254,9 @@ UnencodedResult bake_with_uvs(const Asset& given, const SimplifiedParts& simplif
     const auto work = [&](const Asset& source, const Options& options, UnencodedResult& out) {
         BakeOptions bake = options.bake;
         bake.kind = Bake::keep;
-        keep_all_parts(source, simplified, bake, context.untimed(), out);
+        bake.untouched = UntouchedParts::baked;
+        bake_parts(source, simplified, bake, Bake::automatic, true, context.untimed(), out);
+        for (Part& part : out.asset.asset.parts) part.file_order = FileOrder::for_gpu;
     };
     return run_bake(given, simplified, requested, context, work);
 }

@@ -5,6 +5,7 @@
 
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/error.hpp"
+#include "scene/part_reports.hpp"
 #include "scene/simplify_parts.hpp"
 
 namespace faqem::detail {
@@ -30,21 +31,11 @@ Options other_level_options(Options options) {
 }
 
 // Levels are made from the finest one, but their counts refer to the original.
-void add_counts_of_finest(Report& report, const Report& before) {
-    report.faces_in = before.faces_in;
-    report.vertices_in = before.vertices_in;
-    report.collapses += before.collapses;
-    for (std::size_t i = 0; i < refusal_kinds; ++i) report.refusals[i] += before.refusals[i];
-    for (std::size_t i = 0; i < rung_kinds; ++i) report.rungs[i] += before.rungs[i];
-    report.faces_dropped += before.faces_dropped;
-    report.components_collapsed += before.components_collapsed;
-    report.components_deleted += before.components_deleted;
-    report.components_pruned += before.components_pruned;
-    report.faces_pruned += before.faces_pruned;
+void add_counts_of_finest(Report& report, Report before) {
+    report.faces_in = report.vertices_in = 0;
+    before.faces_out = before.vertices_out = before.target_faces = 0;
+    add_counts(report, before);
     report.vertices_hidden = before.vertices_hidden;
-    report.vertices_fitted += before.vertices_fitted;
-    report.edges_flipped += before.edges_flipped;
-    report.virtual_edges += before.virtual_edges;
     report.warnings.insert(report.warnings.begin(), before.warnings.begin(), before.warnings.end());
 }
 
@@ -103,7 +94,7 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
     out.push_back(
         {bake_encoded(source, finest.result, finest_options, baking(0)), finest.distance, finest.error});
     const SimplifiedAsset& baked = out.front().result;
-    if (baked.report.stop == StopReason::cancelled || level_targets.size() == 1) return out;
+    if (level_targets.size() == 1) return out;
 
     std::vector<SimplifiedPartsLevel> others = run_lod_chain<SimplifiedPartsLevel>(
         level_targets.subspan(1), other_options, baking(1), finest.result.report.faces_out,
@@ -120,7 +111,6 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
         const SimplifiedParts simplified = std::move(level.result);
         out.push_back({bake_encoded(baked.asset, simplified, other_options, baking(out.size() + 1)),
                        level.distance, std::max(level.error, finest.error)});
-        if (out.back().result.report.stop == StopReason::cancelled) break;
     }
     return out;
 }

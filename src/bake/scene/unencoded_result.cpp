@@ -75,25 +75,12 @@ void add_histories(const SimplifiedParts& simplified, const Options& options, Si
     for (const SimplifyResult& part : simplified.parts) result.histories.push_back(part.history);
 }
 
-void set_cancelled(SimplifiedAsset& result) {
-    result.asset.parts.clear();
-    result.asset.materials.clear();
-    result.asset.images.clear();
-    result.correspondence.clear();
-    result.report.stop = StopReason::cancelled;
-}
-
 void encode_images(UnencodedResult& result, const Options& options, const RunContext& context) {
     Report& report = result.asset.report;
-    if (report.stop == StopReason::cancelled) return;
     const Stopwatch watch;
     context.show(Phase::bake, 1);
-    try {
-        encode_in_time(result, options.bake, context);
-        report_images(result.asset.asset, report);
-    } catch (const engine::Cancelled&) {
-        set_cancelled(result.asset);
-    }
+    encode_in_time(result, options.bake, context);
+    report_images(result.asset.asset, report);
     report.seconds.bake += watch.seconds();
     report.seconds.total += watch.seconds();
 }

@@ -7,11 +7,12 @@
 
 namespace faqem::detail {
 
-/// bake() without the encoding of images. \throws as bake()
+/// bake() without the encoding of images. \throws engine::Cancelled, also if the parts are those of a cancelled run
+/// \throws as bake()
 UnencodedResult bake_unencoded(const Asset& source, const SimplifiedParts& simplified, const Options& options,
                                const RunContext& context);
 
-/// bake() without the rules about the size of results and without histories. \throws as bake()
+/// bake() without the rules about the size of results and without histories. \throws as bake_unencoded()
 SimplifiedAsset bake_encoded(const Asset& source, const SimplifiedParts& simplified, const Options& options,
                              const RunContext& context);
 
@@ -23,7 +24,7 @@ SimplifiedAsset bake_encoded(const Asset& source, const SimplifiedParts& simplif
 UnencodedResult bake_with_uvs(const Asset& source, const SimplifiedParts& simplified, const Options& options,
                               const RunContext& context);
 
-/// Encodes the pending images, which stay pending, and reports all images. Does nothing for a cancelled result.
+/// Encodes the pending images, which stay pending, and reports all images.
 /// \param options  those of BakeOptions that are about the encoding
 /// \param context  if its time is over, images that ImageFormat::automatic is about get the format of the source
 void encode_images(UnencodedResult& result, const Options& options, const RunContext& context);
@@ -44,8 +45,5 @@ bool remove_new_normal_maps(UnencodedResult& result);
 
 /// Copies the histories of the parts to the result, if Options::history is on.
 void add_histories(const SimplifiedParts& simplified, const Options& options, SimplifiedAsset& result);
-
-/// Makes the result that of a run whose progress callback has cancelled.
-void set_cancelled(SimplifiedAsset& result);
 
 }  // namespace faqem::detail

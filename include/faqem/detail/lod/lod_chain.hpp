@@ -183,7 +183,7 @@ private:
 /// \param run            (targets, Options, RunContext) -> results, as run_to_targets()
 /// \param measure        (Result, allowed, MeasureMode, RunContext) -> MeasuredDistance
 /// \return one element per level; fewer if cancelled, the last one with StopReason::cancelled
-/// \throws whatever `run`, `measure` or the progress callback throws, except Cancelled
+/// \throws whatever `run`, `measure` or the progress callback throws, except Cancelled from `measure`
 template <class Out, class Run, class Measure>
 std::vector<Out> run_lod_chain(std::span<const LevelTarget> level_targets, const Options& options,
                                const RunContext& context, std::uint64_t faces, Run&& run, Measure&& measure) {
