@@ -1,14 +1,13 @@
 #include "scene/removed_components.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "asset/scene/affine.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "asset/scene/messages.hpp"
 #include "faqem/detail/measure/removed_components.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 
@@ -29,11 +28,7 @@ void report_removed_components(const Asset& source, SimplifiedParts& result) {
     std::vector<PlacedFace> faces;
     for (const Instance& instance : measured_instances(source)) {
         const Part& part = source.parts[instance.part];
-        const Eigen::Map<const Eigen::Matrix4d> matrix(instance.transform.data());
-        const auto place = [&](Index v) {
-            const Eigen::Vector4d p = matrix * engine::to_eigen(part.positions[v]).homogeneous();
-            return engine::to_array(p.head<3>());
-        };
+        const auto place = [&](Index v) { return transformed_point(instance.transform, part.positions[v]); };
         for (std::size_t f = 0; f < part.triangles.size(); ++f) {
             const Triangle& t = part.triangles[f];
             faces.push_back({of_part[instance.part].component[f], {place(t[0]), place(t[1]), place(t[2])}});

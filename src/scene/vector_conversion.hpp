@@ -22,6 +22,10 @@ inline engine::Vector3 area_vector(std::span<const Vec3> positions, const Triang
                                engine::to_eigen(positions[t[2]]));
 }
 
+inline double triangle_area(std::span<const Vec3> positions, const Triangle& t) {
+    return area_vector(positions, t).norm() / 2;
+}
+
 /// The normalized vector; zero if its length is zero or not finite.
 inline engine::Vector3 unit_or_zero(const engine::Vector3& v) {
     const double length = v.norm();

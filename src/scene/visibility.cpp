@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "asset/scene/affine.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "asset/scene/source_traits.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
@@ -13,6 +14,7 @@
 #include "faqem/detail/geometry/vertex_faces.hpp"
 #include "faqem/error.hpp"
 #include "render/camera.hpp"
+#include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 
@@ -42,10 +44,7 @@ InstanceMesh instance_mesh(const Asset& scene, const Instance& instance) {
     const Part& part = scene.parts[instance.part];
     const Eigen::Map<const Eigen::Matrix4d> transform(instance.transform.data());
     InstanceMesh result;
-    result.positions.reserve(part.positions.size());
-    for (const Vec3& p : part.positions) {
-        result.positions.push_back(to_array((transform * to_eigen(p).homogeneous()).head<3>()));
-    }
+    for (const Vec3& p : part.positions) result.positions.push_back(transformed_point(instance.transform, p));
     result.triangles = part.triangles;
     if (transform.topLeftCorner<3, 3>().determinant() < 0) {
         for (Triangle& t : result.triangles) std::swap(t[1], t[2]);
@@ -80,8 +79,7 @@ public:
             const auto first = static_cast<Index>(positions.size());
             positions.insert(positions.end(), own.positions.begin(), own.positions.end());
             for (std::size_t f = 0; f < own.triangles.size(); ++f) {
-                const OccludingSides kind =
-                    occluding_sides(scene, part.face_material.empty() ? no_index : part.face_material[f]);
+                const OccludingSides kind = occluding_sides(scene, face_material(part, f));
                 if (kind == OccludingSides::none) continue;
                 const Triangle& t = own.triangles[f];
                 triangles.push_back({first + t[0], first + t[1], first + t[2]});
@@ -130,9 +128,8 @@ public:
     // Visibility by position of the surface: the maximum over the faces around it.
     std::vector<float> by_position(const RunContext& context) const {
         std::vector<float> result(surface_.positions.size());
-        parallel_blocks(result.size(), 64, context, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v)
-                result[v] = static_cast<float>(visibility_at_position(static_cast<Index>(v)));
+        parallel_each(result.size(), 64, context, [&](std::size_t v) {
+            result[v] = static_cast<float>(visibility_at_position(static_cast<Index>(v)));
         });
         return result;
     }
@@ -167,10 +164,8 @@ private:
             }
         }
         patch_visibility_.resize(first.size());
-        parallel_blocks(first.size(), 64, context, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                patch_visibility_[i] = visibility_from(first[i], centroid(first[i]));
-            }
+        parallel_each(first.size(), 64, context, [&](std::size_t i) {
+            patch_visibility_[i] = visibility_from(first[i], centroid(first[i]));
         });
     }
 

@@ -86,7 +86,7 @@ ExpectedPages expected_pages(const Asset& source, const BakeOptions& bake, std::
             const Index group =
                 groups.group_of(face_material(*part.source, part.simplified->history.remaining_faces[f]));
             faces[group].push_back({part.index, f});
-            const double own = area_vector(mesh.positions, mesh.triangles[f]).norm() / 2;
+            const double own = triangle_area(mesh.positions, mesh.triangles[f]);
             constexpr double third = 1.0 / 3;
             const Index at = part.map->map(f, {third, third, third}).face;
             const double density =

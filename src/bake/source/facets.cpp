@@ -41,7 +41,7 @@ Facets facets_by(const Part& part, const std::vector<std::array<float, N>>& valu
             result.areas.push_back(0);
         }
         result.of_face.push_back(facet);
-        result.areas[facet] += area_vector(part.positions, t).norm() / 2;
+        result.areas[facet] += triangle_area(part.positions, t);
     }
     result.is_seamless.assign(result.areas.size(), 1);
     UniqueValues<std::array<double, 4>> places;  // a position and a facet

@@ -22,10 +22,6 @@ using engine::Vector3;
 
 namespace {
 
-double face_area(const Part& part, std::size_t f) {
-    return area_vector(part.positions, part.triangles[f]).norm() / 2;
-}
-
 template <class V>
 double blend(const std::vector<V>& values, const Triangle& t, const Vec3& w, std::size_t k) {
     return w[0] * values[t[0]][k] + w[1] * values[t[1]][k] + w[2] * values[t[2]][k];
@@ -165,7 +161,7 @@ void SourceSampler::measure_densities(const Part& part, PartDensity& density) co
     std::vector<float> length(faces);  // square root of the area
     double area = 0;
     for (std::size_t f = 0; f < faces; ++f) {
-        const double a = face_area(part, f);
+        const double a = triangle_area(part.positions, part.triangles[f]);
         area += a;
         length[f] = static_cast<float>(std::sqrt(a));
     }
