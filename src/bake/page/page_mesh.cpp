@@ -1,7 +1,9 @@
 #include "bake/page/page_mesh.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -9,6 +11,7 @@
 
 #include "bake/parts/corner_normals.hpp"
 #include "faqem/detail/base/morton.hpp"
+#include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "scene/material_groups.hpp"
 
@@ -25,51 +28,35 @@ constexpr double small_page_texels = 1 << 18;
 // have, and texels of plain regions need few bytes.
 constexpr double small_page_sharpness = 4;
 
-// A half-edge of a face.
-struct FaceEdge {
-    Index part, low, high;  // vertices
-    std::uint64_t corner;   // 3 * triangle + corner opposite the edge
-    bool up;                // directed from low to high
-
-    bool same_edge(const FaceEdge& o) const { return part == o.part && low == o.low && high == o.high; }
-};
-
-// The half-edges of all faces; those of one edge are consecutive.
-std::vector<FaceEdge> sorted_edges(std::span<const BakePart> parts, std::span<const PageFace> faces) {
-    std::vector<FaceEdge> edges;
-    edges.reserve(3 * faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        const Triangle& t = parts[faces[i].part].simplified->mesh.triangles[faces[i].face];
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Index a = t[(c + 1) % 3], b = t[(c + 2) % 3];
-            edges.push_back({faces[i].part, std::min(a, b), std::max(a, b), 3 * i + c, a < b});
-        }
+// The triangles of faces, with numbers of vertices that differ between parts.
+std::vector<Triangle> numbered_triangles(std::span<const BakePart> parts, std::span<const PageFace> faces) {
+    std::vector<Index> first = {0};  // by part
+    for (const BakePart& part : parts)
+        first.push_back(first.back() + static_cast<Index>(part.simplified->mesh.positions.size()));
+    std::vector<Triangle> result;
+    result.reserve(faces.size());
+    for (const PageFace& face : faces) {
+        const Triangle& t = parts[face.part].simplified->mesh.triangles[face.face];
+        const Index begin = first[face.part];
+        result.push_back({begin + t[0], begin + t[1], begin + t[2]});
     }
-    std::sort(edges.begin(), edges.end(), [](const FaceEdge& a, const FaceEdge& b) {
-        if (a.part != b.part) return a.part < b.part;
-        if (a.low != b.low) return a.low < b.low;
-        return a.high != b.high ? a.high < b.high : a.corner < b.corner;
-    });
-    return edges;
+    return result;
 }
 
 // Sets PageTriangle::adjacent and crease.
 void connect_triangles(std::span<const BakePart> parts, PageMesh& page) {
-    const auto connect = [&](std::uint64_t from, std::uint64_t to) {
-        const PageFace &own = page.faces[from / 3], &other = page.faces[to / 3];
-        PageTriangle& triangle = page.triangles[from / 3];
-        triangle.adjacent[from % 3] = {static_cast<Index>(to / 3), static_cast<std::uint8_t>(to % 3)};
-        triangle.crease[from % 3] =
-            is_crease(parts[own.part].normals, own.face, from % 3, other.face, to % 3);
+    const auto connect = [&](const Halfedge& from, const Halfedge& to) {
+        const PageFace &own = page.faces[from.face], &other = page.faces[to.face];
+        PageTriangle& triangle = page.triangles[from.face];
+        triangle.adjacent[from.opposite()] = {to.face, to.opposite()};
+        triangle.crease[from.opposite()] =
+            is_crease(parts[own.part].normals, own.face, from.opposite(), other.face, to.opposite());
     };
-    const std::vector<FaceEdge> edges = sorted_edges(parts, page.faces);
-    for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
-        for (end = begin + 1; end < edges.size() && edges[end].same_edge(edges[begin]);) ++end;
-        const FaceEdge &a = edges[begin], &b = edges[end - 1];
-        if (end - begin != 2 || a.up == b.up || a.corner / 3 == b.corner / 3) continue;
-        connect(a.corner, b.corner);
-        connect(b.corner, a.corner);
-    }
+    for_each_edge(sorted_halfedges(numbered_triangles(parts, page.faces)), [&](std::span<const Halfedge> on) {
+        if (on.size() != 2 || on[0].is_ascending == on[1].is_ascending || on[0].face == on[1].face) return;
+        connect(on[0], on[1]);
+        connect(on[1], on[0]);
+    });
 }
 
 // Source texels per unit of length at a simplified face.
@@ -177,16 +164,13 @@ double small_page_factor(std::span<const PageTriangle> triangles) {
 // Sets the places of the triangles of one part, along a curve over the bounding box of the part.
 void set_order(const BakePart& part, std::span<const PageTriangle> triangles,
                std::span<std::uint64_t> order) {
-    Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (const Vec3& p : part.simplified->mesh.positions) {
-        low = low.cwiseMin(to_eigen(p));
-        high = high.cwiseMax(to_eigen(p));
-    }
-    const double size = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : part.simplified->mesh.positions) box.extend(to_eigen(p));
+    const double size = std::max(box.sizes().maxCoeff(), std::numeric_limits<double>::min());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const auto& p = triangles[i].corners;
         const Vector3 middle = (to_eigen(p[0]) + to_eigen(p[1]) + to_eigen(p[2])) / 3;
-        order[i] = (std::uint64_t{part.index & 0xffff} << 48) | morton<16>((middle - low) / size);
+        order[i] = (std::uint64_t{part.index & 0xffff} << 48) | morton<16>((middle - box.min()) / size);
     }
 }
 
@@ -198,16 +182,14 @@ PageMesh make_page_mesh(std::span<const BakePart> parts, std::vector<PageFace> f
     PageMesh page{std::move(faces), std::vector<PageTriangle>(count), std::vector<std::uint64_t>(count),
                   std::vector<double>(count)};
     std::vector<FaceDensity> densities(count);
-    parallel_blocks(count, 256, context, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PageFace& at = page.faces[i];
-            const TriangleMesh& mesh = parts[at.part].simplified->mesh;
-            for (std::size_t c = 0; c < 3; ++c)
-                page.triangles[i].corners[c] = mesh.positions[mesh.triangles[at.face][c]];
-            densities[i] = density_at(parts[at.part], sampler, at.face);
-            densities[i].area = area_vector(page.triangles[i]).norm() / 2;
-            page.source_density[i] = densities[i].middle;
-        }
+    parallel_each(count, 256, context, [&](std::size_t i) {
+        const PageFace& at = page.faces[i];
+        const TriangleMesh& mesh = parts[at.part].simplified->mesh;
+        for (std::size_t c = 0; c < 3; ++c)
+            page.triangles[i].corners[c] = mesh.positions[mesh.triangles[at.face][c]];
+        densities[i] = density_at(parts[at.part], sampler, at.face);
+        densities[i].area = area_vector(page.triangles[i]).norm() / 2;
+        page.source_density[i] = densities[i].middle;
     });
     connect_triangles(parts, page);
     std::vector<WantedDensities> wanted;

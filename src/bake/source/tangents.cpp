@@ -8,6 +8,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "faqem/detail/geometry/halfedges.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -114,28 +116,20 @@ private:
     // Pairs faces across edges. A face has at most one neighbour per edge: the first one with consistent
     // winding that has no neighbour yet.
     void find_neighbours() {
-        struct Edge {
-            std::uint32_t low, high, corner;  // the edge from the corner to the next
-        };
-        std::vector<Edge> edges;
-        edges.reserve(corners_.size());
-        for (std::uint32_t c = 0; c < corners_.size(); ++c) {
-            if (faces_[c / 3].is_degenerate) continue;
-            const auto [low, high] = std::minmax(vertex_[c], vertex_[next(c)]);
-            edges.push_back({low, high, c});
+        std::vector<Triangle> triangles;
+        triangles.reserve(faces_.size());
+        for (std::size_t f = 0; f < faces_.size(); ++f) {
+            const bool is_left_out = faces_[f].is_degenerate;
+            triangles.push_back(
+                {is_left_out ? no_index : vertex_[3 * f], vertex_[3 * f + 1], vertex_[3 * f + 2]});
         }
-        std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-            return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-        });
         std::vector<std::uint32_t> waiting;
-        for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
+        for_each_edge(sorted_halfedges(triangles), [&](std::span<const Halfedge> on) {
             // All waiting half-edges have the same direction.
             waiting.clear();
             std::size_t first = 0;
-            for (end = begin; end < edges.size() && edges[end].low == edges[begin].low &&
-                              edges[end].high == edges[begin].high;
-                 ++end) {
-                const std::uint32_t c = edges[end].corner;
+            for (const Halfedge& halfedge : on) {
+                const std::uint32_t c = 3 * halfedge.face + halfedge.corner;
                 if (first < waiting.size() && vertex_[waiting[first]] != vertex_[c]) {
                     adjacent_face_[c] = waiting[first] / 3;
                     adjacent_face_[waiting[first]] = c / 3;
@@ -144,7 +138,7 @@ private:
                     waiting.push_back(c);
                 }
             }
-        }
+        });
     }
 
     // Makes a group of the corners around a vertex that share a tangent with the corner `seed`.

@@ -24,13 +24,15 @@ struct Halfedge {
 
     /// Key of the undirected edge.
     std::uint64_t edge() const { return std::uint64_t{low} << 32 | high; }
+    /// The corner of the face that is not on the edge.
+    std::uint8_t opposite() const { return static_cast<std::uint8_t>((corner + 2) % 3); }
 };
 
 /// Lists the half-edges of all triangles, sorted by low vertex, high vertex, face and corner.
 /// \param triangles  triangles with no_index as first corner are skipped, and so are half-edges with two
 ///                   equal vertices
 /// O(n log n)
-std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> triangles);
+FAQEM_EXPORT std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> triangles);
 
 /// Calls visit(std::span<const Halfedge>) once for each edge, with all half-edges on it.
 /// \param halfedges  as returned by sorted_halfedges()
