@@ -52,9 +52,12 @@ TEST_CASE("surface patches: faces and relative orientations of each patch") {
     // All half-edges on the edge have the same direction, so that the two faces of patch 0 have opposite
     // orientations.
     const SurfacePatches patches = around_an_edge({0, 90, 180});
-    REQUIRE(patches.begin.size() == 3);
-    CHECK(std::vector<Index>(patches.of(0).begin(), patches.of(0).end()) == std::vector<Index>{0, 2});
-    CHECK(std::vector<Index>(patches.of(1).begin(), patches.of(1).end()) == std::vector<Index>{1});
+    const auto faces_of = [&](Index patch) {
+        return std::vector<Index>(patches.faces[patch].begin(), patches.faces[patch].end());
+    };
+    CHECK(patches.surface_patch == std::vector<Index>{0, 1, 0});
+    CHECK(faces_of(0) == std::vector<Index>{0, 2});
+    CHECK(faces_of(1) == std::vector<Index>{1});
     CHECK(patches.sign[0] == -patches.sign[2]);
     CHECK(patches.sign[1] == 1);
 }

@@ -33,14 +33,10 @@ std::optional<BoxGrid> BoxGrid::build(std::span<const Box2> boxes, std::uint64_t
         }
     }
     work -= entries;
-    grid.begin_.assign(grid.columns_ * grid.rows_ + 1, 0);
-    for (const Box2& b : boxes) grid.visit(b, [&](std::size_t cell) { ++grid.begin_[cell + 1]; });
-    for (std::size_t i = 0; i + 1 < grid.begin_.size(); ++i) grid.begin_[i + 1] += grid.begin_[i];
-    grid.members_.resize(entries);
-    std::vector<std::uint64_t> fill(grid.begin_.begin(), grid.begin_.end() - 1);
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        grid.visit(boxes[i], [&](std::size_t cell) { grid.members_[fill[cell]++] = static_cast<Index>(i); });
-    }
+    grid.members_ = Buckets<Index>(grid.cells(), [&](auto&& put) {
+        for (Index i = 0; i < boxes.size(); ++i)
+            grid.visit(boxes[i], [&](std::size_t cell) { put(cell, i); });
+    });
     return grid;
 }
 

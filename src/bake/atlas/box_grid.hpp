@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "bake/atlas/point2.hpp"
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -29,16 +29,17 @@ public:
     /// Complexity: O(n) expected.
     template <class Test>
     bool all_pairs(std::span<const Box2> boxes, std::uint64_t& work, const Test& test) const {
-        for (std::size_t cell = 0; cell + 1 < begin_.size(); ++cell) {
-            for (std::uint64_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
-                const Box2& a = boxes[members_[i]];
-                for (std::uint64_t j = i + 1; j < begin_[cell + 1]; ++j) {
+        for (std::size_t cell = 0; cell < cells(); ++cell) {
+            const std::span<const Index> members = members_[cell];
+            for (std::size_t i = 0; i < members.size(); ++i) {
+                const Box2& a = boxes[members[i]];
+                for (std::size_t j = i + 1; j < members.size(); ++j) {
                     if (work == 0) return false;
                     --work;
-                    const Box2& b = boxes[members_[j]];
+                    const Box2& b = boxes[members[j]];
                     // A pair is tested once, in the first cell that both boxes overlap.
                     if (cell_at({std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}) != cell) continue;
-                    if (!test(members_[i], members_[j])) return false;
+                    if (!test(members[i], members[j])) return false;
                 }
             }
         }
@@ -61,6 +62,7 @@ private:
     std::size_t covered_cell_count(const Box2& box) const {
         return (column(box.high.x) - column(box.low.x) + 1) * (row(box.high.y) - row(box.low.y) + 1);
     }
+    std::size_t cells() const { return columns_ * rows_; }
     /// Index of the cell that contains p.
     std::size_t cell_at(const Point2& p) const { return row(p.y) * columns_ + column(p.x); }
     std::size_t column(double x) const {
@@ -73,8 +75,7 @@ private:
     Point2 low_;    ///< lower left corner of the grid
     double scale_;  ///< cells per unit of length
     std::size_t columns_, rows_;
-    std::vector<std::uint64_t> begin_;  ///< by cell: offset of its boxes in members_; one more at the end
-    std::vector<Index> members_;        ///< indices of boxes, cell by cell
+    Buckets<Index> members_;  ///< indices of boxes by cell
 };
 
 }  // namespace faqem::detail

@@ -141,13 +141,12 @@ void transfer_normals(const BakePart& part, bool keeps_vertices, const RunContex
         raw.min_cosines[corner] = min_normal_cosine_at(
             original.dot(winding_normal(part.source->positions, part.source->triangles[point.face])));
         const Index facet = facets.of_face[point.face];
-        const double area = area_vector(mesh.positions, mesh.triangles[corner / 3]).norm() / 2;
+        const double area = triangle_area(mesh.positions, mesh.triangles[corner / 3]);
         if (2 * facets.areas[facet] >= area) raw.facets[corner] = facet;
     };
     if (!part.map) return visit_corner_points(part, corner_inset, context, set);
-    parallel_blocks(raw.normals.size(), 768, context, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c)
-            set(c, part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset)));
+    parallel_each(raw.normals.size(), 768, context, [&](std::size_t c) {
+        set(c, part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset)));
     });
 }
 
@@ -178,13 +177,11 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, con
                    {}};
     CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners),
                          faces_with_reversed_winding(part)};
-    parallel_blocks(mesh.triangles.size(), 256, context, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f) {
-            Vector3& face_normal = raw.face_normals[f];
-            face_normal = winding_normal(mesh.positions, mesh.triangles[f]);
-            if (transfers && result.has_reversed_winding[f]) face_normal = -face_normal;
-            for (std::size_t c = 3 * f; c < 3 * f + 3; ++c) raw.normals[c] = face_normal;
-        }
+    parallel_each(mesh.triangles.size(), 256, context, [&](std::size_t f) {
+        Vector3& face_normal = raw.face_normals[f];
+        face_normal = winding_normal(mesh.positions, mesh.triangles[f]);
+        if (transfers && result.has_reversed_winding[f]) face_normal = -face_normal;
+        for (std::size_t c = 3 * f; c < 3 * f + 3; ++c) raw.normals[c] = face_normal;
     });
     if (transfers) transfer_normals(part, keeps_vertices, context, raw);
     for (std::size_t c = 0; c < corners; ++c) {
@@ -196,7 +193,7 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, con
     const double min_normal_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
     const VertexCorners at = vertex_corners(mesh);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        smooth_vertex(mesh, at.at(v), raw, min_normal_cosine, result);
+        smooth_vertex(mesh, at[v], raw, min_normal_cosine, result);
     }
     if (options.normals == Normals::flat) {
         std::transform(raw.normals.begin(), raw.normals.end(), result.normals.begin(), to_vec3f);

@@ -50,7 +50,7 @@ public:
     template <class Visit>
     void search_vertex(Index v, const RunContext& context, const Visit& visit) const {
         const std::span<const Index> candidates = faces_[v];
-        const std::span<const std::uint64_t> corners = corners_.at(v);
+        const std::span<const std::uint64_t> corners = corners_[v];
         const auto search = [&](const auto& closest) {
             for (const std::uint64_t corner : corners) {
                 context.count(map_query_cost);

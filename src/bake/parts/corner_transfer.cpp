@@ -100,7 +100,7 @@ public:
         std::vector<std::uint64_t> versions;
         for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
             versions.clear();
-            for (const std::uint64_t corner : at.at(v)) {
+            for (const std::uint64_t corner : at[v]) {
                 const auto same = std::find_if(versions.begin(), versions.end(), [&](std::uint64_t version) {
                     return is_close(version, corner);
                 });
@@ -189,9 +189,8 @@ TransferredCorners transfer_corners(const BakePart& part, const RunContext& cont
     TransferredCorners result;
     CornerTransfer transfer(part, result);
     std::atomic<std::uint64_t> crossing{0};
-    parallel_blocks(part.faces(), 256, context, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f) crossing += !transfer.transfer(static_cast<Index>(f));
-    });
+    parallel_each(part.faces(), 256, context,
+                  [&](std::size_t f) { crossing += !transfer.transfer(static_cast<Index>(f)); });
     result.crossing_faces = crossing;
     if (!result.values.empty()) transfer.merge_versions();
     return result;

@@ -73,7 +73,7 @@ std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const Corne
     std::vector<std::uint64_t> result(3 * mesh.triangles.size());
     std::vector<std::size_t> sorted;  // indices into the corners of a vertex
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        const auto corners = at.at(v);
+        const auto corners = at[v];
         const std::vector<std::size_t> fans = closed_fans(mesh, corners);
         const auto differ = [&](std::size_t a, std::size_t b) {
             if (fans[a] != fans[b]) return fans[a] < fans[b] ? -1 : 1;
@@ -96,18 +96,10 @@ std::vector<std::uint64_t> representatives(const TriangleMesh& mesh, const Corne
 }  // namespace
 
 VertexCorners vertex_corners(const TriangleMesh& mesh) {
-    VertexCorners result;
-    result.begin.assign(mesh.positions.size() + 1, 0);
-    for (const Triangle& t : mesh.triangles) {
-        for (Index v : t) ++result.begin[std::size_t{v} + 1];
-    }
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) result.begin[v + 1] += result.begin[v];
-    result.corners.resize(result.begin.back());
-    std::vector<std::uint64_t> fill(result.begin.begin(), result.begin.end() - 1);
-    for (std::uint64_t c = 0; c < result.corners.size(); ++c) {
-        result.corners[fill[mesh.triangles[c / 3][c % 3]]++] = c;
-    }
-    return result;
+    return VertexCorners(mesh.positions.size(), [&](auto&& put) {
+        for (std::uint64_t f = 0; f < mesh.triangles.size(); ++f)
+            for (std::size_t c = 0; c < 3; ++c) put(mesh.triangles[f][c], 3 * f + c);
+    });
 }
 
 Vec3 barycentrics_near_corner(std::size_t corner, double inset) {

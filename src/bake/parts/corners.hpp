@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/simplify.hpp"
 #include "faqem/surface_map.hpp"
 
@@ -42,15 +43,8 @@ struct BakePart {
 /// Number of operations that a query of BakePart::map counts as in cancellation checks.
 inline constexpr std::uint64_t map_query_cost = 32;
 
-/// Corners of the simplified mesh by vertex.
-struct VertexCorners {
-    std::vector<std::uint64_t> begin;    ///< by vertex: offset into `corners`; one more at the end
-    std::vector<std::uint64_t> corners;  ///< 3 * face + corner, ascending for every vertex
-
-    std::span<const std::uint64_t> at(std::size_t vertex) const {
-        return std::span(corners).subspan(begin[vertex], begin[vertex + 1] - begin[vertex]);
-    }
-};
+/// Corners of the simplified mesh by vertex: 3 * face + corner, ascending for every vertex.
+using VertexCorners = Buckets<std::uint64_t>;
 
 /// Sorts the corners of a mesh by vertex. Complexity: O(faces + vertices).
 VertexCorners vertex_corners(const TriangleMesh& mesh);

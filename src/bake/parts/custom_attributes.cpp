@@ -39,7 +39,7 @@ void join_close_values(const TriangleMesh& mesh, double distance, std::vector<Va
     std::vector<Value> distinct;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         distinct.clear();
-        for (const std::uint64_t c : at.at(v)) {
+        for (const std::uint64_t c : at[v]) {
             const auto found = std::find_if(distinct.begin(), distinct.end(), [&](const Value& value) {
                 return is_close(value, values[c], distance);
             });

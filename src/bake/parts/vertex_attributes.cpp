@@ -41,10 +41,6 @@ double shortest_edge(const TriangleMesh& mesh, std::size_t face) {
     return least;
 }
 
-double face_area(const TriangleMesh& mesh, Index face) {
-    return area_vector(mesh.positions, mesh.triangles[face]).norm() / 2;
-}
-
 // Sum of premultiplied colours, so that transparent corners do not tint the others. Corners with an alpha of 0
 // have straight colours, which are used if there are no others.
 struct ColorSum {
@@ -79,7 +75,7 @@ void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
     to.morph_targets.resize(from.morph_targets.size());
     for (std::uint64_t corner : welded.corner) {
         context.count(map_query_cost);
-        const std::uint64_t shared = at.at(mesh.triangles[corner / 3][corner % 3]).front();
+        const std::uint64_t shared = at[mesh.triangles[corner / 3][corner % 3]].front();
         const SurfacePoint point =
             bake_part.map->map(static_cast<Index>(shared / 3), barycentrics_near_corner(shared % 3, 0));
         if (skin) blend_skin(from, point, to);
@@ -119,7 +115,8 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
             raw[c] = sampler.sample(part.index, point, spacing).base;
             if (!facets.of_face.empty()) {
                 const Index facet = facets.of_face[point.face];
-                if (2 * facets.areas[facet] >= face_area(mesh, face)) sets[c] = facet;
+                if (2 * facets.areas[facet] >= triangle_area(mesh.positions, mesh.triangles[face]))
+                    sets[c] = facet;
             }
             if (has_alpha && face_material(*part.source, point.face) == no_index) {
                 const Triangle& t = part.source->triangles[point.face];
@@ -138,7 +135,7 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
     const VertexCorners at = vertex_corners(mesh);
     std::vector<Vec4f> result(raw.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        std::vector<std::uint64_t> corners(at.at(v).begin(), at.at(v).end());
+        std::vector<std::uint64_t> corners(at[v].begin(), at[v].end());
         const auto key = [&](std::uint64_t c) { return std::pair(sets[c], group(c)); };
         std::sort(corners.begin(), corners.end(), [&](std::uint64_t a, std::uint64_t b) {
             return key(a) != key(b) ? key(a) < key(b) : a < b;

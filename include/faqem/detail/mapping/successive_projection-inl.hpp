@@ -207,7 +207,7 @@ FAQEM_INLINE bool SuccessiveProjection::is_preimage_face(Index original_face, co
 template <class Filter>
 Bvh::Hit SuccessiveProjection::closest_accepted_if(const Query& query, double distance_squared,
                                                    Filter&& filter) const {
-    const std::span<const Index> surface_patch = surface_patches_.of(query.surface_patch);
+    const std::span<const Index> surface_patch = surface_patches_.faces[query.surface_patch];
     if (surface_patch.size() > small_surface_patch) {
         return tree_.closest_if(
             to_array(query.p0),

@@ -36,8 +36,7 @@ void for_each_continuation(std::span<const Vec3> positions, std::span<const Tria
     const Vector3 edge = (to_eigen(positions[on[0].high]) - start).normalized();
     std::array<Vector3, max_edge_faces> face_direction;  // per face: direction perpendicular to the edge
     for (std::size_t i = 0; i < on.size(); ++i) {
-        const Vector3 apex =
-            to_eigen(positions[triangles[on[i].face][(std::size_t{on[i].corner} + 2) % 3]]) - start;
+        const Vector3 apex = to_eigen(positions[triangles[on[i].face][on[i].opposite()]]) - start;
         face_direction[i] = (apex - apex.dot(edge) * edge).normalized();
     }
     const auto is_separated = [&](std::size_t i, std::size_t but) {
@@ -120,15 +119,12 @@ FAQEM_INLINE SurfacePatches find_surface_patches(std::span<const Vec3> positions
         if (signed_area < 0) {
             for (Index f : faces) result.sign[f] = static_cast<std::int8_t>(-result.sign[f]);
         }
-        result.begin.push_back(result.begin.back() + static_cast<Index>(faces.size()));
         ++surface_patches;
     }
-    result.faces.resize(result.begin.back());
-    std::vector<Index> next_place(result.begin.begin(), result.begin.end() - 1);
-    for (std::size_t f = 0; f < triangles.size(); ++f) {
-        if (result.surface_patch[f] != no_index)
-            result.faces[next_place[result.surface_patch[f]]++] = static_cast<Index>(f);
-    }
+    result.faces = Buckets<Index>(surface_patches, [&](auto&& put) {
+        for (Index f = 0; f < triangles.size(); ++f)
+            if (result.surface_patch[f] != no_index) put(result.surface_patch[f], f);
+    });
     return result;
 }
 

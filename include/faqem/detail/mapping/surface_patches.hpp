@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -25,13 +26,7 @@ struct SurfacePatches {
     std::vector<Index> surface_patch;  ///< per face: number of its patch; no_index for removed faces
     /// Per face: -1 if its orientation is opposite to that of most of its patch (by area), else 1.
     std::vector<std::int8_t> sign;
-    std::vector<Index> faces;        ///< faces sorted by patch, in ascending order within each patch
-    std::vector<Index> begin = {0};  ///< per patch: beginning of its range in `faces`; and the end
-
-    /// The faces of patch s, in ascending order.
-    std::span<const Index> of(Index s) const {
-        return std::span(faces).subspan(begin[s], begin[s + 1] - begin[s]);
-    }
+    Buckets<Index> faces;  ///< by patch, in ascending order
 };
 
 /// Finds the surface patches of a triangle soup.
