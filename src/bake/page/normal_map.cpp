@@ -45,10 +45,8 @@ Deviation face_deviation(const BakePart& part, Index face) {
 double normal_deviation(std::span<const BakePart> parts, std::span<const PageFace> faces,
                         const RunContext& context) {
     std::vector<Deviation> each(faces.size());
-    parallel_blocks(faces.size(), 256, context, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            each[i] = face_deviation(parts[faces[i].part], faces[i].face);
-    });
+    parallel_each(faces.size(), 256, context,
+                  [&](std::size_t i) { each[i] = face_deviation(parts[faces[i].part], faces[i].face); });
     Deviation all;
     for (const Deviation& d : each) {
         all.sum += d.sum;
@@ -73,20 +71,13 @@ bool wants_normal_map(NormalMap choice, const Asset& source, const MaterialGroup
 void set_tangents(const BakePart& part, std::span<const Index> faces, std::span<const Vec2f> uvs,
                   std::vector<Vec4f>& tangents) {
     const TriangleMesh& mesh = part.simplified->mesh;
-    std::vector<TangentCorner> corners;
-    corners.reserve(3 * faces.size());
-    for (const Index f : faces) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t c = std::size_t{3} * f + i;
-            corners.push_back(
-                {to_vec3f(to_eigen(mesh.positions[mesh.triangles[f][i]])), part.normals.normals[c], uvs[c]});
-        }
-    }
+    const auto corner = [&](Index f, std::size_t i) {
+        const std::size_t c = std::size_t{3} * f + i;
+        const Vec3& position = mesh.positions[mesh.triangles[f][i]];
+        return TangentCorner{to_vec3f(to_eigen(position)), part.normals.normals[c], uvs[c]};
+    };
     tangents.resize(3 * part.faces(), Vec4f{});
-    const std::vector<Vec4f> made = mikk_tangents(corners);
-    for (std::size_t i = 0; i < made.size(); ++i) {
-        tangents[std::size_t{3} * faces[i / 3] + i % 3] = made[i];
-    }
+    set_mikk_tangents(faces, corner, tangents);
 }
 
 }  // namespace faqem::detail

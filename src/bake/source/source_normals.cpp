@@ -37,19 +37,6 @@ TangentCorner tangent_corner(const Part& part, const TextureRef& texture_ref, st
     return result;
 }
 
-void add_mikk_tangents(const Part& part, const TextureRef& texture_ref, const std::vector<Index>& faces,
-                       std::vector<Vec4f>& result) {
-    std::vector<TangentCorner> corners;
-    corners.reserve(3 * faces.size());
-    for (const Index f : faces) {
-        for (std::size_t c = 0; c < 3; ++c) corners.push_back(tangent_corner(part, texture_ref, f, c));
-    }
-    const std::vector<Vec4f> tangents = mikk_tangents(corners);
-    for (std::size_t i = 0; i < tangents.size(); ++i) {
-        result[std::size_t{3} * faces[i / 3] + i % 3] = tangents[i];
-    }
-}
-
 }  // namespace
 
 Vector3 TangentFrame::from_mesh(const Vector3& v) const {
@@ -111,7 +98,9 @@ std::vector<Vec4f> source_tangents(const Asset& asset, const Part& part) {
         }
     }
     for (const auto& [material, faces] : without) {
-        add_mikk_tangents(part, *tangent_texture(material_or_default(asset, material)), faces, result);
+        const TextureRef& texture_ref = *tangent_texture(material_or_default(asset, material));
+        const auto corner = [&](Index f, std::size_t c) { return tangent_corner(part, texture_ref, f, c); };
+        set_mikk_tangents(faces, corner, result);
     }
     return result;
 }

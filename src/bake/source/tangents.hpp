@@ -31,4 +31,17 @@ struct TangentCorner {
 /// Complexity: O(n log n).
 std::vector<Vec4f> mikk_tangents(std::span<const TangentCorner> corners);
 
+/// Sets the tangents of some faces of a mesh to mikk_tangents() of these faces.
+/// \param corner    corner(face, 0 to 2) is the TangentCorner
+/// \param tangents  three per face of the mesh
+template <class Corner>
+void set_mikk_tangents(std::span<const Index> faces, const Corner& corner, std::vector<Vec4f>& tangents) {
+    std::vector<TangentCorner> corners;
+    corners.reserve(3 * faces.size());
+    for (const Index f : faces)
+        for (std::size_t i = 0; i < 3; ++i) corners.push_back(corner(f, i));
+    const std::vector<Vec4f> made = mikk_tangents(corners);
+    for (std::size_t i = 0; i < made.size(); ++i) tangents[std::size_t{3} * faces[i / 3] + i % 3] = made[i];
+}
+
 }  // namespace faqem::detail
