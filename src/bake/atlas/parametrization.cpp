@@ -1,14 +1,15 @@
 #include "bake/atlas/parametrization.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numeric>
 #include <utility>
 
 #include "bake/atlas/boundary_clearance.hpp"
 #include "bake/atlas/triangle_overlap.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
@@ -80,33 +81,23 @@ class ChartMesh {
 public:
     ChartMesh(std::span<const PageTriangle> all, std::vector<Index> faces)
         : all_(all), faces_(std::move(faces)) {
-        std::vector<std::size_t> parent(3 * faces_.size());
-        std::iota(parent.begin(), parent.end(), std::size_t{0});
-        const auto root = [&](std::size_t i) {
-            while (parent[i] != i) i = parent[i] = parent[parent[i]];
-            return i;
-        };
-        const auto join = [&](std::size_t a, std::size_t b) {
-            a = root(a);
-            b = root(b);
-            parent[std::max(a, b)] = std::min(a, b);
-        };
-        for (std::size_t i = 0; i < faces_.size(); ++i) {
-            for (std::size_t c = 0; c < 3; ++c) {
+        engine::UnionFind joined(3 * faces_.size());
+        for (Index i = 0; i < faces_.size(); ++i) {
+            for (Index c = 0; c < 3; ++c) {
                 const AdjacentTriangle& adjacent = all[faces_[i]].adjacent[c];
                 if (adjacent.triangle == no_index || adjacent.triangle < faces_[i]) continue;
                 const auto found = std::lower_bound(faces_.begin(), faces_.end(), adjacent.triangle);
                 if (found == faces_.end() || *found != adjacent.triangle) continue;
-                const auto j = static_cast<std::size_t>(found - faces_.begin());
-                join(3 * i + (c + 1) % 3, 3 * j + (adjacent.corner + 2) % 3);
-                join(3 * i + (c + 2) % 3, 3 * j + (adjacent.corner + 1) % 3);
+                const auto j = static_cast<Index>(found - faces_.begin());
+                const Index corner = adjacent.corner;
+                joined.unite(3 * i + (c + 1) % 3, 3 * j + (corner + 2) % 3);
+                joined.unite(3 * i + (c + 2) % 3, 3 * j + (corner + 1) % 3);
             }
         }
-        corner_.resize(parent.size());
-        std::vector<Index> number(parent.size());
-        for (std::size_t i = 0; i < parent.size(); ++i) {
-            if (parent[i] == i) number[i] = vertices_++;
-            corner_[i] = number[root(i)];
+        corner_.resize(3 * faces_.size());
+        for (Index i = 0; i < corner_.size(); ++i) {
+            const Index first = joined.find(i);
+            corner_[i] = first == i ? vertices_++ : corner_[first];
         }
         for (Index f : faces_) {
             locals_.push_back(local_triangle(all[f]));
@@ -206,15 +197,11 @@ double stretch_of(const ChartMesh& chart_mesh, const std::vector<ComplexPoint>& 
 std::array<std::pair<Index, double>, 2> pinned_vertices(const ChartMesh& chart_mesh,
                                                         std::span<const PageTriangle> all,
                                                         const std::vector<Index>& faces) {
-    Vector3 low = to_eigen(all[faces[0]].corners[0]), high = low;
-    for (Index f : faces) {
-        for (const Vec3& p : all[f].corners) {
-            low = low.cwiseMin(to_eigen(p));
-            high = high.cwiseMax(to_eigen(p));
-        }
-    }
+    Eigen::AlignedBox3d box;
+    for (Index f : faces)
+        for (const Vec3& p : all[f].corners) box.extend(to_eigen(p));
     Eigen::Index axis = 0;
-    (high - low).maxCoeff(&axis);
+    box.sizes().maxCoeff(&axis);
     std::array<std::pair<Index, double>, 2> result = {{{0, HUGE_VAL}, {0, -HUGE_VAL}}};
     for (std::size_t i = 0; i < faces.size(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -260,9 +247,7 @@ std::vector<ComplexPoint> least_squares_conformal_map(const ChartMesh& chart_mes
     const Eigen::SimplicialLDLT<HermitianMatrix> solver(matrix);
     if (solver.info() != Eigen::Success) return {};
     const Eigen::VectorXcd solution = solver.solve(right);
-    std::vector<ComplexPoint> result(chart_mesh.vertices());
-    for (Index v = 0; v < chart_mesh.vertices(); ++v) result[v] = solution[v];
-    return result;
+    return {solution.data(), solution.data() + solution.size()};
 }
 
 // As-rigid-as-possible parametrization. An iteration finds the best rotation of every face (local step), then

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <numbers>
-#include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
 
+#include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
@@ -23,6 +24,8 @@ constexpr double perimeter_weight = 0.02;
 struct SharedBoundary {
     Index region;
     double length;  // total length of the shared edges that are not creases
+
+    auto operator<=>(const SharedBoundary&) const = default;
 };
 
 struct FaceRegion {
@@ -49,8 +52,7 @@ struct Merge {
 class RegionClustering {
 public:
     explicit RegionClustering(std::span<const PageTriangle> faces)
-        : regions_(faces.size()), parent_(faces.size()) {
-        std::iota(parent_.begin(), parent_.end(), Index{0});
+        : regions_(faces.size()), merged_(faces.size()) {
         for (std::size_t f = 0; f < faces.size(); ++f) init_region(faces, static_cast<Index>(f));
         for (std::size_t f = 0; f < faces.size(); ++f) {
             for (const SharedBoundary& s : regions_[f].neighbours) {
@@ -70,10 +72,10 @@ public:
     }
 
     std::vector<std::vector<Index>> regions() {
-        std::vector<Index> number(parent_.size(), no_index);
+        std::vector<Index> number(regions_.size(), no_index);
         std::vector<std::vector<Index>> result;
-        for (Index f = 0; f < parent_.size(); ++f) {
-            const Index r = root(f);
+        for (Index f = 0; f < regions_.size(); ++f) {
+            const Index r = merged_.find(f);
             if (number[r] == no_index) {
                 number[r] = static_cast<Index>(result.size());
                 result.emplace_back();
@@ -102,9 +104,7 @@ private:
     }
 
     static void sort_and_combine(std::vector<SharedBoundary>& neighbours) {
-        std::sort(neighbours.begin(), neighbours.end(), [](const SharedBoundary& a, const SharedBoundary& b) {
-            return std::tuple(a.region, a.length) < std::tuple(b.region, b.length);
-        });
+        std::sort(neighbours.begin(), neighbours.end());
         std::size_t count = 0;
         for (const SharedBoundary& s : neighbours) {
             if (count > 0 && neighbours[count - 1].region == s.region) {
@@ -151,7 +151,7 @@ private:
         a.max_density = std::max(a.max_density, b.max_density);
         ++a.version;
         b.is_merged = true;
-        parent_[j] = i;
+        merged_.unite(i, j);
         for (const SharedBoundary& s : b.neighbours) {
             if (s.region == i) continue;
             replace_neighbour(regions_[s.region].neighbours, j, i);
@@ -172,13 +172,8 @@ private:
         sort_and_combine(neighbours);
     }
 
-    Index root(Index f) {
-        while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
-        return f;
-    }
-
     std::vector<FaceRegion> regions_;
-    std::vector<Index> parent_;
+    engine::UnionFind merged_;  // faces of one region
     std::priority_queue<Merge> queue_;
 };
 

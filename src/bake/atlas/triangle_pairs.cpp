@@ -1,7 +1,7 @@
 #include "bake/atlas/triangle_pairs.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <compare>
 
 namespace faqem::detail {
 namespace {
@@ -36,6 +36,7 @@ std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles
         double waste;
         Index triangle;
         std::uint8_t corner;
+        auto operator<=>(const Candidate&) const = default;
     };
     std::vector<Candidate> candidates;
     for (Index t = 0; t < triangles.size(); ++t) {
@@ -46,9 +47,7 @@ std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles
             if (wasted <= max_waste) candidates.push_back({wasted, t, c});
         }
     }
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-        return std::tuple(a.waste, a.triangle, a.corner) < std::tuple(b.waste, b.triangle, b.corner);
-    });
+    std::sort(candidates.begin(), candidates.end());
     std::vector<std::uint8_t> corner(triangles.size(), no_partner);
     for (const Candidate& c : candidates) {
         const AdjacentTriangle& other = triangles[c.triangle].adjacent[c.corner];

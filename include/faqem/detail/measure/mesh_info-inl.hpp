@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,7 @@ inline std::vector<Index> weld_equal(const MeshView& mesh) {
     struct Key {
         std::array<std::uint64_t, 3> bits;  // bit patterns, because NaN breaks the ordering of doubles
         Index vertex;
-        bool operator<(const Key& other) const {
-            return bits != other.bits ? bits < other.bits : vertex < other.vertex;
-        }
+        auto operator<=>(const Key&) const = default;
     };
     std::vector<Key> keys(mesh.positions.size());
     for (std::size_t v = 0; v < keys.size(); ++v) {
