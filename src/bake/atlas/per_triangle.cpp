@@ -1,6 +1,7 @@
 #include "bake/atlas/per_triangle.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -29,9 +30,7 @@ struct CellShape {
 // texel outside of the legs. Legs are at least a block long: measurements show that the quality gained on
 // coarser levels is worth the texels.
 std::uint32_t block_size_for(double shorter_leg) {
-    std::uint32_t block_size = 1;
-    while (block_size < max_block_size && 2 * block_size <= shorter_leg) block_size *= 2;
-    return block_size;
+    return std::bit_floor(static_cast<std::uint32_t>(std::clamp<double>(shorter_leg, 1, max_block_size)));
 }
 
 // The hypotenuses of two triangles that are not partners are shifted against each other by (m, m) texels.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "asset/image/texel_reading.hpp"
+#include "bake/atlas/point2.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -14,25 +14,13 @@ namespace {
 // surface, and all of it is taken to be shown.
 constexpr double max_repetitions = 4;
 
-struct Texel {
-    double x, y;
-};
-
 // Least and largest x of a triangle between two heights.
-std::pair<double, double> range_between(const std::array<Texel, 3>& t, double top, double bottom) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    const auto add = [&](double x) {
-        low = std::min(low, x);
-        high = std::max(high, x);
-    };
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Texel &p = t[k], &q = t[(k + 1) % 3];
-        if (p.y >= top && p.y <= bottom) add(p.x);
-        for (const double y : {top, bottom}) {
-            if ((p.y <= y) != (q.y <= y)) add(p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x));
-        }
-    }
-    return {low, high};
+std::array<double, 2> range_between(const Triangle2& t, double top, double bottom) {
+    const std::array above = crossing_range(t, top), below = crossing_range(t, bottom);
+    std::array range = {std::min(above[0], below[0]), std::max(above[1], below[1])};
+    for (const Point2& p : t)
+        if (p.y >= top && p.y <= bottom) range = {std::min(range[0], p.x), std::max(range[1], p.x)};
+    return range;
 }
 
 }  // namespace
@@ -41,19 +29,18 @@ UvTexels::UvTexels(std::uint32_t width, std::uint32_t height)
     : width_(width), height_(height), shown_(std::size_t{width} * height, 0) {}
 
 void UvTexels::add(const std::array<Vec2f, 3>& uv, Wrap wrap_u, Wrap wrap_v) {
-    std::array<Texel, 3> t;
-    for (std::size_t k = 0; k < 3; ++k) t[k] = {double{uv[k][0]} * width_, double{uv[k][1]} * height_};
-    const auto [low_x, high_x] = std::minmax({t[0].x, t[1].x, t[2].x});
-    const auto [low_y, high_y] = std::minmax({t[0].y, t[1].y, t[2].y});
+    Triangle2 t;
     constexpr double largest = 1e9;  // as MipImage::sample()
-    const bool is_bounded = std::max(std::abs(low_x), std::abs(high_x)) < largest &&
-                            std::max(std::abs(low_y), std::abs(high_y)) < largest;
-    if (!is_bounded) return;
+    for (std::size_t k = 0; k < 3; ++k) {
+        t[k] = {double{uv[k][0]} * width_, double{uv[k][1]} * height_};
+        if (!(std::abs(t[k].x) < largest && std::abs(t[k].y) < largest)) return;
+    }
+    const Box2 box = bounding_box(t);
     is_empty_ = false;
-    repetitions_ += (high_x - low_x + 2) * (high_y - low_y + 2) / (2.0 * width_ * height_);
+    repetitions_ += (box.width() + 2) * (box.height() + 2) / (2.0 * width_ * height_);
     if (!(repetitions_ <= max_repetitions)) return;
     const auto index = [](double x) { return static_cast<std::int64_t>(std::floor(x)); };
-    for (std::int64_t y = index(low_y - 0.5); y <= index(high_y + 0.5); ++y) {
+    for (std::int64_t y = index(box.low.y - 0.5); y <= index(box.high.y + 0.5); ++y) {
         const auto row = static_cast<double>(y);
         const auto [left, right] = range_between(t, row - 0.5, row + 1.5);
         if (!(left <= right)) continue;
