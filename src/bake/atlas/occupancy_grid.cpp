@@ -69,8 +69,7 @@ std::vector<OccupancyGrid::Run> OccupancyGrid::runs_of(const BlockMask& mask) {
         }
     }
     // Longest runs first: they are the least likely to fit, so that the search ends early.
-    std::stable_sort(result.begin(), result.end(),
-                     [](const Run& a, const Run& b) { return a.length > b.length; });
+    std::ranges::stable_sort(result, std::ranges::greater{}, &Run::length);
     return result;
 }
 

@@ -101,10 +101,8 @@ std::array<double, 2> crossing_range(const std::array<Point, 3>& t, double y) {
 
 /// Bounding box of at least one point.
 inline Box2 bounding_box(std::span<const Point2> points) {
-    const auto [left, right] = std::minmax_element(
-        points.begin(), points.end(), [](const Point2& a, const Point2& b) { return a.x < b.x; });
-    const auto [bottom, top] = std::minmax_element(
-        points.begin(), points.end(), [](const Point2& a, const Point2& b) { return a.y < b.y; });
+    const auto [left, right] = std::ranges::minmax_element(points, {}, &Point2::x);
+    const auto [bottom, top] = std::ranges::minmax_element(points, {}, &Point2::y);
     return {{left->x, bottom->y}, {right->x, top->y}};
 }
 

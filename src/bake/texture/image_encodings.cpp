@@ -86,8 +86,7 @@ std::vector<ImageEncoding> image_encodings(const PendingImage& pending, const Ba
         if (is_allowed) result.push_back({Codec::original, 0, 0});
     }
     if (result.empty()) result.push_back({Codec::png, 0, 0});
-    std::stable_sort(result.begin(), result.end(),
-                     [](const ImageEncoding& a, const ImageEncoding& b) { return a.fineness < b.fineness; });
+    std::ranges::stable_sort(result, {}, &ImageEncoding::fineness);
     return result;
 }
 

@@ -52,8 +52,7 @@ public:
         tolerance_ = 1e-6 * box.diagonal().norm();
         for_each_path(edges, [&](std::vector<Index>& path) { split(path); });
         // Lines come last: they replace the planes in which they lie.
-        std::stable_sort(chains_.begin(), chains_.end(),
-                         [](const Chain& a, const Chain& b) { return a.is_line < b.is_line; });
+        std::ranges::stable_sort(chains_, {}, &Chain::is_line);
         remove_parts_of_flat_surfaces();
         if (chains_.empty()) return result;
         result.at.assign(positions_.size(), no_index);
