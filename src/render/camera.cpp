@@ -55,20 +55,16 @@ std::vector<Vector3> even_directions(std::size_t count) {
     return result;
 }
 
-bool bounding_box(std::span<const PlacedMesh> meshes, Vector3& low, Vector3& high) {
-    bool any = false;
-    for_each_corner(meshes, [&](const Vector3& p) {
-        low = any ? low.cwiseMin(p) : p;
-        high = any ? high.cwiseMax(p) : p;
-        any = true;
-    });
-    return any;
+Eigen::AlignedBox3d bounding_box(std::span<const PlacedMesh> meshes) {
+    Eigen::AlignedBox3d box;
+    for_each_corner(meshes, [&](const Vector3& p) { box.extend(p); });
+    return box;
 }
 
 bool show_all(std::span<const PlacedMesh> meshes, std::span<Camera> cameras) {
-    Vector3 low, high;
-    if (!bounding_box(meshes, low, high)) return false;
-    const Vector3 centre = 0.5 * low + 0.5 * high;
+    const Eigen::AlignedBox3d box = bounding_box(meshes);
+    if (box.isEmpty()) return false;
+    const Vector3 centre = 0.5 * box.min() + 0.5 * box.max();
     double distance = 0;
     for (const Camera& camera : cameras)
         distance = std::max(distance, fitting_distance(meshes, camera, centre));

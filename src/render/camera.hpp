@@ -2,6 +2,7 @@
 /// \file
 /// Cameras, and meshes that they see.
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -38,8 +39,8 @@ Camera orbit_camera(double azimuth, double elevation);
 /// Unit vectors along a spiral about the y axis, evenly distributed over the sphere.
 std::vector<Vector3> even_directions(std::size_t count);
 
-/// Computes the axis-aligned bounding box of all faces. Returns false if there are no faces.
-bool bounding_box(std::span<const PlacedMesh> meshes, Vector3& low, Vector3& high);
+/// The axis-aligned bounding box of all faces.
+Eigen::AlignedBox3d bounding_box(std::span<const PlacedMesh> meshes);
 
 /// Moves cameras to the same distance from the centre of all faces, at which each of them sees all.
 /// \return false, without changing anything, if there are no faces

@@ -133,12 +133,11 @@ TEST_CASE("an image that cannot be decoded is drawn white with a warning") {
 }
 
 TEST_CASE("a scene without faces has no bounding box") {
-    Vector3 low, high;
-    CHECK(!bounding_box(placed_meshes(make_scene(faqem::Asset{})), low, high));
+    CHECK(bounding_box(placed_meshes(make_scene(faqem::Asset{}))).isEmpty());
     const Scene scene = make_scene(tool_test::sheet(1, 0));
-    CHECK(bounding_box(placed_meshes(scene), low, high));
-    CHECK(low == Vector3(-1, -1, 0));
-    CHECK(high == Vector3(1, 1, 0));
+    const Eigen::AlignedBox3d box = bounding_box(placed_meshes(scene));
+    CHECK(box.min() == Vector3(-1, -1, 0));
+    CHECK(box.max() == Vector3(1, 1, 0));
 }
 
 TEST_CASE("the render command writes a sheet with a row per model and a column per view") {

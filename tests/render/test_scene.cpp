@@ -14,10 +14,9 @@ TEST_CASE("pictures show meshes with their default morph weights") {
     builder.json["meshes"][0]["weights"] = {0.5};
     builder.json["nodes"][0]["translation"] = {0, 0, 1};
     const Scene scene = make_scene(load_glb(builder));
-    Vector3 low, high;
-    REQUIRE(bounding_box(placed_meshes(scene), low, high));
-    CHECK(low == Vector3(0, 0, 3));
-    CHECK(high == Vector3(1, 1, 3));
+    const Eigen::AlignedBox3d box = bounding_box(placed_meshes(scene));
+    CHECK(box.min() == Vector3(0, 0, 3));
+    CHECK(box.max() == Vector3(1, 1, 3));
     CHECK(scene.faces == 2);
 }
 
@@ -32,10 +31,9 @@ TEST_CASE("pictures show skinned meshes in their pose") {
     builder.json["nodes"][0]["skin"] = 0;
     builder.json["nodes"][0]["translation"] = {50, 0, 0};
     const Scene scene = make_scene(load_glb(builder));
-    Vector3 low, high;
-    REQUIRE(bounding_box(placed_meshes(scene), low, high));
-    CHECK(low == Vector3(-1, 0, 7));
-    CHECK(high == Vector3(0, 1, 7));
+    const Eigen::AlignedBox3d box = bounding_box(placed_meshes(scene));
+    CHECK(box.min() == Vector3(-1, 0, 7));
+    CHECK(box.max() == Vector3(0, 1, 7));
     REQUIRE(scene.parts.size() == 1);
     CHECK_FALSE(scene.parts[0].mirrored);
     CHECK(scene.asset.parts[scene.parts[0].part].triangles[0] == Triangle{0, 2, 1});

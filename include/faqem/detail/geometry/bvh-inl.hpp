@@ -3,6 +3,7 @@
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/export.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -21,31 +22,19 @@ inline constexpr std::uint32_t max_halved_range = 16;
 /// Maximum scale of the frame. A larger one could let lengths overflow or their squares underflow.
 inline constexpr double max_scale = 1e90;
 
-/// Axis-aligned bounding box in double precision; empty by default.
-struct BuildBox {
-    Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
-    Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
+using Eigen::AlignedBox3d;
 
-    void add(const Vector3& p) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-    void add(const BuildBox& other) {
-        low = low.cwiseMin(other.low);
-        high = high.cwiseMax(other.high);
-    }
-    /// Half the surface area; 0 for an empty box.
-    double half_area() const {
-        if (!(low.x() <= high.x())) return 0;
-        const Vector3 d = high - low;
-        return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
-    }
-};
+/// Half the surface area; 0 for an empty box.
+inline double half_area(const AlignedBox3d& box) {
+    if (box.isEmpty()) return 0;
+    const Vector3 d = box.sizes();
+    return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+}
 
 /// State of one construction.
 struct Bvh::Build {
     struct Item {
-        BuildBox box;
+        AlignedBox3d box;
         Vector3 centre;  ///< of the box
         std::uint32_t triangle;
     };
@@ -67,38 +56,38 @@ struct Bvh::Build {
     /// \param centres  bounding box of the centres of the items
     /// \param axis     0, 1 or 2; the longest axis of `centres`
     /// \return the beginning of the second part, or `range.begin` if no split separates the items
-    std::uint32_t split_by_sah(const Range& range, const BuildBox& centres, int axis) {
+    std::uint32_t split_by_sah(const Range& range, const AlignedBox3d& centres, int axis) {
         // Halved, because the difference of two very large doubles overflows.
-        const double low = 0.5 * centres.low[axis], extent = 0.5 * centres.high[axis] - low;
+        const double low = 0.5 * centres.min()[axis], extent = 0.5 * centres.max()[axis] - low;
         if (!(extent > 0)) return range.begin;
         const auto bin_of = [&](const Item& item) {
             return std::clamp(static_cast<int>((0.5 * item.centre[axis] - low) / extent * bins), 0, bins - 1);
         };
-        std::array<BuildBox, bins> boxes;
+        std::array<AlignedBox3d, bins> boxes;
         std::array<std::uint32_t, bins> counts = {};
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
             const auto bin = static_cast<std::size_t>(bin_of(items[i]));
-            boxes[bin].add(items[i].box);
+            boxes[bin].extend(items[i].box);
             ++counts[bin];
         }
         std::array<double, bins> right_cost = {};
-        BuildBox box;
+        AlignedBox3d box;
         std::uint32_t count = 0;
         for (std::size_t b = bins - 1; b > 0; --b) {
-            box.add(boxes[b]);
+            box.extend(boxes[b]);
             count += counts[b];
-            right_cost[b] = box.half_area() * count;
+            right_cost[b] = half_area(box) * count;
         }
         const std::uint32_t total = range.end - range.begin;
         double best_cost = std::numeric_limits<double>::infinity();
         int best = -1;
-        box = {};
+        box.setEmpty();
         count = 0;
         for (std::size_t b = 0; b + 1 < bins; ++b) {
-            box.add(boxes[b]);
+            box.extend(boxes[b]);
             count += counts[b];
             if (count == 0 || count == total) continue;
-            const double cost = box.half_area() * count + right_cost[b + 1];
+            const double cost = half_area(box) * count + right_cost[b + 1];
             if (cost < best_cost) {
                 best_cost = cost;
                 best = static_cast<int>(b);
@@ -127,12 +116,12 @@ struct Bvh::Build {
     /// Partitions the range along the longest axis of its centres.
     /// \return the beginning of the second part; both parts are nonempty
     std::uint32_t split(const Range& range) {
-        BuildBox centres;
+        AlignedBox3d centres;
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            centres.add(items[i].centre);
+            centres.extend(items[i].centre);
         }
         int axis = 0;
-        (centres.high - centres.low).maxCoeff(&axis);
+        centres.sizes().maxCoeff(&axis);
         if (range.size() > max_halved_range && range.depth < sah_levels) {
             const std::uint32_t middle = split_by_sah(range, centres, axis);
             if (middle != range.begin) return middle;
@@ -214,17 +203,17 @@ FAQEM_INLINE Bvh::Bvh(std::vector<Corners> triangles, const RunContext& context)
     assert(triangles.size() < leaf_bit);
     Build build;
     build.items.reserve(triangles.size());
-    BuildBox whole;
+    AlignedBox3d whole;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         Build::Item item;
-        for (const Vector3& p : {triangles[i].a, triangles[i].b, triangles[i].c}) item.box.add(p);
-        item.centre = 0.5 * item.box.low + 0.5 * item.box.high;
+        for (const Vector3& p : {triangles[i].a, triangles[i].b, triangles[i].c}) item.box.extend(p);
+        item.centre = 0.5 * item.box.min() + 0.5 * item.box.max();
         item.triangle = i;
-        whole.add(item.box);
+        whole.extend(item.box);
         build.items.push_back(item);
     }
-    frame_.centre = 0.5 * whole.low + 0.5 * whole.high;
-    const double half_width = (0.5 * whole.high - 0.5 * whole.low).maxCoeff();
+    frame_.centre = 0.5 * whole.min() + 0.5 * whole.max();
+    const double half_width = (0.5 * whole.max() - 0.5 * whole.min()).maxCoeff();
     if (half_width > 0) frame_.scale = std::min(1 / half_width, max_scale);
 
     triangles_.reserve(triangles.size());
@@ -265,11 +254,11 @@ FAQEM_INLINE void Bvh::fit_boxes() {
         for (std::uint32_t k = 0; k < node.count; ++k) {
             if (node.child[k] & leaf_bit) {
                 const Corners& t = triangles_[node.child[k] & ~leaf_bit];
-                BuildBox box;
-                for (const Vector3& p : {t.a, t.b, t.c}) box.add(frame_(p));
+                AlignedBox3d box;
+                for (const Vector3& p : {t.a, t.b, t.c}) box.extend(frame_(p));
                 for (int i = 0; i < 3; ++i) {
-                    node.low[static_cast<std::size_t>(i)][k] = round_down(box.low[i]);
-                    node.high[static_cast<std::size_t>(i)][k] = round_up(box.high[i]);
+                    node.low[static_cast<std::size_t>(i)][k] = round_down(box.min()[i]);
+                    node.high[static_cast<std::size_t>(i)][k] = round_up(box.max()[i]);
                 }
             } else {
                 const Node& child = nodes_[node.child[k]];
