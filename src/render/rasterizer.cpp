@@ -60,23 +60,14 @@ struct RenderTarget {
     std::vector<Index> materials;      ///< that of the nearest surface
 };
 
-template <class Value>
-auto interpolate(const ScreenTriangle& face, const Vector3& w, Value&& value) {
-    auto sum = (w[0] * value(face.corners[0])).eval();
-    sum += w[1] * value(face.corners[1]);
-    sum += w[2] * value(face.corners[2]);
-    return sum;
+Vector3 interpolate(const ScreenTriangle& face, const Vector3& w, Vector3 Corner::*value) {
+    return w[0] * face.corners[0].*value + w[1] * face.corners[1].*value + w[2] * face.corners[2].*value;
 }
 
-bool has_uvs(const ScreenTriangle& face, const TextureRef& texture_ref) {
-    return texture_ref && texture_ref.uv_set < face.part->uvs.size() &&
-           !face.part->uvs[texture_ref.uv_set].empty();
-}
-
-/// UV of a corner with the texture transform applied.
+/// UV of a corner, of a set that the part has.
 Vector2d corner_uv(const ScreenTriangle& face, const TextureRef& texture_ref, std::size_t k) {
     const Vec2f& uv = face.part->uvs[texture_ref.uv_set][face.corners[k].vertex];
-    return transform_uv(texture_ref, {uv[0], uv[1]});
+    return {uv[0], uv[1]};
 }
 
 /// Mip level of a face: half the base-2 logarithm of the number of texels per pixel. It is constant per face,
@@ -92,10 +83,12 @@ double mip_level(const ScreenTriangle& face, const Texture& texture, const std::
 FaceTexture make_face_texture(const ScreenTriangle& face, const TextureRef& texture_ref,
                               const std::vector<Texture>& textures) {
     FaceTexture result;
-    if (!has_uvs(face, texture_ref) || texture_ref.image >= textures.size() || !textures[texture_ref.image])
-        return result;
+    const auto& uvs = face.part->uvs;
+    const bool has_uvs = texture_ref.uv_set < uvs.size() && !uvs[texture_ref.uv_set].empty();
+    if (!has_uvs || texture_ref.image >= textures.size() || !textures[texture_ref.image]) return result;
     result.texture = &textures[texture_ref.image];
-    for (std::size_t k = 0; k < 3; ++k) result.uv[k] = corner_uv(face, texture_ref, k);
+    for (std::size_t k = 0; k < 3; ++k)
+        result.uv[k] = transform_uv(texture_ref, corner_uv(face, texture_ref, k));
     result.mip_level = mip_level(face, *result.texture, result.uv);
     return result;
 }
@@ -134,10 +127,7 @@ Vector3 normal_mapped(const RenderTarget& target, const ScreenTriangle& face, co
     const TextureRef& texture_ref = face.material->normal_texture;
     const auto texel = sample_texture(face, face.normal_map, texture_ref, target.scene.normal_maps, w);
     if (!texel) return normal;
-    const auto uv = [&](std::size_t k) {
-        const Vec2f& p = face.part->uvs[texture_ref.uv_set][face.corners[k].vertex];
-        return Vector2d(p[0], p[1]);
-    };
+    const auto uv = [&](std::size_t k) { return corner_uv(face, texture_ref, k); };
     const Vector2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
     const Vector3 e1 = face.corners[1].world - face.corners[0].world,
                   e2 = face.corners[2].world - face.corners[0].world;
@@ -157,7 +147,7 @@ Vector3 normal_mapped(const RenderTarget& target, const ScreenTriangle& face, co
 }
 
 Vector3 shading_normal(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w) {
-    Vector3 normal = interpolate(face, w, [](const Corner& c) -> const Vector3& { return c.normal; });
+    Vector3 normal = interpolate(face, w, &Corner::normal);
     if (!(normal.squaredNorm() > 1e-12)) return face.normal;
     normal.normalize();
     normal = normal_mapped(target, face, w, normal);
@@ -189,7 +179,7 @@ std::optional<Vector4f> shade(const RenderTarget& target, const ScreenTriangle& 
     if (material.alpha_mode == AlphaMode::mask && !(color[3] >= material.alpha_cutoff)) return std::nullopt;
     if (material.alpha_mode != AlphaMode::blend) color[3] = 1;
     if (target.shading == Shading::lit && !material.unlit) {
-        const Vector3 world = interpolate(face, w, [](const Corner& c) -> const Vector3& { return c.world; });
+        const Vector3 world = interpolate(face, w, &Corner::world);
         const Vector3f glow(material.emissive.data());
         Vector3f rgb = lighting(target.camera, color.head<3>(), shading_normal(target, face, w),
                                 (target.camera.eye - world).normalized());
@@ -280,10 +270,8 @@ void draw_scene(RenderTarget& target) {
             (is_blended ? blended : opaque).push_back({nearness, i, f});
         }
     }
-    std::ranges::stable_sort(opaque,
-                             [](const DrawnFace& a, const DrawnFace& b) { return a.nearness > b.nearness; });
-    std::ranges::stable_sort(blended,
-                             [](const DrawnFace& a, const DrawnFace& b) { return a.nearness < b.nearness; });
+    std::ranges::stable_sort(opaque, std::ranges::greater{}, &DrawnFace::nearness);
+    std::ranges::stable_sort(blended, {}, &DrawnFace::nearness);
     for (const std::vector<DrawnFace>* const faces : {&opaque, &blended})
         for (const DrawnFace& drawn : *faces) {
             const ScreenTriangle face = *project_triangle(target, instances[drawn.instance], drawn.face);
