@@ -15,8 +15,10 @@ TriangleMesh fitted(const TriangleMesh& original, const TriangleMesh& simplified
     fixed.resize(simplified.positions.size(), 0);
     const std::vector<Vector3> from = test::vectors(original), to = test::vectors(simplified);
     TriangleMesh result = simplified;
-    const auto moved =
-        detail::fit_vertices({from, original.triangles}, {to, simplified.triangles}, fixed, 0.3, threads);
+    const std::vector<Vector3> moved =
+        detail::fit_vertices({from, original.triangles}, {to, simplified.triangles}, fixed, 0.3, 0, {},
+                             threads)
+            .positions;
     for (std::size_t v = 0; v < moved.size(); ++v) result.positions[v] = engine::to_array(moved[v]);
     return result;
 }

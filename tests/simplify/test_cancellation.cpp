@@ -84,8 +84,8 @@ TEST_CASE("steps that may take long check for cancellation several times") {
         const std::vector<std::uint8_t> fixed(positions.size(), 0);
         CHECK(callback_calls(
                   [&](const RunContext& context) {
-                      detail::fit_vertices_and_flip_edges(
-                          {original, mesh.triangles}, {positions, coarse.triangles}, fixed, {}, 0.3, context);
+                      detail::fit_vertices({original, mesh.triangles}, {positions, coarse.triangles}, fixed,
+                                           0.3, 2, {}, context);
                   },
                   threads) >= 100);
     }

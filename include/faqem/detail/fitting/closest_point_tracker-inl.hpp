@@ -70,22 +70,20 @@ inline Bvh::Hit walk_to_closest(const VertexFaces& vertex_faces, const MeshRef& 
 
 /// Implements search_farthest() of both trackers.
 /// \param squared   squared lengths of the residuals; updated by `search`
-/// \param is_exact  bool(i): whether residual i is the result of a global search
+/// \param residuals  is_exact: the result of a global search
 /// \param search    void(i): finds residual i by a global search; called concurrently
-template <class IsExact, class Search>
-void search_above_share(std::span<const double> squared, double share, const RunContext& context,
-                        IsExact&& is_exact, Search&& search) {
+template <class Residual, class Search>
+void search_above_share(std::span<const double> squared, const std::vector<Residual>& residuals, double share,
+                        const RunContext& context, Search&& search) {
     while (true) {
         double longest = 0;
         for (const double length : squared) longest = std::max(longest, length);
         std::vector<std::size_t> far;
         for (std::size_t i = 0; i < squared.size(); ++i) {
-            if (squared[i] > share * share * longest && !is_exact(i)) far.push_back(i);
+            if (squared[i] > share * share * longest && !residuals[i].is_exact) far.push_back(i);
         }
         if (far.empty()) return;
-        parallel_blocks(far.size(), 64, context, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) search(far[i]);
-        });
+        parallel_each(far.size(), 64, context, [&](std::size_t i) { search(far[i]); });
     }
 }
 
@@ -121,9 +119,8 @@ FAQEM_INLINE void MeshToReferenceTracker::update(std::span<const Vector3> positi
 }
 
 FAQEM_INLINE void MeshToReferenceTracker::search_farthest(double share, const RunContext& context) {
-    search_above_share(
-        squared_distances_, share, context, [&](std::size_t i) { return residuals_[i].is_exact; },
-        [&](std::size_t i) { search(i, residuals_[i].face); });
+    search_above_share(squared_distances_, residuals_, share, context,
+                       [&](std::size_t i) { search(i, residuals_[i].face); });
 }
 
 FAQEM_INLINE void MeshToReferenceTracker::search(std::size_t i, Index near) {
@@ -164,22 +161,20 @@ FAQEM_INLINE Correspondence MeshToReferenceTracker::correspondence(std::size_t i
 
 FAQEM_INLINE void MeshToReferenceTracker::measure_normal_deviations(double tolerance,
                                                                     const RunContext& context) {
-    parallel_blocks(samples_.size(), tracker_block_size, context, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            Residual& residual = residuals_[i];
-            if (!(residual.normal_deviation < 0)) continue;
-            const Vector3 n = normal(i);
-            double cosine = n.dot(original_.normals[residual.face]);
-            if (!(residual.corner == interior && cosine > unambiguous_cosine)) {
-                Bvh::Hit hit;
-                hit.face = residual.face;
-                hit.distance_squared = squared_distances_[i];
-                const Vector3 p = samples_[i].position(positions_, triangles_);
-                cosine = max_normal_cosine(original_.tree, original_.normals, engine::to_array(p), hit, n,
-                                           tolerance);
-            }
-            residual.normal_deviation = std::sqrt(std::max(0.0, 2 - 2 * cosine));
+    parallel_each(samples_.size(), tracker_block_size, context, [&](std::size_t i) {
+        Residual& residual = residuals_[i];
+        if (!(residual.normal_deviation < 0)) return;
+        const Vector3 n = normal(i);
+        double cosine = n.dot(original_.normals[residual.face]);
+        if (!(residual.corner == interior && cosine > unambiguous_cosine)) {
+            Bvh::Hit hit;
+            hit.face = residual.face;
+            hit.distance_squared = squared_distances_[i];
+            const Vector3 p = samples_[i].position(positions_, triangles_);
+            cosine =
+                max_normal_cosine(original_.tree, original_.normals, engine::to_array(p), hit, n, tolerance);
         }
+        residual.normal_deviation = std::sqrt(std::max(0.0, 2 - 2 * cosine));
     });
 }
 
@@ -199,14 +194,12 @@ FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positi
             for (const Index neighbour : vertex_faces_[v]) to_measure[neighbour] = 1;
         }
     }
-    parallel_blocks(points_.size(), tracker_block_size, context, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const SurfaceSample& last = residuals_[i].sample;
-            residuals_[i].is_exact = false;  // a distant face may have come closer
-            if (!to_measure[last.face]) continue;
-            set_residual(i, walk_to_closest(vertex_faces_, {positions_, triangles_}, points_[i].position,
-                                            last.face, nearest_corner(last.barycentric)));
-        }
+    parallel_each(points_.size(), tracker_block_size, context, [&](std::size_t i) {
+        const SurfaceSample& last = residuals_[i].sample;
+        residuals_[i].is_exact = false;  // a distant face may have come closer
+        if (!to_measure[last.face]) return;
+        set_residual(i, walk_to_closest(vertex_faces_, {positions_, triangles_}, points_[i].position,
+                                        last.face, nearest_corner(last.barycentric)));
     });
 }
 
@@ -223,9 +216,8 @@ FAQEM_INLINE void ReferenceToMeshTracker::initialize(std::span<const Vector3> po
 
 FAQEM_INLINE void ReferenceToMeshTracker::search_farthest(double share, const RunContext& context) {
     if (std::exchange(is_tree_outdated_, false)) tree_->refit(positions_, triangles_);
-    search_above_share(
-        squared_distances_, share, context, [&](std::size_t i) { return residuals_[i].is_exact; },
-        [&](std::size_t i) { search(i, residuals_[i].sample.face); });
+    search_above_share(squared_distances_, residuals_, share, context,
+                       [&](std::size_t i) { search(i, residuals_[i].sample.face); });
 }
 
 FAQEM_INLINE void ReferenceToMeshTracker::search(std::size_t i, Index near) {

@@ -84,20 +84,23 @@ public:
 
     std::vector<EdgeFlip> operator()() {
         std::vector<Candidate> candidates = find_candidates();
-        parallel_blocks(candidates.size(), 64, context_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) measure_from_original(candidates[i]);
-        });
+        parallel_each(candidates.size(), 64, context_,
+                      [&](std::size_t i) { measure_from_original(candidates[i]); });
         std::erase_if(candidates, [](const Candidate& c) {
             return !(c.after.distance_integral <= c.before.distance_integral);
         });
         measure_faces(candidates);
-        parallel_blocks(candidates.size(), 16, context_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) measure_to_original(candidates[i]);
-        });
+        parallel_each(candidates.size(), 16, context_,
+                      [&](std::size_t i) { measure_to_original(candidates[i]); });
         return select_independent(candidates);
     }
 
 private:
+    /// A point of the original.
+    struct Point {
+        const ReferenceToMeshTracker* from = nullptr;
+        std::size_t number = 0;  ///< in `from`
+    };
     struct Candidate {
         EdgeFlip faces;
         Quadrilateral corners;
@@ -111,25 +114,16 @@ private:
         return closest_point_on_triangle(p, at(t[0]), at(t[1]), at(t[2]));
     }
 
-    /// Groups the points of the original by their closest face, and finds the maximum distance. The vertices
-    /// of the original are numbered after the uniform samples.
+    /// Groups the points of the original by their closest face, and finds the maximum distance.
     void group_points_by_face() {
-        const std::size_t points = even_samples_.size() + original_vertices_.size();
-        const auto face = [&](std::size_t i) {
-            return i < even_samples_.size() ? even_samples_.sample(i).face
-                                            : original_vertices_.sample(i - even_samples_.size()).face;
-        };
-        points_of_face_ = Buckets<std::size_t>(simplified_.triangles.size(), [&](auto&& put) {
-            for (std::size_t i = 0; i < points; ++i) {
-                put(face(i), i);
-            }
+        const std::array all = {&even_samples_, &original_vertices_};
+        points_of_face_ = Buckets<Point>(simplified_.triangles.size(), [&](auto&& put) {
+            for (const ReferenceToMeshTracker* from : all)
+                for (std::size_t i = 0; i < from->size(); ++i) put(from->sample(i).face, Point{from, i});
         });
-        for (std::size_t i = 0; i < points; ++i) {
-            const Vector3& residual = i < even_samples_.size()
-                                          ? even_samples_.residual(i)
-                                          : original_vertices_.residual(i - even_samples_.size());
-            max_squared_distance_ = std::max(max_squared_distance_, residual.squaredNorm());
-        }
+        for (const ReferenceToMeshTracker* from : all)
+            for (std::size_t i = 0; i < from->size(); ++i)
+                max_squared_distance_ = std::max(max_squared_distance_, from->squared_distance(i));
     }
 
     bool has_edge(Index v, Index w) const {
@@ -197,12 +191,10 @@ private:
         };
         const std::array<Vector3, 2> old_normals = normals(old), now_normals = normals(now);
         for (const Index f : c.faces) {
-            for (const std::size_t i : points_of_face_[f]) {
-                const bool is_corner = i >= even_samples_.size();
-                const OrientedPoint& p =
-                    is_corner ? original_vertices_.point(i - even_samples_.size()) : even_samples_.point(i);
-                add(p, old, old_normals, is_corner ? 0 : weight_, c.before);
-                add(p, now, now_normals, is_corner ? 0 : weight_, c.after);
+            for (const auto& [from, i] : points_of_face_[f]) {
+                const double weight = from == &even_samples_ ? weight_ : 0;
+                add(from->point(i), old, old_normals, weight, c.before);
+                add(from->point(i), now, now_normals, weight, c.after);
             }
         }
     }
@@ -240,10 +232,8 @@ private:
         std::sort(wanted.begin(), wanted.end());
         wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
         face_deviation_.resize(simplified_.triangles.size());
-        parallel_blocks(wanted.size(), 64, context_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                face_deviation_[wanted[i]] = deviation_of(simplified_.triangles[wanted[i]]);
-            }
+        parallel_each(wanted.size(), 64, context_, [&](std::size_t i) {
+            face_deviation_[wanted[i]] = deviation_of(simplified_.triangles[wanted[i]]);
         });
     }
 
@@ -268,8 +258,7 @@ private:
     /// Selects independent flips greedily, by decreasing gain.
     std::vector<EdgeFlip> select_independent(std::vector<Candidate>& candidates) const {
         std::erase_if(candidates, [](const Candidate& c) { return !(c.gain > 0); });
-        std::stable_sort(candidates.begin(), candidates.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+        std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::gain);
         std::vector<EdgeFlip> chosen;
         std::vector<std::uint8_t> flipped(simplified_.triangles.size(), 0);
         std::set<std::pair<Index, Index>> made;
@@ -297,7 +286,7 @@ private:
     const engine::RunContext& context_;
     std::vector<Halfedge> halfedges_;
     double max_squared_distance_ = 0;               // over all points of the original
-    Buckets<std::size_t> points_of_face_;           // per face: points of the original that are closest to it
+    Buckets<Point> points_of_face_;                 // per face: points of the original that are closest to it
     std::vector<SurfaceDeviation> face_deviation_;  // per face; set for those of candidates
 };
 

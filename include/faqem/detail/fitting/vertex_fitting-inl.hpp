@@ -21,8 +21,6 @@ namespace detail {
 
 using engine::Vector3;
 
-/// Number of rounds of edge flips.
-inline constexpr int flip_rounds = 2;
 /// Number of Gauss-Newton steps at the beginning and after each round of edge flips.
 inline constexpr int first_steps = 4, later_steps = 2;
 /// Steps minimize the sum of d^2.5, which emphasizes large distances and thus decreases the maximum as well.
@@ -288,19 +286,10 @@ private:
     std::vector<FaceDeviation> deviations_;  // of the faces of the simplified mesh
 };
 
-FAQEM_INLINE std::vector<Vector3> fit_vertices(const MeshRef& original, const MeshRef& simplified,
-                                               std::span<const std::uint8_t> fixed, double min_normal_cosine,
-                                               const RunContext& context) {
-    VertexFitting fitting(original, simplified, fixed, min_normal_cosine, context);
-    fitting.fit_all_vertices(first_steps);
-    fitting.reduce_max_distance();
-    return fitting.take_positions();
-}
-
-FAQEM_INLINE FittingResult fit_vertices_and_flip_edges(const MeshRef& original, const MeshRef& simplified,
-                                                       std::span<const std::uint8_t> fixed,
-                                                       std::span<const Index> groups,
-                                                       double min_normal_cosine, const RunContext& context) {
+FAQEM_INLINE FittingResult fit_vertices(const MeshRef& original, const MeshRef& simplified,
+                                        std::span<const std::uint8_t> fixed, double min_normal_cosine,
+                                        int flip_rounds, std::span<const Index> groups,
+                                        const RunContext& context) {
     VertexFitting fitting(original, simplified, fixed, min_normal_cosine, context);
     FittingResult result;
     fitting.fit_all_vertices(first_steps);

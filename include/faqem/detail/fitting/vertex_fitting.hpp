@@ -12,7 +12,13 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Moves the vertices of a simplified mesh closer to the original surface; the connectivity is kept. Takes
+/// Result of fit_vertices().
+struct FittingResult {
+    std::vector<engine::Vector3> positions;  ///< of all vertices of the simplified mesh
+    std::vector<EdgeFlip> flips;             ///< in the order in which they were made
+};
+
+/// Moves the vertices of a simplified mesh closer to the original surface. Takes
 /// Gauss-Newton steps on sample points of both surfaces, each with its closest point on the other. A vertex
 /// is not moved, or moved back to its initial position, if
 /// * the cosine between the initial and the new normal of a face would fall below `min_normal_cosine`, or a
@@ -21,33 +27,22 @@ namespace detail {
 /// * the normal deviation around it would increase by more than the distances decrease.
 /// If the maximum distance has increased after these steps, all vertices keep their initial positions.
 /// Afterwards only the vertices around the most distant points are moved, as long as the maximum distance
-/// decreases by more than the other deviations increase.
+/// decreases by more than the other deviations increase. Then edges are flipped where that brings the surfaces
+/// closer, and further steps are taken.
 /// \param original           finite, scaled to a bounding box diagonal of about 1
 /// \param simplified         finite, in the same units
 /// \param fixed              one per vertex of `simplified`; nonzero: the vertex does not move. Boundary
 ///                           vertices do not move either.
 /// \param min_normal_cosine  minimum cosine between the initial and the new normal of a face, in [-1, 1]
+/// \param flip_rounds        how often edges are flipped; 0: the connectivity is kept. Two rounds take about as
+///                           long as the steps before.
+/// \param groups             one per triangle of `simplified`, or empty; edges between groups are not flipped
 /// \param context            the result does not depend on the number of threads
-/// \return the positions of all vertices of `simplified`
 /// O(points log faces) per step, with ten points per face of `simplified` (at least 5000, at most 2,000,000)
 /// and twice as many on the original
-std::vector<engine::Vector3> fit_vertices(const MeshRef& original, const MeshRef& simplified,
-                                          std::span<const std::uint8_t> fixed, double min_normal_cosine,
-                                          const RunContext& context);
-
-/// Result of fit_vertices_and_flip_edges().
-struct FittingResult {
-    std::vector<engine::Vector3> positions;  ///< of all vertices of the simplified mesh
-    std::vector<EdgeFlip> flips;             ///< in the order in which they were made
-};
-
-/// Same as fit_vertices(), with two rounds of edge flips that bring the surfaces closer. Each round is
-/// followed by further steps.
-/// \param groups  one per triangle of `simplified`, or empty; edges between groups are not flipped
-/// The other parameters are those of fit_vertices(). Takes about twice as long as fit_vertices().
-FittingResult fit_vertices_and_flip_edges(const MeshRef& original, const MeshRef& simplified,
-                                          std::span<const std::uint8_t> fixed, std::span<const Index> groups,
-                                          double min_normal_cosine, const RunContext& context);
+FittingResult fit_vertices(const MeshRef& original, const MeshRef& simplified,
+                           std::span<const std::uint8_t> fixed, double min_normal_cosine, int flip_rounds,
+                           std::span<const Index> groups, const RunContext& context);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -24,14 +24,10 @@ FAQEM_INLINE void fit_result(const RunState& state, const PreprocessedMesh& prep
     std::vector<Vec3> moved = mesh.positions;
     std::vector<Triangle> triangles = mesh.triangles;
     const MeshRef simplified{now, mesh.triangles};
-    FittingResult fitted;
-    if (input.wedges.empty()) {
-        fitted = fit_vertices_and_flip_edges(state.initial_surface(), simplified, fixed, mesh.face_groups,
-                                             min_normal_cosine, context);
-    } else {  // no edge flips: they would change the attributes of the corners
-        fitted.positions =
-            fit_vertices(state.initial_surface(), simplified, fixed, min_normal_cosine, context);
-    }
+    // Edge flips would change the attributes of the corners.
+    const int flip_rounds = input.wedges.empty() ? 2 : 0;
+    const FittingResult fitted = fit_vertices(state.initial_surface(), simplified, fixed, min_normal_cosine,
+                                              flip_rounds, mesh.face_groups, context);
     for (std::size_t v = 0; v < now.size(); ++v) {
         if (fitted.positions[v] == now[v]) continue;
         moved[v] = prepared.to_model(fitted.positions[v]);
