@@ -15,9 +15,6 @@ FAQEM_NAMESPACE_BEGIN
 
 namespace detail {
 
-using detail::get_array;
-using detail::put_array;
-
 // One member of all rows. Structs are written as parallel arrays, because they have padding.
 template <class T, class Member>
 auto column(const std::vector<T>& rows, Member member) {

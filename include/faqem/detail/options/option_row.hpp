@@ -97,45 +97,29 @@ constexpr auto& member_at(Struct& options) {
     return (options.*....*path);
 }
 
-inline OptionValue option_value(double number) { return {number, true}; }
-inline OptionValue option_value(std::uint32_t number) { return {static_cast<double>(number), true}; }
-inline OptionValue option_value(const std::optional<double>& number) { return {number, number.has_value()}; }
-inline OptionValue option_value(const std::optional<std::uint32_t>& number) {
-    return number ? option_value(*number) : OptionValue{};
-}
-inline OptionValue option_value(const std::optional<std::uint64_t>& number) {
-    return number ? option_value(static_cast<double>(*number)) : OptionValue{};
-}
-inline OptionValue option_value(const std::optional<Length>& length) {
-    return length ? OptionValue{length->value, true, length->unit} : OptionValue{};
-}
-template <class Enum>
-requires std::is_enum_v<Enum> OptionValue option_value(Enum choice) {
-    return {static_cast<double>(choice), true};
+/// The value of a member of Options: a number, an enumerator or a length, or an optional one of these.
+template <class Member>
+OptionValue option_value(const Member& member) {
+    if constexpr (requires { member.has_value(); })
+        return member ? option_value(*member) : OptionValue{};
+    else if constexpr (std::is_same_v<Member, Length>)
+        return {member.value, true, member.unit};
+    else
+        return {static_cast<double>(member), true};
 }
 
-inline void assign_option(std::optional<double>& member, const OptionValue& value) { member = value.number; }
-inline void assign_option(std::optional<std::uint32_t>& member, const OptionValue& value) {
-    member.reset();
-    if (value.number) member = static_cast<std::uint32_t>(*value.number);
-}
-inline void assign_option(std::optional<std::uint64_t>& member, const OptionValue& value) {
-    member.reset();
-    if (value.number) member = static_cast<std::uint64_t>(std::min(*value.number, 0x1p63));
-}
-inline void assign_option(std::optional<Length>& member, const OptionValue& value) {
-    member.reset();
-    if (value.number) member = Length{*value.number, value.unit};
-}
-template <class Number>
-requires std::is_arithmetic_v<Number>
-void assign_option(Number& member, const OptionValue& value) {
-    if (value.number) member = static_cast<Number>(*value.number);
-}
-template <class Enum>
-requires std::is_enum_v<Enum>
-void assign_option(Enum& member, const OptionValue& value) {
-    if (value.number) member = static_cast<Enum>(static_cast<int>(*value.number));
+/// Sets a member of Options. One that is not optional stays as it is if the value is unset.
+template <class Member>
+void assign_option(Member& member, const OptionValue& value) {
+    if constexpr (requires { member.reset(); }) {
+        member.reset();
+        if (value.number) assign_option(member.emplace(), value);
+    } else if constexpr (std::is_same_v<Member, Length>) {
+        member = {*value.number, value.unit};
+    } else if (value.number) {
+        const bool is_size = std::is_same_v<Member, std::uint64_t>;
+        member = static_cast<Member>(is_size ? std::min(*value.number, 0x1p63) : *value.number);
+    }
 }
 
 /// Completes a row with the functions that read and write a member of Options.
