@@ -1,13 +1,10 @@
-#include <bit>
 #include <ostream>
 
 #include "faqem/bake.hpp"
+#include "faqem/detail/history/binary_io.hpp"
 
 namespace faqem {
 namespace {
-
-static_assert(std::endian::native == std::endian::little,
-              "records are written as they are in memory, and the format is little-endian");
 
 constexpr char magic[8] = {'F', 'A', 'Q', 'E', 'M', 'C', '0', '1'};
 
@@ -19,10 +16,7 @@ struct Record {
 };
 static_assert(sizeof(Record) == 20);
 
-template <class T>
-void put(std::ostream& out, const T& value) {
-    out.write(reinterpret_cast<const char*>(&value), sizeof value);
-}
+using detail::put;
 
 Record record(const TexelOrigin& texel) {
     if (texel.part == no_index) return {no_index, no_index, 0, 0, 0};
