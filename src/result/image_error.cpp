@@ -78,12 +78,8 @@ ImageErrorMeter::ImageErrorMeter(const Asset& model, std::span<const PendingImag
     for (const PendingImage& image : pending) {
         images_.push_back(image.image);
         std::uint64_t own = 0;
-        for (std::size_t m = 0; m < model.materials.size(); ++m) {
-            bool has_it = false;
-            for_each_texture(model.materials[m],
-                             [&](const TextureRef& texture) { has_it |= texture.image == image.image; });
-            if (has_it) own += pixels[m];
-        }
+        for (std::size_t m = 0; m < model.materials.size(); ++m)
+            if (uses_image(model.materials[m], image.image)) own += pixels[m];
         shares_.push_back(static_cast<double>(own) /
                           static_cast<double>(std::max<std::uint64_t>(pixels_, 1)));
     }
@@ -110,7 +106,7 @@ std::vector<std::optional<PictureDifference>> ImageErrorMeter::operator()(std::v
     std::vector<std::optional<PictureDifference>> result(images_.size());
     // Errors of one role: the other has perfect images, so that they are not mixed up.
     const auto measure = [&](std::vector<Texture>& all, TextureRef Material::*role, render::Shading shading,
-                             ColorSpace color_space, auto&& error_of) {
+                             ColorSpace color_space, const PictureDifference& weights) {
         std::vector<std::pair<std::size_t, Texture>> replaced;
         for (std::size_t i = 0; i < images_.size(); ++i) {
             if (shown[i].rgba.empty() || !all[images_[i]]) continue;
@@ -125,20 +121,15 @@ std::vector<std::optional<PictureDifference>> ImageErrorMeter::operator()(std::v
             double sum = 0;
             for (std::size_t m = 0; m < scene_.asset.materials.size(); ++m)
                 if ((scene_.asset.materials[m].*role).image == images_[i]) sum += errors[m];
-            const PictureDifference before = result[i].value_or(PictureDifference{}), added = error_of(sum);
-            result[i] = {before.unlit + added.unlit, before.lit + added.lit};
+            if (!result[i]) result[i].emplace();
+            *result[i] += weights * sum;
             std::swap(all[images_[i]], perfect);
         }
     };
     // Light changes an error of colours little.
     measure(scene_.color_textures, &Material::base_color_texture, render::Shading::unlit, ColorSpace::srgb,
-            [](double sum) {
-                return PictureDifference{sum, sum};
-            });
-    measure(scene_.normal_maps, &Material::normal_texture, render::Shading::lit, ColorSpace::linear,
-            [](double sum) {
-                return PictureDifference{0, sum};
-            });
+            {1, 1});
+    measure(scene_.normal_maps, &Material::normal_texture, render::Shading::lit, ColorSpace::linear, {0, 1});
     return result;
 }
 

@@ -160,6 +160,13 @@ inline void remove_textures(Material& material) {
     material.extension_textures.clear();
 }
 
+/// Whether a material refers to a certain image.
+inline bool uses_image(const Material& material, Index image) {
+    bool result = false;
+    for_each_texture(material, [&](const TextureRef& texture) { result = result || texture.image == image; });
+    return result;
+}
+
 /// Whether a material refers to an image.
 inline bool has_textures(const Material& material) {
     bool result = false;

@@ -96,23 +96,17 @@ std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> p
 // Whether an animation moves a texture with an image, so that other texels are shown than those of the UVs.
 bool is_moved(const Asset& asset, Index image) {
     const std::vector<std::uint8_t> moving = materials_with_moving_textures(asset);
-    bool is_used = false;
-    for (std::size_t m = 0; m < moving.size(); ++m) {
-        if (!moving[m] || asset.materials[m].rebaked) continue;
-        for_each_texture(asset.materials[m],
-                         [&](const TextureRef& texture) { is_used = is_used || texture.image == image; });
-    }
-    return is_used;
+    for (std::size_t m = 0; m < moving.size(); ++m)
+        if (moving[m] && !asset.materials[m].rebaked && uses_image(asset.materials[m], image)) return true;
+    return false;
 }
 
 // Whether the variant of a part shows an image. Which faces show it is not known then.
 bool is_in_variant(const Asset& asset, std::span<const KeptPart> parts, Index image) {
     return std::any_of(parts.begin(), parts.end(), [&](const KeptPart& kept) {
-        bool is_used = false;
-        for (const Index m : variant_materials(asset, asset.parts[kept.part]))
-            for_each_texture(asset.materials[m],
-                             [&](const TextureRef& texture) { is_used = is_used || texture.image == image; });
-        return is_used;
+        const auto materials = variant_materials(asset, asset.parts[kept.part]);
+        return std::any_of(materials.begin(), materials.end(),
+                           [&](Index m) { return uses_image(asset.materials[m], image); });
     });
 }
 
