@@ -32,26 +32,6 @@ Eigen::Vector4f shown_pixel(const Eigen::Vector4f& pixel) {
     return result;
 }
 
-// Sum over the pixels that show one of the models, and their number.
-struct ErrorSum {
-    double squares = 0;
-    std::uint64_t pixels = 0;
-};
-
-// \param shown, frame  of pictures()
-ErrorSum frame_difference(const render::Frame& shown, const render::Frame& frame) {
-    ErrorSum result;
-    for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
-        if (!(shown.pixels[i][3] > 0) && !(frame.pixels[i][3] > 0)) continue;
-        for (int k = 0; k < 3; ++k) {
-            const double difference = double{shown.pixels[i][k]} - double{frame.pixels[i][k]};
-            result.squares += difference * difference;
-        }
-        ++result.pixels;
-    }
-    return result;
-}
-
 }  // namespace
 
 std::vector<render::Frame> pictures(const render::Scene& scene, const std::vector<render::Camera>& cameras,
@@ -82,7 +62,7 @@ PictureDifference PictureMeter::operator()(Asset model) const {
 }
 
 template <class Use>
-void PictureMeter::use_source_images(Asset model, const Use& use) {
+auto PictureMeter::use_source_images(Asset model, const Use& use) {
     model.images.clear();
     render::Scene scene = render::make_scene(std::move(model));
     const auto exchange_textures = [&] {
@@ -90,35 +70,41 @@ void PictureMeter::use_source_images(Asset model, const Use& use) {
         std::swap(scene.normal_maps, source_.normal_maps);
     };
     exchange_textures();
-    use(scene);
+    const auto result = use(scene);
     exchange_textures();
+    return result;
 }
 
 PictureDifference PictureMeter::with_source_images(Asset model) {
-    PictureDifference result;
-    use_source_images(std::move(model), [&](const render::Scene& scene) { result = compare(scene); });
-    return result;
+    return use_source_images(std::move(model), [&](const render::Scene& scene) { return compare(scene); });
 }
 
 double PictureMeter::lit_with_source_images(Asset model) {
     if (lit_.empty()) lit_ = pictures(source_, cameras_, render::Shading::lit, threads_);
-    double result = 0;
-    use_source_images(std::move(model), [&](const render::Scene& scene) {
-        result = difference(scene, render::Shading::lit, lit_);
+    return use_source_images(std::move(model), [&](const render::Scene& scene) {
+        return difference(scene, render::Shading::lit, lit_);
     });
-    return result;
 }
 
 double PictureMeter::difference(const render::Scene& scene, render::Shading shading,
                                 const std::vector<render::Frame>& of_source) const {
     const std::vector<render::Frame> own = pictures(scene, cameras_, shading, threads_);
-    ErrorSum sum;
+    double squares = 0;
+    std::uint64_t pixels = 0;  // that show one of the models
     for (std::size_t i = 0; i < own.size(); ++i) {
-        const ErrorSum one = frame_difference(of_source[i], own[i]);
-        sum.squares += one.squares;
-        sum.pixels += one.pixels;
+        double of_frame = 0;
+        for (std::size_t p = 0; p < own[i].pixels.size(); ++p) {
+            const Eigen::Vector4f &a = of_source[i].pixels[p], &b = own[i].pixels[p];
+            if (!(a[3] > 0) && !(b[3] > 0)) continue;
+            for (int k = 0; k < 3; ++k) {
+                const double less = double{a[k]} - double{b[k]};
+                of_frame += less * less;
+            }
+            ++pixels;
+        }
+        squares += of_frame;
     }
-    return sum.squares / (3 * static_cast<double>(std::max<std::uint64_t>(sum.pixels, 1)));
+    return squares / (3 * static_cast<double>(std::max<std::uint64_t>(pixels, 1)));
 }
 
 PictureDifference PictureMeter::compare(const render::Scene& scene) const {

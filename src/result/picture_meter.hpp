@@ -43,9 +43,9 @@ public:
     double lit_with_source_images(Asset model);
 
 private:
-    // Calls use(scene) with a scene of the model that has the textures of the source.
+    // Returns use(scene) for a scene of the model that has the textures of the source.
     template <class Use>
-    void use_source_images(Asset model, const Use& use);
+    auto use_source_images(Asset model, const Use& use);
     PictureDifference compare(const render::Scene& scene) const;
     double difference(const render::Scene& scene, render::Shading shading,
                       const std::vector<render::Frame>& of_source) const;
