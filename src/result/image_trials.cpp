@@ -34,15 +34,6 @@ std::uint32_t longer_side(const Pixels& pixels) { return std::max(pixels.width, 
 
 }  // namespace
 
-bool ImageTrials::Size::has_trials() const {
-    return std::find(is_tried.begin(), is_tried.end(), 1) != is_tried.end();
-}
-
-std::uint32_t ImageTrials::Size::last_tried_fineness() const {
-    const auto last = std::find(is_tried.rbegin(), is_tried.rend(), 1);
-    return encodings[static_cast<std::size_t>(is_tried.rend() - last) - 1].fineness;
-}
-
 std::uint64_t encoded_bytes(const std::vector<Image>& images) {
     std::uint64_t result = 0;
     for (const Image& image : images) result += image.encoded.size();
@@ -75,7 +66,7 @@ void ImageTrials::make_sizes() {
             if (!is_new) continue;
             std::vector<ImageEncoding> encodings = image_encodings(pending, bake_);
             std::vector<std::uint8_t> is_tried(encodings.size(), 0);
-            sizes_[i].push_back({pending, std::move(encodings), std::move(is_tried)});
+            sizes_[i].push_back({pending, std::move(encodings), std::move(is_tried), {}});
         }
         side /= 2;
         if (side < least_side) break;
@@ -125,7 +116,7 @@ std::vector<ImageTrials::Request> ImageTrials::smaller_requests() const {
     std::vector<Request> result;
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         std::size_t size = 0;
-        while (!sizes_[i][size].has_trials()) ++size;
+        while (!sizes_[i][size].finest_tried) ++size;
         if (size > 0) result.push_back({i, size - 1, 0, sizes_[i][size - 1].encodings.back().fineness});
     }
     return result;
@@ -138,11 +129,11 @@ std::vector<ImageTrials::Request> ImageTrials::next_requests(const ResultChoice&
         const Trial& trial = trials_[i][choice.images[i]];
         const Size& size = sizes_[i][trial.size];
         const SizeError& error = *size_errors_[i][trial.size];
-        if (trial.fineness == size.last_tried_fineness() && trial.fineness < size.encodings.back().fineness &&
+        if (trial.fineness == size.finest_tried && trial.fineness < size.encodings.back().fineness &&
             estimated_error(error, trial.difference).sum() - error.own.sum() > least_error)
             result.push_back({i, trial.size, 0, trial.fineness + fineness_step});
         const std::size_t next = trial.size + 1;
-        if (next < sizes_[i].size() && !sizes_[i][next].has_trials() && error.own.sum() > least_error)
+        if (next < sizes_[i].size() && !sizes_[i][next].finest_tried && error.own.sum() > least_error)
             result.push_back({i, next, 0, std::max(trial.fineness, measured_fineness)});
     }
     return result;
@@ -176,6 +167,7 @@ void ImageTrials::encode(std::span<const Request> requests) {
                                    (fineness - request.first) % request.step == 0;
             if (size.is_tried[k] || !is_wanted) continue;
             size.is_tried[k] = 1;
+            size.finest_tried = std::max(size.finest_tried.value_or(0), fineness);
             tasks.push_back({request.image, request.size, k});
         }
     }

@@ -51,11 +51,9 @@ private:
     /// An image in one size.
     struct Size {
         PendingImage pending;
-        std::vector<ImageEncoding> encodings;  // by ascending fineness
-        std::vector<std::uint8_t> is_tried;    // by encoding
-
-        bool has_trials() const;
-        std::uint32_t last_tried_fineness() const;  // \pre has_trials()
+        std::vector<ImageEncoding> encodings;       // by ascending fineness
+        std::vector<std::uint8_t> is_tried;         // by encoding
+        std::optional<std::uint32_t> finest_tried;  // fineness
     };
     /// What an entry of tried_ is.
     struct Trial {
