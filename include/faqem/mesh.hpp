@@ -109,11 +109,54 @@ inline void check_indices(const Triangle& t, std::size_t face, std::size_t verti
     }
 }
 
+/// View of triples of numbers, which are stored as one of two types.
+/// \tparam Value  type of the numbers that are returned
+template <class Value, class Large, class Small>
+class TripleView {
+public:
+    TripleView() = default;
+
+    /// Number of triples.
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+
+    std::array<Value, 3> operator[](std::size_t i) const {
+        const auto* at = static_cast<const std::byte*>(data_) + i * stride_;
+        if (is_small_) return {read<Small>(at), read<Small>(at + step_), read<Small>(at + 2 * step_)};
+        return {read<Large>(at), read<Large>(at + step_), read<Large>(at + 2 * step_)};
+    }
+
+protected:
+    /// \throws InputError  numbers overlap
+    template <class Number>
+    TripleView(const Number* first, std::size_t count, std::size_t stride, std::size_t step, const char* name)
+        : data_(first),
+          size_(count),
+          stride_(stride),
+          step_(step),
+          is_small_(sizeof(Number) == sizeof(Small)) {
+        check_layout({count, stride, step, sizeof(Number)}, name);
+    }
+
+private:
+    template <class Number>
+    static Value read(const std::byte* at) {
+        Number value;
+        std::memcpy(&value, at, sizeof value);  // NOLINT(clang-analyzer-core.NonNullParamChecker): i < size()
+        return value;
+    }
+
+    const void* data_ = nullptr;
+    std::size_t size_ = 0;
+    std::size_t stride_ = 0, step_ = 0;  // bytes
+    bool is_small_ = false;
+};
+
 }  // namespace detail
 
 /// View of the caller's vertex positions, float or double: packed, interleaved with other data, or
 /// column-major. Does not copy or own them; they must outlive the view.
-class PositionView {
+class PositionView : public detail::TripleView<double, double, float> {
 public:
     PositionView() = default;
     /// Triples, or a flat array x0 y0 z0 x1 ... \throws InputError  its length is no multiple of 3
@@ -131,41 +174,14 @@ public:
     /// \throws InputError  numbers overlap
     PositionView(const double* first, std::size_t count, std::size_t stride,
                  std::size_t step = sizeof(double))
-        : data_(first), size_(count), stride_(stride), step_(step), is_double_(true) {
-        detail::check_layout({count, stride, step, sizeof(double)}, "positions");
-    }
+        : TripleView(first, count, stride, step, "positions") {}
     PositionView(const float* first, std::size_t count, std::size_t stride, std::size_t step = sizeof(float))
-        : data_(first), size_(count), stride_(stride), step_(step) {
-        detail::check_layout({count, stride, step, sizeof(float)}, "positions");
-    }
-
-    /// Number of vertices.
-    std::size_t size() const { return size_; }
-    bool empty() const { return size_ == 0; }
-
-    Vec3 operator[](std::size_t i) const {
-        const auto* at = static_cast<const std::byte*>(data_) + i * stride_;
-        if (is_double_) return {read<double>(at), read<double>(at + step_), read<double>(at + 2 * step_)};
-        return {read<float>(at), read<float>(at + step_), read<float>(at + 2 * step_)};
-    }
-
-private:
-    template <class Scalar>
-    static double read(const std::byte* at) {
-        Scalar value;
-        std::memcpy(&value, at, sizeof value);  // NOLINT(clang-analyzer-core.NonNullParamChecker): i < size()
-        return value;
-    }
-
-    const void* data_ = nullptr;
-    std::size_t size_ = 0;
-    std::size_t stride_ = 0, step_ = 0;  // bytes
-    bool is_double_ = false;
+        : TripleView(first, count, stride, step, "positions") {}
 };
 
 /// View of the caller's triangles, as triples or as a flat array of indices with 16 or 32 bits. Does not copy
 /// or own them; they must outlive the view.
-class TriangleView {
+class TriangleView : public detail::TripleView<Index, Index, std::uint16_t> {
 public:
     TriangleView() = default;
     /// Triples, or a flat array. Negative signed indices are out of range.
@@ -182,43 +198,13 @@ public:
     /// \param step    bytes from one corner to the next
     /// \throws InputError  indices overlap
     TriangleView(const Index* first, std::size_t count, std::size_t stride, std::size_t step = sizeof(Index))
-        : TriangleView(static_cast<const void*>(first), count, stride, step, sizeof(Index)) {}
+        : TripleView(first, count, stride, step, "triangles") {}
     TriangleView(const std::int32_t* first, std::size_t count, std::size_t stride,
                  std::size_t step = sizeof(std::int32_t))
-        : TriangleView(static_cast<const void*>(first), count, stride, step, sizeof(std::int32_t)) {}
+        : TripleView(first, count, stride, step, "triangles") {}
     TriangleView(const std::uint16_t* first, std::size_t count, std::size_t stride,
                  std::size_t step = sizeof(std::uint16_t))
-        : TriangleView(static_cast<const void*>(first), count, stride, step, sizeof(std::uint16_t)) {}
-
-    /// Number of triangles.
-    std::size_t size() const { return size_; }
-    bool empty() const { return size_ == 0; }
-
-    Triangle operator[](std::size_t f) const {
-        const auto* at = static_cast<const std::byte*>(data_) + f * stride_;
-        if (is_short_)
-            return {read<std::uint16_t>(at), read<std::uint16_t>(at + step_),
-                    read<std::uint16_t>(at + 2 * step_)};
-        return {read<Index>(at), read<Index>(at + step_), read<Index>(at + 2 * step_)};
-    }
-
-private:
-    TriangleView(const void* first, std::size_t count, std::size_t stride, std::size_t step, std::size_t size)
-        : data_(first), size_(count), stride_(stride), step_(step), is_short_(size == 2) {
-        detail::check_layout({count, stride, step, size}, "triangles");
-    }
-
-    template <class Number>
-    static Index read(const std::byte* at) {
-        Number value;
-        std::memcpy(&value, at, sizeof value);
-        return value;
-    }
-
-    const void* data_ = nullptr;
-    std::size_t size_ = 0;
-    std::size_t stride_ = 0, step_ = 0;  // bytes
-    bool is_short_ = false;
+        : TripleView(first, count, stride, step, "triangles") {}
 };
 
 /// Attributes of face corners, such as UVs and colours. Corners at one vertex with equal values form a wedge;

@@ -16,32 +16,17 @@ void require_array(const void* array, std::size_t count, const char* name) {
                          "the array is null, but " + std::to_string(count) + " elements are expected");
 }
 
-/// Creates a view of triples; a stride or step of 0 means contiguous elements.
-template <class View, class Number>
-View view_of(const Number* first, std::size_t count, std::size_t stride, std::size_t step) {
-    return View(first, count, stride > 0 ? stride : 3 * sizeof(Number), step > 0 ? step : sizeof(Number));
-}
-
-PositionView positions_of(const faqem_mesh& mesh) {
-    if (mesh.positions && mesh.double_positions)
-        throw InputError("", "positions", "given both as float and as double, but one array is expected");
-    const void* given = mesh.positions ? static_cast<const void*>(mesh.positions) : mesh.double_positions;
-    require_array(given, mesh.vertex_count, "positions");
+/// Creates a view of triples in one of two arrays; a stride or step of 0 means contiguous elements.
+/// \param kinds  for the message that both are given
+template <class View, class Number, class OtherNumber>
+View view_of(const Number* one, const OtherNumber* other, std::size_t count, std::size_t stride,
+             std::size_t step, const char* name, const std::string& kinds) {
+    if (one && other) throw InputError("", name, "given both " + kinds + ", but one array is expected");
+    require_array(one ? static_cast<const void*>(one) : other, count, name);
     const auto view = [&](const auto* first) {
-        return view_of<PositionView>(first, mesh.vertex_count, mesh.position_stride, mesh.position_step);
+        return View(first, count, stride > 0 ? stride : 3 * sizeof *first, step > 0 ? step : sizeof *first);
     };
-    return mesh.positions ? view(mesh.positions) : view(mesh.double_positions);
-}
-
-TriangleView triangles_of(const faqem_mesh& mesh) {
-    if (mesh.triangles && mesh.short_triangles)
-        throw InputError("", "triangles", "given both with 32 and with 16 bits, but one array is expected");
-    const void* given = mesh.triangles ? static_cast<const void*>(mesh.triangles) : mesh.short_triangles;
-    require_array(given, mesh.face_count, "triangles");
-    const auto view = [&](const auto* first) {
-        return view_of<TriangleView>(first, mesh.face_count, mesh.triangle_stride, mesh.triangle_step);
-    };
-    return mesh.triangles ? view(mesh.triangles) : view(mesh.short_triangles);
+    return one ? view(one) : view(other);
 }
 
 template <class Value>
@@ -52,8 +37,12 @@ std::span<const Value> optional_array(const Value* array, std::size_t count) {
 }  // namespace
 
 MeshArrays::MeshArrays(const faqem_mesh& mesh) {
-    view.positions = positions_of(mesh);
-    view.triangles = triangles_of(mesh);
+    view.positions =
+        view_of<PositionView>(mesh.positions, mesh.double_positions, mesh.vertex_count, mesh.position_stride,
+                              mesh.position_step, "positions", "as float and as double");
+    view.triangles =
+        view_of<TriangleView>(mesh.triangles, mesh.short_triangles, mesh.face_count, mesh.triangle_stride,
+                              mesh.triangle_step, "triangles", "with 32 and with 16 bits");
     view.face_groups = optional_array(mesh.face_groups, mesh.face_count);
     view.vertex_locks = optional_array(mesh.vertex_locks, mesh.vertex_count);
     view.vertex_weights = optional_array(mesh.vertex_weights, mesh.vertex_count);
