@@ -1,10 +1,10 @@
 #include "capi/c_asset.hpp"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "capi/c_mesh.hpp"
+#include "scene/check_asset.hpp"
 #include "scene/resolved_options.hpp"
 
 namespace {
@@ -21,26 +21,6 @@ Part make_part(const MeshView& mesh) {
     return part;
 }
 
-/// Checks the invariants that writers rely on. simplify() checks them too, but a model can be saved without
-/// it.
-void check(const Part& part) {
-    for (std::size_t v = 0; v < part.positions.size(); ++v) {
-        for (const double x : part.positions[v]) {
-            if (!std::isfinite(x))
-                throw InputError("", "vertex " + std::to_string(v),
-                                 "position is not finite: " + std::to_string(x));
-        }
-    }
-    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
-        for (const Index v : part.triangles[f]) {
-            if (v >= part.positions.size())
-                throw InputError("", "face " + std::to_string(f),
-                                 "vertex index " + std::to_string(v) + " is out of range: there are " +
-                                     std::to_string(part.positions.size()));
-        }
-    }
-}
-
 }  // namespace
 
 void capi::warn_of_idle_options(const faqem_options* options, const Asset& source, Report& report) {
@@ -51,11 +31,8 @@ void capi::warn_of_idle_options(const faqem_options* options, const Asset& sourc
 }
 
 faqem_status faqem_asset_load(const char* path, faqem_asset** asset, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(path, "path");
-        capi::require_argument(asset, "asset");
-        *asset = new faqem_asset(load(path));
-    });
+    return capi::catch_exceptions(error, {{path, "path"}, {asset, "asset"}},
+                                  [&] { *asset = new faqem_asset(load(path)); });
 }
 
 struct faqem_glb {
@@ -63,9 +40,7 @@ struct faqem_glb {
 };
 
 faqem_status faqem_asset_to_glb(faqem_asset* asset, faqem_glb** glb, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(asset, "asset");
-        capi::require_argument(glb, "glb");
+    return capi::catch_exceptions(error, {{asset, "asset"}, {glb, "glb"}}, [&] {
         std::vector<std::string> losses;
         *glb = new faqem_glb{to_glb(asset->asset, &losses)};
         asset->save_warnings.add(losses);
@@ -80,30 +55,23 @@ const uint8_t* faqem_glb_bytes(const faqem_glb* glb, size_t* size) {
 void faqem_glb_destroy(faqem_glb* glb) { delete glb; }
 
 faqem_status faqem_asset_from_glb(const void* bytes, size_t size, faqem_asset** asset, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(bytes, "bytes");
-        capi::require_argument(asset, "asset");
+    return capi::catch_exceptions(error, {{bytes, "bytes"}, {asset, "asset"}}, [&] {
         *asset = new faqem_asset(from_glb({static_cast<const std::uint8_t*>(bytes), size}));
     });
 }
 
 faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** asset, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(mesh, "mesh");
-        capi::require_argument(asset, "asset");
-        Part part = make_part(capi::MeshArrays(*mesh).view);
-        check(part);
+    return capi::catch_exceptions(error, {{mesh, "mesh"}, {asset, "asset"}}, [&] {
         Asset whole;
-        whole.parts.push_back(std::move(part));
+        whole.parts.push_back(make_part(capi::MeshArrays(*mesh).view));
+        detail::check_asset(whole);  // a model can be saved without simplify()
         *asset = new faqem_asset(std::move(whole));
     });
 }
 
 faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options* options,
                                   faqem_asset** simplified, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(asset, "asset");
-        capi::require_argument(simplified, "simplified");
+    return capi::catch_exceptions(error, {{asset, "asset"}, {simplified, "simplified"}}, [&] {
         SimplifiedAsset made = simplify(asset->asset, capi::options_or_defaults(options));
         capi::warn_of_idle_options(options, asset->asset, made.report);
         *simplified = new faqem_asset(std::move(made));
@@ -112,9 +80,7 @@ faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options*
 
 faqem_status faqem_asset_save(faqem_asset* asset, const char* path, faqem_overwrite overwrite,
                               faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(asset, "asset");
-        capi::require_argument(path, "path");
+    return capi::catch_exceptions(error, {{asset, "asset"}, {path, "path"}}, [&] {
         asset->save_warnings.add(save(asset->asset, path, capi::to_overwrite(overwrite)));
     });
 }

@@ -17,7 +17,6 @@ namespace {
 using namespace faqem;
 
 void check_levels(const faqem_asset* const* levels, std::size_t count) {
-    capi::require_argument(levels, "levels");
     if (count == 0) throw OptionError("levels: at least one is required");
     for (std::size_t i = 0; i < count; ++i)
         capi::require_argument(levels[i], ("level " + std::to_string(i)).c_str());
@@ -29,10 +28,7 @@ faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, const faqem_o
                                          const faqem_level* levels, size_t level_count,
                                          faqem_level_textures textures, faqem_asset** results,
                                          faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(asset, "asset");
-        capi::require_argument(levels, "levels");
-        capi::require_argument(results, "results");
+    return capi::catch_exceptions(error, {{asset, "asset"}, {levels, "levels"}, {results, "results"}}, [&] {
         if (textures != FAQEM_LEVEL_TEXTURES_EACH && textures != FAQEM_LEVEL_TEXTURES_SHARED)
             throw OptionError("textures: unknown enumerator");
         std::vector<SimplifiedAssetLevel> simplified = simplify_levels(
@@ -54,9 +50,8 @@ double faqem_asset_level_error(const faqem_asset* asset) {
 
 faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_count, double screen_error,
                                      const char* path, faqem_overwrite overwrite, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
+    return capi::catch_exceptions(error, {{levels, "levels"}, {path, "path"}}, [&] {
         check_levels(levels, level_count);
-        capi::require_argument(path, "path");
         std::vector<SavedLevel> saved;
         std::vector<double> errors;
         for (std::size_t i = 0; i < level_count; ++i) {
@@ -70,9 +65,8 @@ faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_co
 
 faqem_status faqem_asset_history_create(const faqem_asset* const* levels, size_t level_count,
                                         faqem_history** history, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
+    return capi::catch_exceptions(error, {{levels, "levels"}, {history, "history"}}, [&] {
         check_levels(levels, level_count);
-        capi::require_argument(history, "history");
         const std::size_t count = levels[0]->histories.size();
         for (std::size_t i = 0; i < level_count; ++i) {
             const std::string where = "level " + std::to_string(i);
@@ -94,9 +88,7 @@ faqem_status faqem_asset_history_create(const faqem_asset* const* levels, size_t
 faqem_status faqem_asset_bake_truncated(const faqem_asset* source, const faqem_history* history,
                                         uint64_t faces, const faqem_options* options,
                                         faqem_asset** simplified, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(source, "source");
-        capi::require_argument(simplified, "simplified");
+    return capi::catch_exceptions(error, {{source, "source"}, {simplified, "simplified"}}, [&] {
         const Options bake_options = capi::options_or_defaults(options);
         if (bake_options.bake.kind == Bake::keep)
             throw OptionError("bake: `keep` is not possible, because a history has no UVs");

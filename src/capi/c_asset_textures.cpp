@@ -95,9 +95,7 @@ const uint8_t* faqem_asset_image_bytes(const faqem_asset* asset, size_t image, s
 
 faqem_status faqem_asset_decode_image(const faqem_asset* asset, size_t image, faqem_pixels** pixels,
                                       faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(asset, "asset");
-        capi::require_argument(pixels, "pixels");
+    return capi::catch_exceptions(error, {{asset, "asset"}, {pixels, "pixels"}}, [&] {
         const Image* found = find_image(asset, image);
         if (!found)
             throw OptionError("image: " + std::to_string(image) + " is not one of the " +

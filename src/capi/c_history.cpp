@@ -47,9 +47,7 @@ std::vector<CollapseHistory> capi::truncate_parts(const faqem_history* history, 
 
 faqem_status faqem_history_create(const faqem_result* const* results, size_t result_count,
                                   faqem_history** history, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(results, "results");
-        capi::require_argument(history, "history");
+    return capi::catch_exceptions(error, {{results, "results"}, {history, "history"}}, [&] {
         if (result_count == 0) throw OptionError("results: at least one is required");
         std::vector<CollapseHistory> levels;
         for (std::size_t i = 0; i < result_count; ++i) levels.push_back(history_of(results[i]));
@@ -59,9 +57,7 @@ faqem_status faqem_history_create(const faqem_result* const* results, size_t res
 
 faqem_status faqem_history_read(const uint8_t* bytes, size_t size, faqem_history** history,
                                 faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(bytes, "bytes");
-        capi::require_argument(history, "history");
+    return capi::catch_exceptions(error, {{bytes, "bytes"}, {history, "history"}}, [&] {
         std::istringstream in(std::string(reinterpret_cast<const char*>(bytes), size));
         std::vector<ChainHistory> parts;
         do parts.push_back(read_chain_history(in));
@@ -85,8 +81,7 @@ size_t faqem_history_level_count(const faqem_history* history) {
 
 faqem_status faqem_history_truncate(const faqem_history* history, uint64_t faces, faqem_result** result,
                                     faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(result, "result");
+    return capi::catch_exceptions(error, {{result, "result"}}, [&] {
         std::vector<CollapseHistory> truncated = capi::truncate_parts(history, faces);
         if (truncated.size() > 1)
             throw OptionError("the history has " + std::to_string(truncated.size()) +
@@ -97,8 +92,7 @@ faqem_status faqem_history_truncate(const faqem_history* history, uint64_t faces
 
 faqem_status faqem_history_truncate_parts(const faqem_history* history, uint64_t faces,
                                           faqem_result** results, faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(results, "results");
+    return capi::catch_exceptions(error, {{results, "results"}}, [&] {
         std::vector<std::unique_ptr<faqem_result>> objects;
         for (CollapseHistory& part : capi::truncate_parts(history, faces))
             objects.push_back(std::make_unique<faqem_result>(restore(std::move(part))));
@@ -109,10 +103,8 @@ faqem_status faqem_history_truncate_parts(const faqem_history* history, uint64_t
 faqem_status faqem_result_map(const faqem_result* result, const uint32_t* faces, const double* barycentric,
                               size_t count, uint32_t* source_faces, double* source_barycentric,
                               faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
+    return capi::catch_exceptions(error, {{faces, "faces"}, {barycentric, "barycentric"}}, [&] {
         const CollapseHistory& history = history_of(result);
-        capi::require_argument(faces, "faces");
-        capi::require_argument(barycentric, "barycentric");
         capi::require_argument(source_faces, "source_faces");
         capi::require_argument(source_barycentric, "source_barycentric");
         const auto weights = [&](std::size_t i) {

@@ -47,10 +47,7 @@ std::vector<Level> capi::to_levels(const faqem_level* levels, std::size_t count)
 faqem_status faqem_simplify_levels(const faqem_mesh* mesh, const faqem_options* options,
                                    const faqem_level* levels, size_t level_count, faqem_result** results,
                                    faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(mesh, "mesh");
-        capi::require_argument(levels, "levels");
-        capi::require_argument(results, "results");
+    return capi::catch_exceptions(error, {{mesh, "mesh"}, {levels, "levels"}, {results, "results"}}, [&] {
         const std::vector<Level> wanted = capi::to_levels(levels, level_count);
         const capi::MeshArrays arrays(*mesh);
         std::vector<std::unique_ptr<faqem_result>> objects;

@@ -54,10 +54,7 @@ void faqem_options_destroy(faqem_options* options) { delete options; }
 
 faqem_status faqem_options_set(faqem_options* options, const char* name, const char* value,
                                faqem_error* error) {
-    return faqem::capi::catch_exceptions(error, [&] {
-        faqem::capi::require_argument(options, "options");
-        faqem::capi::require_argument(name, "name");
-        faqem::capi::require_argument(value, "value");
+    return capi::catch_exceptions(error, {{options, "options"}, {name, "name"}, {value, "value"}}, [&] {
         const detail::OptionRow& row = detail::named_option(name);
         set_option(options->options, row, value, detail::name_spelling);
         options->named.push_back(row.name);

@@ -26,9 +26,7 @@ const char* faqem_version(void) {
 
 faqem_status faqem_simplify(const faqem_mesh* mesh, const faqem_options* options, faqem_result** result,
                             faqem_error* error) {
-    return capi::catch_exceptions(error, [&] {
-        capi::require_argument(mesh, "mesh");
-        capi::require_argument(result, "result");
+    return capi::catch_exceptions(error, {{mesh, "mesh"}, {result, "result"}}, [&] {
         const capi::MeshArrays arrays(*mesh);
         SimplifyResult made = simplify(arrays.view, capi::options_or_defaults(options));
         capi::warn_of_asset_options(options, made.report);

@@ -2,7 +2,9 @@
 /// \file
 /// Conversion of exceptions to status codes: no exception may leave the C API.
 
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 #include "faqem/error.hpp"
 #include "faqem/faqem.h"
@@ -25,11 +27,15 @@ inline void require_argument(const void* argument, const char* name) {
     if (!argument) throw OptionError(std::string(name) + " must not be null");
 }
 
-/// Calls `work` and converts its exceptions.
-/// \param error  receives status and message, also on success; may be null
+/// Calls `work` if no argument is null, and converts exceptions.
+/// \param error     receives status and message, also on success; may be null
+/// \param required  arguments of the caller that must not be null, with their names
 template <class Work>
-faqem_status catch_exceptions(faqem_error* error, Work&& work) noexcept {
+faqem_status catch_exceptions(faqem_error* error,
+                              std::initializer_list<std::pair<const void*, const char*>> required,
+                              Work&& work) noexcept {
     try {
+        for (const auto& [argument, name] : required) require_argument(argument, name);
         work();
     } catch (...) {
         return status_of_exception(error);

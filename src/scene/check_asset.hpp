@@ -3,6 +3,7 @@
 /// Validation of assets, which need not come from a file reader.
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -10,6 +11,6 @@ namespace faqem::detail {
 /// that all values of vertices, texture transforms and material factors are finite.
 /// Complexity: O(size of the asset).
 /// \throws InputError with the name of the part or material
-void check_asset(const Asset& asset);
+FAQEM_EXPORT void check_asset(const Asset& asset);
 
 }  // namespace faqem::detail
