@@ -8,6 +8,7 @@
 
 #include "asset/scene/material_textures.hpp"
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {
@@ -38,7 +39,7 @@ inline Index face_material(const Part& part, std::size_t face) {
 }
 
 /// The materials of the faces of a part, each once, ascending, without the default material. O(faces log faces)
-std::vector<Index> materials_of(const Part& part);
+FAQEM_EXPORT std::vector<Index> materials_of(const Part& part);
 
 /// Whether a face of the asset has each material, the default material last. O(faces + materials)
 /// \param skipped_parts  by part: whether its faces are ignored; empty: none are
