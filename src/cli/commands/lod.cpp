@@ -235,17 +235,16 @@ private:
                       << "\n";
             return rejection;
         }
-        reports_.reserve(levels.size());  // pointers to the elements must stay valid
         return exit_ok;
     }
 
     void write_original() {
-        if (!arguments_.without_original) append(warnings_, write(Asset(source_), 0, 0, nullptr));
+        if (!arguments_.without_original) append(warnings_, write(Asset(source_), 0, 0));
     }
 
     void write_level(SimplifiedAsset simplified, double distance, double error) {
-        Report& report = reports_.emplace_back(std::move(simplified.report));
-        append(report.warnings, write(std::move(simplified.asset), distance, error, &report));
+        append(simplified.report.warnings, write(std::move(simplified.asset), distance, error));
+        written_.back().report = std::move(simplified.report);
     }
 
     static void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
@@ -253,12 +252,12 @@ private:
     }
 
     /// Saves one level, or stores it for the file of all. \return warnings about data that the format cannot store
-    std::vector<std::string> write(Asset&& asset, double distance, double error, const Report* report) {
+    std::vector<std::string> write(Asset&& asset, double distance, double error) {
         const ExitOnInterrupt exit_on_interrupt;
         const detail::CollectWrites collect(set_);
         const fs::path& file = outputs_.models[written_.size()];
         WrittenLevel& level = written_.emplace_back();
-        level = {.file = file.filename().string(), .distance = distance, .error = error, .report = report};
+        level = {.file = file.filename().string(), .distance = distance, .error = error, .report = {}};
         for (const Part& part : asset.parts) {
             level.faces += part.triangles.size();
             level.vertices += part.positions.size();
@@ -285,7 +284,6 @@ private:
     const Asset& source_;
     const std::vector<Level>& levels_;
     const Options& options_;
-    std::vector<Report> reports_;
     std::vector<std::string> warnings_;
     std::vector<WrittenLevel> written_;
     std::vector<SavedLevel> one_file_levels_;  // of a file of all levels

@@ -3,6 +3,7 @@
 /// The manifest that `faqem lod` writes, and switch distances of levels.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct WrittenLevel {
     std::uint64_t faces = 0, vertices = 0;  ///< sums over all parts
     std::uint64_t bytes = 0;                ///< of the files of the level; 0 in a file of all levels
     double distance = 0, error = 0;         ///< as in SimplifiedAssetLevel
-    const Report* report = nullptr;         ///< null for the original; not owned
+    std::optional<Report> report;           ///< nothing for the original
 };
 
 /// Returns the distance between the camera and the nearest point of the model from which on an error covers

@@ -98,7 +98,7 @@ TEST_CASE("at the switch distance the error covers the allowed number of pixels"
     CHECK(switch_distance(0.01, {5, 90, 1000}) == Approx(1));
     CHECK(switch_distance(0, {1, 60, 1080}) == 0);
     const faqem::cli::Json json =
-        lod_manifest("a", 3, {1, 90, 1000}, {{"a_LOD0.glb", 10, 8, 500, 0.009, 0.01, nullptr}});
+        lod_manifest("a", 3, {1, 90, 1000}, {{"a_LOD0.glb", 10, 8, 500, 0.009, 0.01, {}}});
     // 3 units are 1.5 times the view height at distance 1, and 0.3 of it at distance 5.
     CHECK(json["levels"][0]["screen_coverage"].get<double>() == Approx(0.3));
 }
