@@ -56,7 +56,7 @@ int run(const CompareArguments& arguments) {
     if (!comparison.colors_warning.empty())
         std::cerr << "faqem: warning: " << comparison.colors_warning << "\n";
     if (!arguments.json) {
-        std::cout << comparison_text(comparison, a.asset.file_bytes, b.asset.file_bytes);
+        std::cout << comparison_text(a, b, comparison);
         return exit_ok;
     }
     const Comparison& result = comparison.distances;
@@ -74,8 +74,8 @@ int run(const CompareArguments& arguments) {
                 {"a_to_b", one_sided_json(result.a_to_b)},
                 {"b_to_a", one_sided_json(result.b_to_a)},
                 {"colors", colors_json(comparison.colors)},
-                {"info_a", info_json(comparison.a)},
-                {"info_b", info_json(comparison.b)},
+                {"info_a", info_json(a.info)},
+                {"info_b", info_json(b.info)},
                 {"samples", arguments.options.samples},
                 {"seed", arguments.options.seed},
                 {"tolerance", arguments.options.tolerance}});

@@ -36,37 +36,29 @@ struct ReportArguments {
     bool without_view = false, force = false;
 };
 
-ReportedModel describe_model(const FlattenedModel& model, const MeshInfo& info) {
-    return {model.file, model.asset.file_bytes, info, model.asset.materials.size(),
-            model.asset.images.size()};
-}
-
-Image contact_sheet(std::vector<render::ContactSheetRow> rows,
-                    const std::vector<render::ContactSheetRow>* labelled = nullptr) {
-    for (std::size_t r = 0; labelled && r < rows.size(); ++r) rows[r].label = (*labelled)[r].label;
-    return encode_webp(render::compose_contact_sheet(rows), "sheet", {});
-}
-
 /// Renders three images as `faqem render` does: the models, the models with edges, and the heat maps.
 std::vector<Picture> draw_pictures(const ReportArguments& arguments, const FlattenedModel& a,
                                    const FlattenedModel& b, const ErrorSurface& error_a,
                                    const ErrorSurface& error_b, double limit) {
     std::vector<render::Scene> scenes, errors;
     for (const FlattenedModel* model : {&a, &b}) scenes.push_back(render::make_scene(model->asset));
-    for (const ErrorSurface* error : {&error_a, &error_b})
+    for (const ErrorSurface* error : {&error_a, &error_b}) {
         errors.push_back(render::make_scene(color_by_distance(*error, limit)));
+        errors.back().faces = scenes[errors.size() - 1].faces;  // for the label
+    }
     const std::vector<render::Camera> cameras =
         render::cameras_around(scenes[0], a.file, arguments.views, arguments.up == "z");
     const auto draw = [&](const std::vector<render::Scene>& drawn, render::Edges edges) {
-        return render::draw_rows(drawn, cameras, arguments.size, render::Shading::lit, edges);
+        const std::vector<render::ContactSheetRow> rows =
+            render::draw_rows(drawn, cameras, arguments.size, render::Shading::lit, edges);
+        return encode_webp(render::compose_contact_sheet(rows), "sheet", {});
     };
-    const std::vector<render::ContactSheetRow> shaded = draw(scenes, render::Edges::hidden);
     const std::string both =
         "The first model in the upper row, the second below it, rendered with the same cameras";
     return {
-        {contact_sheet(shaded), "Shaded. " + both + ".", both + "."},
-        {contact_sheet(draw(scenes, render::Edges::drawn)), "With mesh edges.", both + ", with mesh edges."},
-        {contact_sheet(draw(errors, render::Edges::hidden), &shaded),
+        {draw(scenes, render::Edges::hidden), "Shaded. " + both + ".", both + "."},
+        {draw(scenes, render::Edges::drawn), "With mesh edges.", both + ", with mesh edges."},
+        {draw(errors, render::Edges::hidden),
          "Distance to the other model: from dark (zero) to yellow (the 99.5th percentile of the vertices' "
          "distances, and above).",
          both + ", coloured by the distance to the other model."}};
@@ -82,7 +74,7 @@ std::optional<ViewerData> make_viewer_data(const ReportArguments& arguments, con
         page.notes.push_back("No 3D view: faqem was built without npm.");
         return std::nullopt;
     }
-    const MeshInfo& info = page.comparison.a;
+    const MeshInfo& info = a.info;
     const double unit = page.comparison.distances.diagonal;
     ViewerFrame frame{{}, unit, max_distance > 0 ? max_distance : 1};
     for (std::size_t k = 0; k < 3; ++k) frame.centre[k] = 0.5 * info.box_min[k] + 0.5 * info.box_max[k];
@@ -107,11 +99,8 @@ int run(const ReportArguments& arguments) {
     ProgressBar bar(Bar::shown);
     bar.show("load");
     const FlattenedModel a = load_flattened(arguments.a), b = load_flattened(arguments.b);
-    ReportPage page;
     bar.show("compare");
-    page.comparison = compare_models(a, b, arguments.options);
-    page.a = describe_model(a, page.comparison.a);
-    page.b = describe_model(b, page.comparison.b);
+    ReportPage page{a, b, compare_models(a, b, arguments.options), {}, {}, {}};
     const double spacing = page.comparison.distances.diagonal / points_along_diagonal;
     const ErrorSurface error_a = error_surface(a.flat, b.flat, spacing, arguments.options.threads),
                        error_b = error_surface(b.flat, a.flat, spacing, arguments.options.threads);

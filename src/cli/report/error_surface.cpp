@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "asset/scene/repair.hpp"
 #include "faqem/detail/base/parallel.hpp"
@@ -42,7 +43,7 @@ std::uint64_t added_face_count(const Part& mesh, double spacing) {
 
 /// Divides each edge into `subdivisions` segments and the face into subdivisions^2 faces. Only the corners
 /// are shared with adjacent faces.
-void subdivide_face(ErrorSurface& surface, const Triangle& t, Index subdivisions) {
+void subdivide_face(Part& surface, const Triangle& t, Index subdivisions) {
     const Vec3 a = surface.positions[t[0]], b = surface.positions[t[1]], c = surface.positions[t[2]];
     std::vector<Index> above, row;
     for (Index i = 0; i <= subdivisions; ++i) {  // rows from corner a to the edge (b, c)
@@ -76,25 +77,27 @@ ErrorSurface error_surface(const Part& mesh, const Part& to, double spacing, std
     while (added_face_count(mesh, spacing) > max_added_faces) spacing *= 1.25;
     detail::check_index_count(mesh.positions.size() + 3 * max_added_faces, "",
                               "vertices of the error surface");
-    ErrorSurface result;
-    result.positions = mesh.positions;
+    Part part;
+    part.name = "error";
+    part.positions = mesh.positions;
     for (const Triangle& t : mesh.triangles) {
         const Index subdivisions = subdivision_count(mesh, t, spacing);
         if (subdivisions > 1)
-            subdivide_face(result, t, subdivisions);
+            subdivide_face(part, t, subdivisions);
         else
-            result.triangles.push_back(t);
+            part.triangles.push_back(t);
     }
+    part.face_material.assign(part.triangles.size(), no_index);
     const detail::Surface surface =
         detail::extract_nonempty_surface({to.positions, to.triangles}, "the other mesh");
     const detail::Bvh tree(surface.positions, surface.triangles);
-    result.distances.resize(result.positions.size());
-    detail::parallel_blocks(result.positions.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> distances(part.positions.size());
+    detail::parallel_blocks(distances.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
         detail::CoherentQuery closest(surface, tree);
         for (std::size_t v = begin; v < end; ++v)
-            result.distances[v] = std::sqrt(closest(result.positions[v]).distance_squared);
+            distances[v] = std::sqrt(closest(part.positions[v]).distance_squared);
     });
-    return result;
+    return {std::move(part), std::move(distances)};
 }
 
 double distance_quantile(const ErrorSurface& a, const ErrorSurface& b, double share) {

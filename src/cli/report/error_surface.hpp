@@ -11,8 +11,7 @@ namespace faqem::cli {
 
 /// A mesh with a distance per vertex. Positions and distances are in model units.
 struct ErrorSurface {
-    std::vector<Vec3> positions;
-    std::vector<Triangle> triangles;
+    Part part;                      ///< without materials
     std::vector<double> distances;  ///< per vertex, to the closest point of the other mesh
 };
 

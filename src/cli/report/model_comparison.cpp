@@ -13,11 +13,12 @@
 namespace faqem::cli {
 
 FlattenedModel load_flattened(const std::string& file) {
-    FlattenedModel model{file, load(file), {}};
+    FlattenedModel model{file, load(file), {}, {}};
     for (std::string& warning : detail::weld_rounded_positions(model.asset))
         model.asset.warnings.push_back(std::move(warning));
     model.flat = detail::flatten(model.asset);
-    if (!(info(model.view()).area > 0)) throw InputError(file, "", "has no face with non-zero area");
+    model.info = info(model.view());
+    if (!(model.info.area > 0)) throw InputError(file, "", "has no face with non-zero area");
     return model;
 }
 
@@ -25,8 +26,6 @@ ModelComparison compare_models(const FlattenedModel& a, const FlattenedModel& b,
                                const CompareOptions& options) {
     ModelComparison result;
     result.distances = compare(a.view(), b.view(), options);
-    result.a = info(a.view());
-    result.b = info(b.view());
     if (!has_colors(a.asset) || !has_colors(b.asset)) return result;
     try {
         result.colors = compare_colors(a.asset, b.asset, options);
@@ -36,11 +35,12 @@ ModelComparison compare_models(const FlattenedModel& a, const FlattenedModel& b,
     return result;
 }
 
-std::string comparison_text(const ModelComparison& comparison, std::uint64_t bytes_a, std::uint64_t bytes_b) {
+std::string comparison_text(const FlattenedModel& a, const FlattenedModel& b,
+                            const ModelComparison& comparison) {
     const double bound = comparison.distances.hausdorff_bound, diagonal = comparison.distances.diagonal;
-    std::string text = render::with_commas(comparison.b.faces) + " faces instead of " +
-                       render::with_commas(comparison.a.faces) + ", " + shown_bytes(bytes_b) +
-                       " instead of " + shown_bytes(bytes_a) +
+    std::string text = render::with_commas(b.info.faces) + " faces instead of " +
+                       render::with_commas(a.info.faces) + ", " + shown_bytes(b.asset.file_bytes) +
+                       " instead of " + shown_bytes(a.asset.file_bytes) +
                        ".\nNo point of either surface is farther than " + shown_number(bound) + " (" +
                        shown_percent(bound / diagonal) + " of the diagonal) from the other" +
                        shown_in_pixels(bound, diagonal) + ".\n";

@@ -2,7 +2,6 @@
 /// \file
 /// Comparison of two models, shared by `faqem compare` and `faqem report`.
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -16,7 +15,8 @@ namespace faqem::cli {
 struct FlattenedModel {
     std::string file;
     Asset asset;
-    Part flat;  ///< world space
+    Part flat;      ///< world space
+    MeshInfo info;  ///< of `flat`
 
     /// Returns a view of `flat`. Valid while this object is not changed.
     MeshView view() const { return {flat.positions, flat.triangles}; }
@@ -33,7 +33,6 @@ struct ModelComparison {
     Comparison distances;
     std::optional<ColorComparison> colors;  ///< none if a model has no colours or `colors_warning` is set
     std::string colors_warning;             ///< reason why colours cannot be compared; otherwise empty
-    MeshInfo a, b;
 };
 
 /// Compares two models. If their colours cannot be compared, the distances are computed nevertheless.
@@ -41,8 +40,8 @@ struct ModelComparison {
 ModelComparison compare_models(const FlattenedModel& a, const FlattenedModel& b,
                                const CompareOptions& options);
 
-/// What a comparison found, for people: a sentence in each line.
-/// \param bytes_a, bytes_b  total sizes of the files of both models
-std::string comparison_text(const ModelComparison& comparison, std::uint64_t bytes_a, std::uint64_t bytes_b);
+/// What a comparison of two models found, for people: a sentence in each line.
+std::string comparison_text(const FlattenedModel& a, const FlattenedModel& b,
+                            const ModelComparison& comparison);
 
 }  // namespace faqem::cli

@@ -15,11 +15,11 @@ namespace faqem::cli {
 
 namespace {
 
-std::string name_of(const ReportedModel& model) {
+std::string name_of(const FlattenedModel& model) {
     return std::filesystem::path(model.file).filename().string();
 }
 
-std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
+std::string counts_table(const FlattenedModel& a, const FlattenedModel& b) {
     const auto row = [](const char* what, std::uint64_t of_a, std::uint64_t of_b) {
         const bool has_share = of_a > 0;
         return std::vector<std::string>{
@@ -27,17 +27,17 @@ std::string counts_table(const ReportedModel& a, const ReportedModel& b) {
             has_share ? shown_percent(static_cast<double>(of_b) / static_cast<double>(of_a)) : "–"};
     };
     std::vector<std::vector<std::string>> rows = {
-        row("Faces", a.mesh.faces, b.mesh.faces),
-        row("Vertices", a.mesh.vertices, b.mesh.vertices),
-        row("Components (connected pieces)", a.mesh.components, b.mesh.components),
-        row("Boundary edges (of one face)", a.mesh.boundary_edges, b.mesh.boundary_edges),
-        row("Non-manifold edges (of three or more faces)", a.mesh.nonmanifold_edges,
-            b.mesh.nonmanifold_edges),
-        row("Materials", a.materials, b.materials),
-        row("Images", a.images, b.images),
-        row("Bytes", a.bytes, b.bytes)};
-    rows.back()[1] = shown_bytes(a.bytes);
-    rows.back()[2] = shown_bytes(b.bytes);
+        row("Faces", a.info.faces, b.info.faces),
+        row("Vertices", a.info.vertices, b.info.vertices),
+        row("Components (connected pieces)", a.info.components, b.info.components),
+        row("Boundary edges (of one face)", a.info.boundary_edges, b.info.boundary_edges),
+        row("Non-manifold edges (of three or more faces)", a.info.nonmanifold_edges,
+            b.info.nonmanifold_edges),
+        row("Materials", a.asset.materials.size(), b.asset.materials.size()),
+        row("Images", a.asset.images.size(), b.asset.images.size()),
+        row("Bytes", a.asset.file_bytes, b.asset.file_bytes)};
+    rows.back()[1] = shown_bytes(a.asset.file_bytes);
+    rows.back()[2] = shown_bytes(b.asset.file_bytes);
     return html_table("Counts, after welding positions that are equal or differ by rounding",
                       {"", name_of(a), name_of(b), "ratio"}, rows);
 }
@@ -96,8 +96,8 @@ std::string notes(const ReportPage& page) {
     return html;
 }
 
-std::string caption(const ReportedModel& model) {
-    return escape_html(name_of(model)) + ", " + render::with_commas(model.mesh.faces) + " faces";
+std::string caption(const FlattenedModel& model) {
+    return escape_html(name_of(model)) + ", " + render::with_commas(model.info.faces) + " faces";
 }
 
 std::string view(const ReportPage& page) {
@@ -142,7 +142,7 @@ std::string report_html(const ReportPage& page) {
                     {"NAME_A", escape_html(name_of(page.a))},
                     {"NAME_B", escape_html(name_of(page.b))},
                     {"STYLE", fill_template(page_style, {{"RAMP", ramp_stops()}})},
-                    {"SUMMARY", escape_html(comparison_text(page.comparison, page.a.bytes, page.b.bytes))},
+                    {"SUMMARY", escape_html(comparison_text(page.a, page.b, page.comparison))},
                     {"VIEW", view(page)},
                     {"TABLES", counts_table(page.a, page.b) + distances_table(page) + colors_table(page)},
                     {"NOTES", notes(page)},

@@ -11,14 +11,6 @@
 
 namespace faqem::cli {
 
-/// Data of one model for the tables of the page.
-struct ReportedModel {
-    std::string file;
-    std::uint64_t bytes = 0;  ///< total size of the file and the files it refers to
-    MeshInfo mesh;
-    std::size_t materials = 0, images = 0;
-};
-
 struct Picture {
     Image webp;
     std::string caption;      ///< text below the picture
@@ -35,7 +27,7 @@ struct ViewerData {
 };
 
 struct ReportPage {
-    ReportedModel a, b;
+    const FlattenedModel &a, &b;
     ModelComparison comparison;
     std::vector<Picture> pictures;
     std::optional<ViewerData> view;

@@ -7,24 +7,6 @@
 
 namespace faqem::cli {
 
-namespace {
-
-void normalize_positions(std::vector<Vec3>& positions, const ViewerFrame& frame) {
-    for (Vec3& p : positions)
-        for (std::size_t k = 0; k < 3; ++k) p[k] = (p[k] - frame.centre[k]) / frame.unit;
-}
-
-Part error_part(const ErrorSurface& error, const char* name) {
-    Part part;
-    part.name = name;
-    part.positions = error.positions;
-    part.triangles = error.triangles;
-    part.face_material.assign(part.triangles.size(), no_index);
-    return part;
-}
-
-}  // namespace
-
 std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSurface& error,
                                      const ViewerFrame& frame) {
     Asset asset;
@@ -32,13 +14,14 @@ std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSur
     asset.materials = model.asset.materials;
     // `source` is an index into the source's glTF document, which is not part of this asset.
     for (Material& material : asset.materials) material.source = no_index;
-    asset.parts = {model.flat, error_part(error, "error")};
+    asset.parts = {model.flat, error.part};
     asset.parts[0].name = "look";
     asset.parts[1].uvs.resize(1);
     for (const double distance : error.distances)
         asset.parts[1].uvs[0].push_back({static_cast<float>(std::sqrt(distance / frame.max_distance)), 0});
     for (Part& part : asset.parts) {
-        normalize_positions(part.positions, frame);
+        for (Vec3& p : part.positions)
+            for (std::size_t k = 0; k < 3; ++k) p[k] = (p[k] - frame.centre[k]) / frame.unit;
         part.position_spacing = 0x1p-15;
         part.file_order = FileOrder::for_gpu;  // which takes few bytes
     }
@@ -50,7 +33,7 @@ std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const ErrorSur
 
 Asset color_by_distance(const ErrorSurface& error, double limit) {
     Asset asset;
-    asset.parts = {error_part(error, "error")};
+    asset.parts = {error.part};
     for (const double distance : error.distances)
         asset.parts[0].colors.push_back(heat_color(limit > 0 ? distance / limit : 0));
     return asset;

@@ -28,13 +28,15 @@ Part roof(double height) {
     return part;
 }
 
-double area(const ErrorSurface& surface) { return faqem::info({surface.positions, surface.triangles}).area; }
+double area(const ErrorSurface& surface) {
+    return faqem::info({surface.part.positions, surface.part.triangles}).area;
+}
 
 double longest_edge(const ErrorSurface& surface) {
     double longest = 0;
-    for (const faqem::Triangle& t : surface.triangles) {
+    for (const faqem::Triangle& t : surface.part.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
-            const faqem::Vec3 &a = surface.positions[t[k]], &b = surface.positions[t[(k + 1) % 3]];
+            const faqem::Vec3 &a = surface.part.positions[t[k]], &b = surface.part.positions[t[(k + 1) % 3]];
             longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
         }
     }
@@ -47,7 +49,7 @@ constexpr double undivided = std::numeric_limits<double>::infinity();
 
 TEST_CASE("error_surface computes the distance of each vertex to the other mesh") {
     const ErrorSurface surface = error_surface(square(0.25), square(0), undivided);
-    CHECK(surface.triangles == square(0).triangles);
+    CHECK(surface.part.triangles == square(0).triangles);
     CHECK(surface.distances == std::vector<double>(4, 0.25));
 }
 
@@ -65,19 +67,20 @@ TEST_CASE("subdivided faces preserve area, orientation and original vertices") {
         CAPTURE(spacing);
         const ErrorSurface surface = error_surface(roof(0.3), square(0), spacing);
         CHECK(area(surface) == Approx(area(error_surface(roof(0.3), square(0), undivided))));
-        for (const faqem::Triangle& t : surface.triangles) {
-            const faqem::Vec3 &a = surface.positions[t[0]], &b = surface.positions[t[1]],
-                              &c = surface.positions[t[2]];
+        for (const faqem::Triangle& t : surface.part.triangles) {
+            const faqem::Vec3 &a = surface.part.positions[t[0]], &b = surface.part.positions[t[1]],
+                              &c = surface.part.positions[t[2]];
             CHECK((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
         }
-        CHECK(std::vector(surface.positions.begin(), surface.positions.begin() + 5) == roof(0.3).positions);
+        CHECK(std::vector(surface.part.positions.begin(), surface.part.positions.begin() + 5) ==
+              roof(0.3).positions);
     }
 }
 
 TEST_CASE("error_surface adds at most a million faces for any spacing") {
     const ErrorSurface surface = error_surface(square(0), square(1), 1e-9);
-    CHECK(surface.triangles.size() > 400'000);
-    CHECK(surface.triangles.size() <= 1'000'002);
+    CHECK(surface.part.triangles.size() > 400'000);
+    CHECK(surface.part.triangles.size() <= 1'000'002);
 }
 
 TEST_CASE("error_surface does not depend on the number of threads") {

@@ -90,10 +90,13 @@ TEST_CASE("report overwrites a file only with --force and writes only .html file
 }
 
 TEST_CASE("viewer_glb writes the model and its error surface in normalized coordinates") {
-    FlattenedModel model{"a.glb", sheet(1, 0), {}};
+    FlattenedModel model{"a.glb", sheet(1, 0), {}, {}};
     for (faqem::Vec3& p : model.asset.parts[0].positions) p[0] += 1e6;
     model.flat = model.asset.parts[0];
-    ErrorSurface error{model.flat.positions, model.flat.triangles, {0, 1, 2, 4}};
+    ErrorSurface error{{}, {0, 1, 2, 4}};
+    error.part.name = "error";
+    error.part.positions = model.flat.positions;
+    error.part.triangles = model.flat.triangles;
     const std::vector<std::uint8_t> bytes = viewer_glb(model, error, {{1e6, 0, 0}, 2, 4});
     const faqem::Asset read = faqem::detail::read_gltf(bytes, "view.glb");
     REQUIRE(read.parts.size() == 2);
