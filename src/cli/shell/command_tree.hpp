@@ -36,6 +36,14 @@ inline std::vector<std::string> choices_of(const OptionInfo& option) {
     return detail::split_choices(option.value_name);
 }
 
+/// All names of options.
+inline std::vector<std::string> names_of(const std::vector<OptionInfo>& options) {
+    std::vector<std::string> names;
+    for (const OptionInfo& option : options)
+        names.insert(names.end(), option.names.begin(), option.names.end());
+    return names;
+}
+
 /// The line of an option in --help.
 inline std::string summary_of(const OptionInfo& option) {
     return option.description.substr(0, option.description.find(';'));

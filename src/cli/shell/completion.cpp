@@ -12,13 +12,6 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-std::string all_names(const std::vector<OptionInfo>& options) {
-    std::vector<std::string> names;
-    for (const OptionInfo& option : options)
-        names.insert(names.end(), option.names.begin(), option.names.end());
-    return joined(names);
-}
-
 std::string command_names(const CommandTree& tree, const char* between) {
     std::string text;
     for (const CommandInfo& command : tree.commands)
@@ -33,7 +26,8 @@ std::string positional_words(const CommandInfo& command) {
 
 std::string bash_case(const CommandInfo& command) {
     std::ostringstream text;
-    text << "        " << command.name << ")\n            options='" << all_names(command.options) << "'\n";
+    text << "        " << command.name << ")\n            options='" << joined(names_of(command.options))
+         << "'\n";
     if (const std::string words = positional_words(command); !words.empty())
         text << "            words='" << words << "'\n";
     text << "            case $previous in\n";
@@ -64,7 +58,7 @@ std::string bash_completion(const CommandTree& tree) {
             "    done\n"
             "    case $command in\n"
             "        '') options='"
-         << all_names(tree.options) << "' words='" << command_names(tree, " ") << "' ;;\n";
+         << joined(names_of(tree.options)) << "' words='" << command_names(tree, " ") << "' ;;\n";
     for (const CommandInfo& command : tree.commands) text << bash_case(command);
     // If COMPREPLY is empty, readline completes file names (`-o default`).
     text << "    esac\n"

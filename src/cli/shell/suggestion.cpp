@@ -6,22 +6,7 @@
 
 namespace faqem::cli {
 
-namespace {
-
 using detail::closest_word;
-
-std::vector<std::string> names_of(const std::vector<OptionInfo>& options) {
-    std::vector<std::string> names;
-    for (const OptionInfo& option : options)
-        names.insert(names.end(), option.names.begin(), option.names.end());
-    return names;
-}
-
-bool is_known(const std::string& word, const std::vector<std::string>& known) {
-    return std::find(known.begin(), known.end(), word) != known.end();
-}
-
-}  // namespace
 
 std::string suggestion(const CommandTree& tree, const std::vector<std::string>& words) {
     if (words.empty()) return {};
@@ -36,7 +21,7 @@ std::string suggestion(const CommandTree& tree, const std::vector<std::string>& 
     for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
         if (!words[i].starts_with("--")) continue;
         const std::string name = words[i].substr(0, words[i].find('='));
-        if (!is_known(name, known)) return closest_word(name, known);
+        if (std::find(known.begin(), known.end(), name) == known.end()) return closest_word(name, known);
     }
     return {};
 }
