@@ -1,32 +1,18 @@
 #include "cli/report/html.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace faqem::cli {
 
 std::string escape_html(std::string_view text) {
+    constexpr std::string_view special = "&<>\"'";
+    constexpr std::array<std::string_view, 5> entities = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
     std::string result;
     for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            case '\'':
-                result += "&#39;";
-                break;
-            default:
-                result += c;
-        }
+        const std::size_t at = special.find(c);
+        result += at == std::string_view::npos ? std::string_view(&c, 1) : entities[at];
     }
     return result;
 }
