@@ -26,13 +26,10 @@ namespace faqem::cli {
 
 namespace {
 
-struct TruncateArguments {
-    GivenOptions options;
+struct TruncateArguments : SimplifyArguments {
     std::string history, out, source;
     std::uint64_t faces = 0;
-    bool strict = false, force = false, quiet = false;
-
-    Strictness strictness() const { return strict ? Strictness::strict : Strictness::lenient; }
+    bool force = false, quiet = false;
 };
 
 std::vector<ChainHistory> read_histories(const std::string& file) {
