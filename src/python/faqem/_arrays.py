@@ -120,7 +120,8 @@ def _per_element(values: ArrayLike, count: int, kind: DTypeLike, name: str) -> A
 
 
 class MeshArrays:
-    """A mesh for the C API. `mesh` is valid as long as this object exists; `kind` is the type of the positions.
+    """A mesh for the C API. `pointer`, for parameters of type `const faqem_mesh*`, is valid as long as this object exists;
+    `kind` is the type of the positions.
 
     Arrays of the right type are not copied. `name` is what messages call the positions.
     """
@@ -159,6 +160,7 @@ class MeshArrays:
                 raise InputError(f"uvs: the shape must be ({len(corners)}, 3, n), but is {corner_values.shape}")
             self._set_array("corner_values", corner_values)
             self.mesh.corner_width = corner_values.shape[2]
+        self.pointer = ctypes.byref(self.mesh)
 
     def _set_array(self, field: str, array: Array) -> None:
         self._arrays.append(array)
@@ -187,8 +189,3 @@ def view_array(pointer: Any, shape: tuple[int, ...], owner: object, *, writable:
     memory: Any = _Memory(pointer, shape, owner, writable)
     array: Array = numpy.asarray(memory)
     return array
-
-
-def mesh_pointer(mesh_arrays: MeshArrays) -> Any:
-    """Returns the argument for a parameter of type `const faqem_mesh*`."""
-    return ctypes.byref(mesh_arrays.mesh)

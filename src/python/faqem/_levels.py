@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import ctypes
 import os
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Union, overload
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar, Union, overload
 
 import numpy
 from numpy.typing import ArrayLike, DTypeLike
 
-from ._arrays import MeshArrays, mesh_pointer
 from ._library import Level, Unchanging, call, create, destroy_with, library
 from ._options import Options, checked_integer, checked_switch, names_keywords, parse_length
-from ._simplify import Simplified, SimplifiedLevel, array_keywords
+from ._simplify import Simplified, SimplifiedLevel, array_keywords, mesh_arrays
 from .errors import InputError, OptionError
 
 if TYPE_CHECKING:
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
 
 Target = Union[float, str]  # of a level
 Path = Union[str, "os.PathLike[str]"]
+Made = TypeVar("Made")
 
 _ratio, _faces, _distance = 0, 1, 2  # faqem_level_kind; 3 is a distance as a share of the diagonal
 _expected = "(expected: 0.5, '50%', 5000, 'error:0.01', 'error:0.1%')"
@@ -113,24 +113,25 @@ def simplify_levels(points: Any, triangles: Any, levels: Any = None, /, **option
 
 
 def _simplify_array_levels(
-    points: ArrayLike,
-    triangles: ArrayLike,
-    levels: Sequence[Target],
-    groups: ArrayLike | None = None,
-    locks: ArrayLike | None = None,
-    weights: ArrayLike | None = None,
-    uvs: ArrayLike | None = None,
-    **options: Any,
+    points: ArrayLike, triangles: ArrayLike, levels: Sequence[Target], **options: Any
 ) -> list[SimplifiedLevel]:
-    arrays = MeshArrays(points, triangles, groups, locks, weights, uvs)
+    arrays = mesh_arrays(points, triangles, options, "vertices")
     chosen = Options(array_keywords, **options)
-    wanted = level_array(levels)
+    has_history = bool(options.get("history"))
+    return made_levels(
+        lambda one: SimplifiedLevel(one, arrays.kind, has_history=has_history),
+        chosen, library.faqem_simplify_levels, arrays.pointer, level_array(levels))
+
+
+def made_levels(
+    make: Callable[[ctypes.c_void_p], Made], chosen: Options, function: Any, source: Any, wanted: Any, *more: Any
+) -> list[Made]:
+    """Calls a function of the library that makes levels of a source. `make` wraps each."""
     made = (ctypes.c_void_p * len(wanted))()
 
-    def run() -> list[SimplifiedLevel]:
-        call(library.faqem_simplify_levels, mesh_pointer(arrays), chosen.object, wanted, len(wanted), made)
-        has_history = bool(options.get("history"))
-        return [SimplifiedLevel(ctypes.c_void_p(one), arrays.kind, has_history=has_history) for one in made]
+    def run() -> list[Made]:
+        call(function, source, chosen.object, wanted, len(wanted), *more, made)
+        return [make(ctypes.c_void_p(one)) for one in made]
 
     return chosen.run(run)
 

@@ -51,101 +51,61 @@ class _Error(ctypes.Structure):
 
 
 _handle, _status = c_void_p, c_int
-_signatures: dict[str, tuple[Any, list[Any]]] = {
-    "faqem_version": (c_char_p, []),
-    "faqem_options_create": (_handle, []),
-    "faqem_options_destroy": (None, [_handle]),
-    "faqem_options_set": (_status, [_handle, c_char_p, c_char_p, POINTER(_Error)]),
-    "faqem_option_count": (c_size_t, []),
-    "faqem_option_name": (c_char_p, [c_size_t]),
-    "faqem_option_help": (c_char_p, [c_size_t]),
-    "faqem_options_set_progress": (_status, [_handle, Progress, c_void_p]),
-    "faqem_simplify": (c_int, [POINTER(Mesh), _handle, POINTER(_handle), POINTER(_Error)]),
-    "faqem_result_destroy": (None, [_handle]),
-    "faqem_result_vertex_count": (c_size_t, [_handle]),
-    "faqem_result_face_count": (c_size_t, [_handle]),
-    "faqem_result_positions": (POINTER(c_double), [_handle]),
-    "faqem_result_triangles": (POINTER(c_uint32), [_handle]),
-    "faqem_result_face_groups": (POINTER(c_uint32), [_handle]),
-    "faqem_result_vertex_origin": (POINTER(c_uint32), [_handle]),
-    "faqem_result_face_origin": (POINTER(c_uint32), [_handle]),
-    "faqem_result_report_json": (c_char_p, [_handle]),
-    "faqem_result_corner_values": (POINTER(c_float), [_handle]),
-    "faqem_result_corner_width": (c_uint32, [_handle]),
-    "faqem_result_level_error": (c_double, [_handle]),
-    "faqem_result_map": (
-        c_int,
-        [_handle, POINTER(c_uint32), POINTER(c_double), c_size_t, POINTER(c_uint32), POINTER(c_double),
-         POINTER(_Error)],
-    ),
-    "faqem_simplify_levels": (
-        c_int,
-        [POINTER(Mesh), _handle, POINTER(Level), c_size_t, POINTER(_handle), POINTER(_Error)],
-    ),
-    "faqem_history_create": (c_int, [POINTER(_handle), c_size_t, POINTER(_handle), POINTER(_Error)]),
-    "faqem_history_read": (c_int, [c_char_p, c_size_t, POINTER(_handle), POINTER(_Error)]),
-    "faqem_history_destroy": (None, [_handle]),
-    "faqem_history_bytes": (c_void_p, [_handle, POINTER(c_size_t)]),
-    "faqem_history_part_count": (c_size_t, [_handle]),
-    "faqem_history_level_count": (c_size_t, [_handle]),
-    "faqem_history_truncate": (c_int, [_handle, c_uint64, POINTER(_handle), POINTER(_Error)]),
-    "faqem_history_truncate_parts": (c_int, [_handle, c_uint64, POINTER(_handle), POINTER(_Error)]),
-    "faqem_asset_load": (c_int, [c_char_p, POINTER(_handle), POINTER(_Error)]),
-    "faqem_asset_from_glb": (c_int, [c_char_p, c_size_t, POINTER(_handle), POINTER(_Error)]),
-    "faqem_asset_to_glb": (c_int, [_handle, POINTER(_handle), POINTER(_Error)]),
-    "faqem_glb_bytes": (c_void_p, [_handle, POINTER(c_size_t)]),
-    "faqem_glb_destroy": (None, [_handle]),
-    "faqem_asset_create": (c_int, [POINTER(Mesh), POINTER(_handle), POINTER(_Error)]),
-    "faqem_asset_simplify": (c_int, [_handle, _handle, POINTER(_handle), POINTER(_Error)]),
-    "faqem_asset_simplify_levels": (
-        c_int,
-        [_handle, _handle, POINTER(Level), c_size_t, c_int, POINTER(_handle), POINTER(_Error)],
-    ),
-    "faqem_asset_level_error": (c_double, [_handle]),
-    "faqem_asset_save_levels": (
-        c_int,
-        [POINTER(_handle), c_size_t, c_double, c_char_p, c_int, POINTER(_Error)],
-    ),
-    "faqem_asset_history_create": (c_int, [POINTER(_handle), c_size_t, POINTER(_handle), POINTER(_Error)]),
-    "faqem_asset_bake_truncated": (c_int, [_handle, _handle, c_uint64, _handle, POINTER(_handle), POINTER(_Error)]),
-    "faqem_asset_save": (c_int, [_handle, c_char_p, c_int, POINTER(_Error)]),
-    "faqem_asset_destroy": (None, [_handle]),
-    "faqem_asset_part_count": (c_size_t, [_handle]),
-    "faqem_asset_part_name": (c_char_p, [_handle, c_size_t]),
-    "faqem_asset_vertex_count": (c_size_t, [_handle, c_size_t]),
-    "faqem_asset_face_count": (c_size_t, [_handle, c_size_t]),
-    "faqem_asset_positions": (POINTER(c_double), [_handle, c_size_t]),
-    "faqem_asset_triangles": (POINTER(c_uint32), [_handle, c_size_t]),
-    "faqem_asset_uv_set_count": (c_size_t, [_handle, c_size_t]),
-    "faqem_asset_uvs": (POINTER(c_float), [_handle, c_size_t, c_size_t]),
-    "faqem_asset_face_materials": (POINTER(c_uint32), [_handle, c_size_t]),
-    "faqem_asset_material_count": (c_size_t, [_handle]),
-    "faqem_asset_material_name": (c_char_p, [_handle, c_size_t]),
-    "faqem_asset_material_image": (c_uint32, [_handle, c_size_t, c_int, POINTER(c_uint32)]),
-    "faqem_asset_image_count": (c_size_t, [_handle]),
-    "faqem_asset_image_name": (c_char_p, [_handle, c_size_t]),
-    "faqem_asset_image_mime_type": (c_char_p, [_handle, c_size_t]),
-    "faqem_asset_image_bytes": (c_void_p, [_handle, c_size_t, POINTER(c_size_t)]),
-    "faqem_asset_decode_image": (c_int, [_handle, c_size_t, POINTER(_handle), POINTER(_Error)]),
-    "faqem_pixels_destroy": (None, [_handle]),
-    "faqem_pixels_width": (c_uint32, [_handle]),
-    "faqem_pixels_height": (c_uint32, [_handle]),
-    "faqem_pixels_has_alpha": (c_int, [_handle]),
-    "faqem_pixels_rgba": (POINTER(c_uint8), [_handle]),
-    "faqem_asset_warning_count": (c_size_t, [_handle]),
-    "faqem_asset_warning": (c_char_p, [_handle, c_size_t]),
-    "faqem_asset_not_understood_count": (c_size_t, [_handle]),
-    "faqem_asset_not_understood": (c_char_p, [_handle, c_size_t]),
-    "faqem_asset_report_json": (c_char_p, [_handle]),
-}
+_made, _error = POINTER(_handle), POINTER(_Error)
+#: Result, arguments, and the functions with these, without the prefix faqem_.
+_signatures: list[tuple[Any, list[Any], str]] = [
+    (c_char_p, [], "version"),
+    (_handle, [], "options_create"),
+    (c_size_t, [], "option_count"),
+    (c_char_p, [c_size_t], "option_name option_help"),
+    (_status, [_handle, c_char_p, c_char_p, _error], "options_set"),
+    (_status, [_handle, Progress, c_void_p], "options_set_progress"),
+    (None, [_handle], "options_destroy result_destroy history_destroy glb_destroy asset_destroy pixels_destroy"),
+    (c_size_t, [_handle], "result_vertex_count result_face_count history_part_count history_level_count"),
+    (c_size_t, [_handle], "asset_part_count asset_material_count asset_image_count"),
+    (c_size_t, [_handle], "asset_warning_count asset_not_understood_count"),
+    (c_char_p, [_handle], "result_report_json asset_report_json"),
+    (c_double, [_handle], "result_level_error asset_level_error"),
+    (c_uint32, [_handle], "result_corner_width pixels_width pixels_height"),
+    (c_int, [_handle], "pixels_has_alpha"),
+    (POINTER(c_double), [_handle], "result_positions"),
+    (POINTER(c_float), [_handle], "result_corner_values"),
+    (POINTER(c_uint32), [_handle], "result_triangles result_face_groups result_vertex_origin result_face_origin"),
+    (POINTER(c_uint8), [_handle], "pixels_rgba"),
+    (c_size_t, [_handle, c_size_t], "asset_vertex_count asset_face_count asset_uv_set_count"),
+    (c_char_p, [_handle, c_size_t], "asset_part_name asset_material_name asset_image_name asset_image_mime_type"),
+    (c_char_p, [_handle, c_size_t], "asset_warning asset_not_understood"),
+    (POINTER(c_double), [_handle, c_size_t], "asset_positions"),
+    (POINTER(c_uint32), [_handle, c_size_t], "asset_triangles asset_face_materials"),
+    (POINTER(c_float), [_handle, c_size_t, c_size_t], "asset_uvs"),
+    (c_uint32, [_handle, c_size_t, c_int, POINTER(c_uint32)], "asset_material_image"),
+    (c_void_p, [_handle, POINTER(c_size_t)], "history_bytes glb_bytes"),
+    (c_void_p, [_handle, c_size_t, POINTER(c_size_t)], "asset_image_bytes"),
+    (_status, [POINTER(Mesh), _handle, _made, _error], "simplify"),
+    (_status, [POINTER(Mesh), _handle, POINTER(Level), c_size_t, _made, _error], "simplify_levels"),
+    (_status, [_handle, POINTER(c_uint32), POINTER(c_double), c_size_t, POINTER(c_uint32), POINTER(c_double), _error], "result_map"),
+    (_status, [_made, c_size_t, _made, _error], "history_create asset_history_create"),
+    (_status, [c_char_p, c_size_t, _made, _error], "history_read asset_from_glb"),
+    (_status, [_handle, c_uint64, _made, _error], "history_truncate history_truncate_parts"),
+    (_status, [c_char_p, _made, _error], "asset_load"),
+    (_status, [POINTER(Mesh), _made, _error], "asset_create"),
+    (_status, [_handle, _made, _error], "asset_to_glb"),
+    (_status, [_handle, c_size_t, _made, _error], "asset_decode_image"),
+    (_status, [_handle, _handle, _made, _error], "asset_simplify"),
+    (_status, [_handle, _handle, POINTER(Level), c_size_t, c_int, _made, _error], "asset_simplify_levels"),
+    (_status, [_handle, _handle, c_uint64, _handle, _made, _error], "asset_bake_truncated"),
+    (_status, [_handle, c_char_p, c_int, _error], "asset_save"),
+    (_status, [_made, c_size_t, c_double, c_char_p, c_int, _error], "asset_save_levels"),
+]
 
 
 def _open() -> ctypes.CDLL:
     # CDLL releases the interpreter lock while a function runs.
     opened = ctypes.CDLL(str(pathlib.Path(__file__).with_name("libfaqem_c.so")))
-    for name, (result, arguments) in _signatures.items():
-        function = getattr(opened, name)
-        function.restype, function.argtypes = result, arguments
+    for result, arguments, names in _signatures:
+        for name in names.split():
+            function = getattr(opened, "faqem_" + name)
+            function.restype, function.argtypes = result, arguments
     return opened
 
 
@@ -185,6 +145,14 @@ def destroy_with(owner: object, function: Any, handle: c_void_p) -> None:
     Not at the end of the program, because functions that run then may still have arrays that are its memory.
     """
     weakref.finalize(owner, function, handle).atexit = False
+
+
+class Owner:
+    """Owner of an object of the library."""
+
+    def __init__(self, handle: c_void_p, destroy: Any) -> None:
+        self.handle = handle
+        destroy_with(self, destroy, handle)
 
 
 class Unchanging:

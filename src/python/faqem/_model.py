@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import MeshArrays, mesh_pointer, view_array
-from ._levels import History, Path, Target, as_list, file_name, handle_array, level_array
+from ._arrays import MeshArrays, view_array
+from ._levels import History, Path, Target, as_list, file_name, handle_array, level_array, made_levels
 from ._library import Unchanging, call, create, destroy_with, library
 from ._options import Options, checked_integer, checked_switch, enum_value, names_keywords, parse_length
 from ._simplify import counts_text
-from ._textures import Image, Material, images, materials
+from ._textures import Image, Material, materials
 from .errors import InputError, OptionError, ReadError, UnsupportedError, WriteError
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class Model(Unchanging):
     def from_arrays(cls, vertices: ArrayLike, triangles: ArrayLike) -> Model:
         """Creates a model of one part without materials; the arrays are copied. Raises InputError."""
         arrays = MeshArrays(vertices, triangles)
-        return cls(create(library.faqem_asset_create, mesh_pointer(arrays)))
+        return cls(create(library.faqem_asset_create, arrays.pointer))
 
     @classmethod
     @names_keywords
@@ -95,7 +95,7 @@ class Model(Unchanging):
     @property
     def images(self) -> list[Image]:
         """List of Image, which are decoded by Image.pixels()."""
-        return images(self)
+        return [Image(self, index) for index in range(library.faqem_asset_image_count(self._handle))]
 
     @property
     def warnings(self) -> list[str]:
@@ -220,14 +220,8 @@ def simplify_model_levels(
     """simplify_levels() of a model."""
     source, chosen = _source(model), Options(["textures"], **options)
     shared = enum_value(_level_textures, textures, "textures")
-    wanted = level_array(levels)
-    made = (ctypes.c_void_p * len(wanted))()
-
-    def run() -> list[ModelLevel]:
-        call(library.faqem_asset_simplify_levels, source, chosen.object, wanted, len(wanted), shared, made)
-        return [ModelLevel(ctypes.c_void_p(one)) for one in made]
-
-    return chosen.run(run)
+    return made_levels(
+        ModelLevel, chosen, library.faqem_asset_simplify_levels, source, level_array(levels), shared)
 
 
 def bake_truncated(

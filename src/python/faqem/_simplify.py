@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._arrays import MeshArrays, checked_array, checked_indices, mesh_pointer, view_array
-from ._library import call, create, destroy_with, library
+from ._arrays import MeshArrays, checked_array, checked_indices, view_array
+from ._library import Owner, call, create, library
 from ._options import Options, names_keywords
 from .errors import InputError, OptionError
 
@@ -27,14 +27,6 @@ def counts_text(faces: int, vertices: int, error: float | None) -> str:
     return f"{faces} faces, {vertices} vertices" + ("" if error is None else f", error {error:.4g}")
 
 
-class _Result:
-    """Owner of a result in the library."""
-
-    def __init__(self, handle: ctypes.c_void_p) -> None:
-        self.handle = handle
-        destroy_with(self, library.faqem_result_destroy, handle)
-
-
 class Simplified:
     """A simplified mesh, the origin of its elements, and the report. Owns its arrays, which may be changed."""
 
@@ -47,12 +39,12 @@ class Simplified:
     report: dict[str, Any]  #: with the keys documented in docs/reference.md
     error: float | None  #: upper bound of the distance of a level from the original; None for other results
     _handle: ctypes.c_void_p | None  # None for a copy from another process, which has no history
-    _result: _Result | None
+    _result: Owner | None
 
     def __init__(
         self, handle: ctypes.c_void_p, kind: DTypeLike = numpy.float64, *, has_history: bool = False
     ) -> None:
-        result = _Result(handle)
+        result = Owner(handle, library.faqem_result_destroy)
 
         def array(getter: Any, *shape: int) -> NDArray[Any]:
             # map() and History.of() read the arrays of the library, which must not change. Without a history they cannot
@@ -132,21 +124,18 @@ class SimplifiedLevel(Simplified):
     error: float  #: upper bound of the distance from the original, model units
 
 
-def simplify_arrays(
-    points: ArrayLike,
-    triangles: ArrayLike,
-    groups: ArrayLike | None = None,
-    locks: ArrayLike | None = None,
-    weights: ArrayLike | None = None,
-    uvs: ArrayLike | None = None,
-    **options: Any,
-) -> Simplified:
+def mesh_arrays(points: ArrayLike, triangles: ArrayLike, options: dict[str, Any], name: str) -> MeshArrays:
+    """Returns the mesh of a call, with the arrays that are taken from its keywords. `name` is that of the points."""
+    return MeshArrays(points, triangles, **{key: options.pop(key, None) for key in array_keywords}, name=name)
+
+
+def simplify_arrays(points: ArrayLike, triangles: ArrayLike, **options: Any) -> Simplified:
     """See simplify()."""
-    arrays = MeshArrays(points, triangles, groups, locks, weights, uvs, "points")
+    arrays = mesh_arrays(points, triangles, options, "points")
     chosen = Options(["triangles", *array_keywords], **options)
 
     def run() -> Simplified:
-        made = create(library.faqem_simplify, mesh_pointer(arrays), chosen.object)
+        made = create(library.faqem_simplify, arrays.pointer, chosen.object)
         return Simplified(made, arrays.kind, has_history=bool(options.get("history")))
 
     return chosen.run(run)

@@ -10,7 +10,7 @@ import numpy
 from numpy.typing import NDArray
 
 from ._arrays import view_array
-from ._library import create, destroy_with, library
+from ._library import Owner, create, library
 
 # faqem_texture
 _uses = ["base_color", "metallic_roughness", "normal", "occlusion", "emissive"]
@@ -30,14 +30,6 @@ class Material:
 
     name: str
     textures: dict[str, Texture]  #: by use: "base_color", "metallic_roughness", "normal", "occlusion", "emissive"
-
-
-class _Pixels:
-    """Owner of decoded pixels in the library."""
-
-    def __init__(self, handle: ctypes.c_void_p) -> None:
-        self.handle = handle
-        destroy_with(self, library.faqem_pixels_destroy, handle)
 
 
 class Image:
@@ -68,7 +60,7 @@ class Image:
         (height, width, 3), which is a view of such an array. It is new at each call, and may be changed. Raises
         InputError if the image is damaged or larger than 16384 x 16384, UnsupportedError for other kinds.
         """
-        owner = _Pixels(create(library.faqem_asset_decode_image, self._model._handle, self._index))
+        owner = Owner(create(library.faqem_asset_decode_image, self._model._handle, self._index), library.faqem_pixels_destroy)
         shape = (library.faqem_pixels_height(owner.handle), library.faqem_pixels_width(owner.handle), 4)
         rgba = view_array(library.faqem_pixels_rgba(owner.handle), shape, owner, writable=True)
         return rgba if library.faqem_pixels_has_alpha(owner.handle) else rgba[..., :3]
@@ -87,8 +79,3 @@ def materials(model: Any) -> list[Material]:
         name = library.faqem_asset_material_name(model._handle, material).decode(errors="replace")
         found.append(Material(name, textures))
     return found
-
-
-def images(model: Any) -> list[Image]:
-    """Returns the images of a model, which are not decoded before they are asked for."""
-    return [Image(model, index) for index in range(library.faqem_asset_image_count(model._handle))]
