@@ -11,63 +11,11 @@ from __future__ import annotations
 
 import importlib
 
-from .errors import (
-    ByteLimitError,
-    Error,
-    InputError,
-    InternalError,
-    OptionError,
-    ReadError,
-    TimeLimitError,
-    TryAgainError,
-    UnsupportedError,
-    WriteError,
-)
+from . import errors
+from .errors import *
 
-TYPE_CHECKING = False  # type checkers take it for true; the module typing would take a third of the import's time
-if TYPE_CHECKING:
-    from ._levels import History, simplify_levels
-    from ._model import Model, ModelLevel, Part, SimplifiedModel, bake_truncated, load, save, save_levels
-    from ._call import simplify
-    from ._command import command, compare
-    from ._simplify import Simplified, SimplifiedLevel
-    from ._textures import Image, Material, Texture
-
-    __version__: str
-
-__all__ = [
-    "ByteLimitError",
-    "Error",
-    "History",
-    "Image",
-    "InputError",
-    "InternalError",
-    "Material",
-    "Model",
-    "ModelLevel",
-    "OptionError",
-    "Part",
-    "ReadError",
-    "Simplified",
-    "SimplifiedLevel",
-    "SimplifiedModel",
-    "Texture",
-    "TimeLimitError",
-    "TryAgainError",
-    "UnsupportedError",
-    "WriteError",
-    "bake_truncated",
-    "command",
-    "compare",
-    "load",
-    "save",
-    "save_levels",
-    "simplify",
-    "simplify_levels",
-]
-
-# The rest is imported when it is first used, so that the command and programs that only may need faqem start without
-# numpy and the library.
+# Everything else is imported when it is first used, so that the command and programs that only may need faqem start
+# without numpy and the library.
 _modules = {
     **dict.fromkeys(["History", "simplify_levels"], "_levels"),
     **dict.fromkeys(["Model", "ModelLevel", "Part", "SimplifiedModel", "bake_truncated", "load", "save", "save_levels"], "_model"),
@@ -76,6 +24,19 @@ _modules = {
     **dict.fromkeys(["Simplified", "SimplifiedLevel"], "_simplify"),
     "simplify": "_call",
 }
+__all__ = sorted([*(name for name in vars(errors) if name.endswith("Error")), *_modules])
+
+TYPE_CHECKING = False  # type checkers take it for true; the module typing would take a third of the import's time
+if TYPE_CHECKING:
+    from ._call import simplify as simplify
+    from ._command import command as command, compare as compare
+    from ._levels import History as History, simplify_levels as simplify_levels
+    from ._model import Model as Model, ModelLevel as ModelLevel, Part as Part, SimplifiedModel as SimplifiedModel
+    from ._model import bake_truncated as bake_truncated, load as load, save as save, save_levels as save_levels
+    from ._simplify import Simplified as Simplified, SimplifiedLevel as SimplifiedLevel
+    from ._textures import Image as Image, Material as Material, Texture as Texture
+
+    __version__: str
 
 
 def __getattr__(name: str) -> object:
