@@ -133,23 +133,6 @@ struct ComparedResult {
     double psnr = 0;                             ///< of rendered pictures, dB
 };
 
-/// What a trial for Options::max_bytes changes; the rest is as in the source.
-enum class SizeTrialKind {
-    faces,
-    positions,  ///< their bits
-    images,
-};
-
-/// One trial for Options::max_bytes, on all faces unless it is about them.
-struct SizeTrial {
-    SizeTrialKind kind = SizeTrialKind::faces;
-    std::uint64_t faces = 0;
-    std::uint64_t bytes = 0;                     ///< of the geometry, or of the images
-    std::uint32_t image_side = 0;                ///< longest side of the images, texels; 0: not encoded
-    std::optional<std::uint32_t> position_bits;  ///< QuantizeOptions::position_bits; empty: not chosen
-    double psnr = 0;                             ///< of rendered pictures, dB
-};
-
 /// What holds the bytes of a result that has more than `max_share` of those of its source.
 struct LittleSaved {
     static constexpr double max_share = 0.8;
@@ -199,7 +182,6 @@ struct Report {
     std::vector<std::string> given_up;
     /// For Options::max_bytes without a face target: the results that were compared, in the order in which they were made.
     std::vector<ComparedResult> compared_results;
-    std::vector<SizeTrial> size_trials;  ///< in the order in which they were made
     /// Total size of the files of the model before and after, without those of history and correspondence; 0: unknown.
     /// `bytes_out` is set by simplify() of a file.
     std::uint64_t bytes_in = 0, bytes_out = 0;

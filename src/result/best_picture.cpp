@@ -37,9 +37,6 @@ constexpr double different_bytes = 1.15;
 // More faces than a model has.
 constexpr std::uint64_t no_faces = std::numeric_limits<std::uint64_t>::max();
 
-// Number of points of the images in the report.
-constexpr std::size_t reported_images = 16;
-
 // How often a choice that is too large is made again with fewer faces, or with more until it has most of the bytes, and
 // factors on the number that is estimated from other face counts, and from nearly the same one.
 constexpr int most_attempts = 4;
@@ -211,26 +208,10 @@ private:
         if (!best_) return std::nullopt;
         Report& report = best_->report;
         report.compared_results = points_;
-        report.size_trials = trials();
         report.seconds.simplify = seconds_of_simplify_;
         report.seconds.map = 0;
         report.seconds.bake = std::max(0.0, watch_.seconds() - seconds_of_simplify_);
         return std::move(best_);
-    }
-
-    std::vector<SizeTrial> trials() const {
-        std::vector<SizeTrial> result;
-        for (const TriedFaces& tried : tried_faces_)
-            result.push_back(
-                {SizeTrialKind::faces, tried.faces, tried.bytes, 0, {}, picture_psnr(tried.error)});
-        for (const TriedRounding& tried : tried_roundings_)
-            result.push_back({SizeTrialKind::positions, faces_, tried.bytes, 0, tried.position_bits,
-                              picture_psnr(tried.error)});
-        if (!images_->are_encoded()) return result;
-        for (const ImagesPoint& point : images_curve(images_->tried(), reported_images))
-            result.push_back(
-                {SizeTrialKind::images, faces_, point.bytes, point.side, {}, picture_psnr(point.error)});
-        return result;
     }
 
     // Makes as many faces as fit beside the images of the choice.

@@ -22,7 +22,7 @@ bool searches_best_picture(const Options& options);
 /// 2. ImageTrials has the bytes and errors of the images.
 /// 3. Errors of faces, images and rounding are assumed to add up, see result_choices().
 /// 4. The two most promising choices are made, saved and rendered; the better one is returned. Report::compared_results
-///    has these, size_trials those of 1 and 2.
+///    has both.
 /// Images stay as they are with Bake::keep and ImageFormat::source. BakeOptions::texture_size limits their sides, and
 /// BakeOptions::image_quality is ignored.
 /// \param options  resolved, searches_best_picture() must be true

@@ -51,13 +51,10 @@ public:
     // \param images  outlives this
     explicit ImageAllocator(const TriedImages& images) : images_(images) {
         for (std::size_t i = 0; i < images.size(); ++i) add(i, images[i]);
-        for (const ImageStep& step : steps_) most_bytes_ += step.bytes;
-        most_bytes_ += least_.bytes;
     }
 
     /// The smallest encodings.
     const Allocation& least() const { return least_; }
-    std::uint64_t most_bytes() const { return most_bytes_; }
 
     // \param bytes  not less than those of least()
     // \param other  errors that do not depend on the images
@@ -164,7 +161,6 @@ private:
     const TriedImages& images_;
     Allocation least_;
     std::vector<ImageStep> steps_;
-    std::uint64_t most_bytes_ = 0;
 };
 
 }  // namespace
@@ -254,24 +250,6 @@ std::vector<ResultChoice> result_choices(std::span<const TriedFaces> faces, cons
 
 std::vector<std::size_t> smallest_images(const TriedImages& images) {
     return ImageAllocator(images).least().chosen;
-}
-
-std::vector<ImagesPoint> images_curve(const TriedImages& images, std::size_t count) {
-    const ImageAllocator allocator(images);
-    const std::uint64_t least = allocator.least().bytes, most = allocator.most_bytes();
-    std::vector<ImagesPoint> result;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-        const double bytes = std::exp(log_of(least) + share * (log_of(most) - log_of(least)));
-        const Allocation point =
-            allocator.within(i + 1 == count ? most : std::max(least, static_cast<std::uint64_t>(bytes)), {});
-        if (!result.empty() && result.back().bytes == point.bytes) continue;
-        std::uint32_t side = 0;
-        for (std::size_t k = 0; k < images.size(); ++k)
-            side = std::max(side, images[k][point.chosen[k]].side);
-        result.push_back({point.bytes, point.error, side});
-    }
-    return result;
 }
 
 }  // namespace faqem::detail

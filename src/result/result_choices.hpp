@@ -45,13 +45,6 @@ struct ResultChoice {
     double psnr = 0;  ///< expected, dB
 };
 
-/// Encodings of the images alone.
-struct ImagesPoint {
-    std::uint64_t bytes = 0;
-    PictureDifference error;
-    std::uint32_t side = 0;  ///< the longest one
-};
-
 /// The largest face count whose geometry has at most `bytes`, interpolated between those that were tried; nothing if
 /// all have more. O(tried)
 /// \param tried  at least one, in descending order of faces
@@ -77,10 +70,5 @@ std::vector<ResultChoice> result_choices(std::span<const TriedFaces> faces, cons
 /// By image: the encoding with the fewest bytes and, of several, the least error.
 /// \param images  as for result_choices()
 std::vector<std::size_t> smallest_images(const TriedImages& images);
-
-/// The expected errors of the images alone for growing numbers of bytes, at most `count` of them.
-/// \param images  as for result_choices()
-/// \param count   at least 2
-std::vector<ImagesPoint> images_curve(const TriedImages& images, std::size_t count);
 
 }  // namespace faqem::detail

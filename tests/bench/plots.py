@@ -71,19 +71,3 @@ def lines(file, panels, title, ylabel):
     axes[0][0].set_ylabel(ylabel)
     figure.suptitle(title)
     save(figure, file)
-
-
-def byte_limits(file, trials, results):
-    """Draws PSNR over bytes. trials: name -> [(bytes, dB)], each tried alone; results: [(bytes, dB)] of both together."""
-    figure, axis = plt.subplots(figsize=(6.4, 3.6))
-    for name, points in trials.items():
-        shown = [(size / 1000, psnr) for size, psnr in points if psnr < 70]  # all faces differ in nothing
-        axis.plot([x for x, _ in shown], [y for _, y in shown], marker=".", linewidth=0.9, alpha=0.8,
-                  linestyle="--" if name == "faces" else "-", label=name)
-    axis.plot([size / 1000 for size, _ in results], [psnr for _, psnr in results], marker="o", color="black",
-              linewidth=1.8, label="result, faces and images")
-    axis.set_xscale("log")
-    axis.set_xlabel("kB")
-    axis.set_ylabel("PSNR of pictures, dB")
-    axis.legend(fontsize=7.5, frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
-    save(figure, file)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -161,27 +160,6 @@ TEST_CASE(
 
     REQUIRE(run(folder, "simplify in.glb out.glb --force --report r.json --max-bytes 12000").code == 0);
     CHECK(report(folder)["compared_results"][0]["position_bits"].is_null());
-}
-
-TEST_CASE("the report of --max-bytes has the faces, positions and images that were tried alone") {
-    const Folder folder;
-    faqem::save(painted_sheet(40), folder / "in.glb");
-    REQUIRE(run(folder, "simplify in.glb out.glb --quantize on --report r.json --max-bytes 12000").code == 0);
-    std::map<std::string, std::vector<nlohmann::json>> trials;
-    const nlohmann::json json = report(folder);
-    for (const nlohmann::json& trial : json["size_trials"]) trials[trial["kind"]].push_back(trial);
-    REQUIRE(trials["faces"].size() == 7);
-    for (std::size_t i = 1; i < 7; ++i) {
-        CHECK(trials["faces"][i]["bytes"] < trials["faces"][i - 1]["bytes"]);
-        CHECK(trials["faces"][i]["psnr"] < trials["faces"][i - 1]["psnr"]);
-    }
-    REQUIRE(trials["positions"].size() == 4);
-    for (const nlohmann::json& trial : trials["positions"]) {
-        const bool is_fine = trial["position_bits"] > trials["positions"][0]["position_bits"];
-        CHECK((trial["psnr"] >= trials["positions"][0]["psnr"]) == (is_fine || trial["position_bits"] == 14));
-        CHECK(trial["faces"] == trials["faces"][0]["faces"]);
-    }
-    CHECK(trials["images"].size() > 3);
 }
 
 TEST_CASE(

@@ -85,19 +85,6 @@ TEST_CASE("choices: without images all bytes go to faces, and errors that are no
     CHECK(best.faces == 6400);
 }
 
-TEST_CASE("the curve of images has growing bytes, falling errors, and the least and the best encodings") {
-    const TriedImages images = {{{1000, {4e-5, 4e-5}, 64}, {2000, {1e-5, 1e-5}, 128}},
-                                {{1500, {4e-4, 4e-4}, 64}, {2000, {1e-4, 1e-4}, 256}}};
-    const std::vector<ImagesPoint> curve = images_curve(images, 9);
-    REQUIRE(curve.size() == 3);
-    CHECK(curve[0].bytes == 2500);
-    CHECK(curve[0].side == 64);
-    CHECK(curve[1].bytes == 3000);
-    CHECK(curve[1].side == 256);
-    CHECK(curve[2].bytes == 4000);
-    CHECK(curve[2].error.unlit == Approx(1.1e-4));
-}
-
 TEST_CASE(
     "choices: finer positions where the bytes are enough for all faces, coarser ones where faces are "
     "missing") {

@@ -89,19 +89,19 @@ inline nlohmann::ordered_json buffer_views_json(const Report& report) {
     return json;
 }
 
-inline std::string_view trial_name(SizeTrialKind kind) {
-    constexpr std::array<std::string_view, 3> names = {"faces", "positions", "images"};
-    return names[static_cast<std::size_t>(kind)];
-}
-
-// The members that ComparedResult and SizeTrial have in common.
-template <class Point>
-nlohmann::ordered_json trial_json(const Point& point, std::string_view kind) {
-    nlohmann::ordered_json bits;
-    if (point.position_bits) bits = *point.position_bits;
-    return {{"kind", kind},          {"faces", point.faces},
-            {"bytes", point.bytes},  {"image_side", point.image_side},
-            {"position_bits", bits}, {"psnr", point.psnr}};
+inline nlohmann::ordered_json compared_results_json(const Report& report) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const ComparedResult& result : report.compared_results) {
+        nlohmann::ordered_json bits;
+        if (result.position_bits) bits = *result.position_bits;
+        json.push_back({{"kind", bake_name(result.kind)},
+                        {"faces", result.faces},
+                        {"bytes", result.bytes},
+                        {"image_side", result.image_side},
+                        {"position_bits", bits},
+                        {"psnr", result.psnr}});
+    }
+    return json;
 }
 
 }  // namespace detail
@@ -153,12 +153,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
                                 {"reason", saved.reason},       {"options", saved.options}};
     }
     json["given_up"] = report.given_up;
-    json["compared_results"] = nlohmann::ordered_json::array();
-    for (const ComparedResult& point : report.compared_results)
-        json["compared_results"].push_back(detail::trial_json(point, detail::bake_name(point.kind)));
-    json["size_trials"] = nlohmann::ordered_json::array();
-    for (const SizeTrial& trial : report.size_trials)
-        json["size_trials"].push_back(detail::trial_json(trial, detail::trial_name(trial.kind)));
+    json["compared_results"] = detail::compared_results_json(report);
     json["untouched_parts"] = report.untouched_parts;
     json["kept_uvs"] = report.kept_uvs;
     json["warnings"] = report.warnings;
