@@ -41,6 +41,7 @@ public:
     }
     /// All items, by bucket, and in them the first item of each bucket; a last entry is their number.
     std::vector<Item>& items() { return items_; }
+    const std::vector<Item>& items() const { return items_; }
     const std::vector<std::size_t>& begin() const { return begin_; }
 
 private:

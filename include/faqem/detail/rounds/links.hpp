@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/export.hpp"
@@ -71,26 +72,21 @@ inline std::vector<Links> link_corners(std::span<const Triangle> triangles, std:
                                        const RunContext& context) {
     using namespace rounds;
     // At its lowest vertex a face has two sides, which are one entry, at the middle one the third side.
-    const auto middle = [](const Triangle& t, unsigned k) { return std::min(t[next(k)], t[previous(k)]); };
-    std::vector<std::uint32_t> begin(vertices + 2, 0);
-    for (const Triangle& t : triangles) {
-        const unsigned k = lowest(t);
-        ++begin[t[k] + 2], ++begin[middle(t, k) + 2];
-    }
-    for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    std::vector<Corner> entries(begin.back());
-    for (Index f = 0; f < triangles.size(); ++f) {
-        const Triangle& t = triangles[f];
-        const unsigned k = lowest(t);
-        entries[begin[t[k] + 1]++] = entries[begin[middle(t, k) + 1]++] = 4 * f + k;
-    }
+    const Buckets<Corner> entries(vertices, [&](auto&& put) {
+        for (Index f = 0; f < triangles.size(); ++f) {
+            const Triangle& t = triangles[f];
+            const unsigned k = lowest(t);
+            put(t[k], 4 * f + k);
+            put(std::min(t[next(k)], t[previous(k)]), 4 * f + k);
+        }
+    });
     std::vector<Links> links(triangles.size());
     parallel_blocks(vertices, elements_per_block, context, [&](std::size_t first, std::size_t end) {
         std::vector<Side> sides;
         for (std::size_t v = first; v < end; ++v) {
             sides.clear();
-            for (std::uint32_t i = begin[v]; i < begin[v + 1]; ++i) {
-                const Corner c = entries[i], face = c & ~3u;
+            for (const Corner c : entries[v]) {
+                const Corner face = c & ~3u;
                 const unsigned k = c & 3;
                 const Triangle& t = triangles[c >> 2];
                 const Index a = t[next(k)], b = t[previous(k)];

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/rounds/cell.hpp"
 #include "faqem/detail/rounds/round_mesh.hpp"
 
@@ -71,8 +72,8 @@ inline std::size_t assign_cells(Mesh& mesh, double area, std::uint64_t round, co
 }
 
 /// The edges with a cost of at most `limit` and both ends in a cell, by cell.
-inline std::vector<Corner> candidates(const Mesh& mesh, std::size_t cells, float limit,
-                                      std::vector<std::uint32_t>& begin, const RunContext& context) {
+inline Buckets<Corner> candidates(const Mesh& mesh, std::size_t cells, float limit,
+                                  const RunContext& context) {
     struct Found {
         std::uint32_t cell;
         Corner corner;
@@ -93,16 +94,11 @@ inline std::vector<Corner> candidates(const Mesh& mesh, std::size_t cells, float
                 here.push_back({cell, static_cast<Corner>(4 * face + k)});
         }
     });
-    begin.assign(cells + 2, 0);
-    for (const auto& some : found) {
-        for (const Found& f : some) ++begin[f.cell + 2];
-    }
-    for (std::size_t i = 2; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    std::vector<Corner> sorted(begin.back());
-    for (const auto& some : found) {
-        for (const Found& f : some) sorted[begin[f.cell + 1]++] = f.corner;
-    }
-    return sorted;
+    return Buckets<Corner>(cells, [&](auto&& put) {
+        for (const auto& some : found) {
+            for (const Found& f : some) put(f.cell, f.corner);
+        }
+    });
 }
 
 inline void append(const BlockSteps& from, BlockSteps& to) {
@@ -133,30 +129,25 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
         if (need < least / 64 || context.is_late()) break;
         if (2 * mesh.alive < mesh.faces.size()) {
             compact(mesh, untimed);
-            sum_planes(
-                mesh,
-                untimed);  // small ones are lost in the rounding errors of large ones that were subtracted
+            // Small planes are lost in the rounding errors of large ones that were subtracted.
+            sum_planes(mesh, untimed);
         }
         const float limit = threshold(mesh, need);
         const std::size_t cells = assign_cells(mesh, mesh.area, round, untimed);
-        std::vector<std::uint32_t> begin;
-        const std::vector<Corner> sorted = candidates(mesh, cells, limit, begin, untimed);
+        const Buckets<Corner> sorted = candidates(mesh, cells, limit, untimed);
         std::vector<std::uint32_t> used;
         for (std::uint32_t cell = 0; cell < cells; ++cell) {
-            if (begin[cell] != begin[cell + 1]) used.push_back(cell);
+            if (!sorted[cell].empty()) used.push_back(cell);
         }
         if (used.empty()) break;
         std::vector<BlockSteps> steps(used.size());
-        const double quota = 0.5 * static_cast<double>(need) / static_cast<double>(sorted.size());
+        const double quota = 0.5 * static_cast<double>(need) / static_cast<double>(sorted.items().size());
         context.show(Phase::simplify, 1 - static_cast<double>(need) / static_cast<double>(faces - least));
         parallel_blocks(used.size(), 1, untimed, [&](std::size_t i, std::size_t) {
             if (context.is_late()) return;
-            const std::uint32_t first = begin[used[i]], end = begin[used[i] + 1];
-            const auto most = static_cast<std::size_t>(quota * static_cast<double>(end - first));
-            vectorised([&] {
-                CellCollapser(mesh, used[i], limit, patches, steps[i])
-                    .run({sorted.data() + first, sorted.data() + end}, most);
-            });
+            const std::span<const Corner> edges = sorted[used[i]];
+            const auto most = static_cast<std::size_t>(quota * static_cast<double>(edges.size()));
+            vectorised([&] { CellCollapser(mesh, used[i], limit, patches, steps[i]).run(edges, most); });
         });
         const std::size_t before = mesh.alive;
         for (BlockSteps& cell : steps) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "faqem/detail/base/buckets.hpp"
@@ -71,7 +70,7 @@ FAQEM_INLINE ReorderedMesh reorder(const PreprocessedMesh& prepared, const RunCo
         }
     });
     std::vector<Vector3>().swap(positions);
-    // Faces are sorted by the smallest slot of their corners, then by index (counting sort).
+    // Faces are sorted by the smallest slot of their corners, then by index.
     std::vector<Index> first_slot(triangles.size());
     parallel_blocks(triangles.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
         for (std::size_t f = first; f < end; ++f) {
@@ -79,15 +78,11 @@ FAQEM_INLINE ReorderedMesh reorder(const PreprocessedMesh& prepared, const RunCo
             first_slot[f] = t[0] == no_index ? no_index : std::min({slot[t[0]], slot[t[1]], slot[t[2]]});
         }
     });
-    std::vector<Index> offset(out.vertex.size() + 1, 0);
-    for (const Index v : first_slot) {
-        if (v != no_index) ++offset[v + 1];
-    }
-    std::partial_sum(offset.begin(), offset.end(), offset.begin());
-    out.face.resize(offset.back());
-    for (Index f = 0; f < first_slot.size(); ++f) {
-        if (first_slot[f] != no_index) out.face[offset[first_slot[f]]++] = f;
-    }
+    out.face = std::move(Buckets<Index>(out.vertex.size(), [&](auto&& put) {
+                             for (Index f = 0; f < first_slot.size(); ++f) {
+                                 if (first_slot[f] != no_index) put(first_slot[f], f);
+                             }
+                         }).items());
     out.triangles.resize(out.face.size());
     parallel_blocks(out.face.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
