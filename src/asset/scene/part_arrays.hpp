@@ -43,7 +43,9 @@ struct VertexArray {
 
     bool may_be_empty() const { return uv_set == no_index && !attribute; }
     std::string title() const {
-        return std::string(name) + (uv_set == no_index ? "" : " " + std::to_string(uv_set));
+        std::string text(name);
+        if (uv_set != no_index) text.append(" ").append(std::to_string(uv_set));
+        return text;
     }
 };
 
