@@ -7,6 +7,6 @@ import ray
 
 models, out, shards = sys.argv[1], sys.argv[2], int(sys.argv[3])
 ray.init()
-run_shard = ray.remote(num_cpus=1, max_retries=3)(faqem.batch.run_shard)
+run_shard = ray.remote(num_cpus=1, max_retries=3, retry_exceptions=[faqem.TryAgainError])(faqem.batch.run_shard)
 ray.get([run_shard.remote(*shard, out, ratio=0.1) for shard in faqem.batch.shards(models, shards)])
 print(faqem.batch.merge(out))

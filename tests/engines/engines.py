@@ -9,6 +9,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -142,6 +143,19 @@ def contents(folder, end):
     return {file.name.removesuffix(end): file.read_bytes() for file in folder.rglob("*" + end)}
 
 
+def check_pasted_lines(job):
+    """The lines of docs/scale.md for Ray, of which one worker is killed."""
+    lines = re.search("```python\n(import faqem, ray\n.*?)```", (job.examples / "../../docs/scale.md").read_text(), re.DOTALL)[1]
+    job.out.rename(job.folder / "with faults")
+    killer = threading.Thread(target=when_started, args=(job.out, WORKER_KILLED, kill_parent), daemon=True)
+    killer.start()
+    printed = subprocess.run([sys.executable, "-c", lines], check=True, cwd=job.folder, stdout=subprocess.PIPE,
+                             stderr=subprocess.DEVNULL, text=True).stdout
+    assert not killer.is_alive() and printed.endswith(f"{{'done': {MODELS}}}\n"), printed  # after what Ray prints
+    events = collections.Counter((record["event"], record["id"]) for _, record in records(job.out))
+    assert events["started", WORKER_KILLED] == 2 and all(event != "crashed" for event, _ in events)
+
+
 def main(engine, injector, examples):
     run, lose_worker = ENGINES[engine]
     with tempfile.TemporaryDirectory() as name:
@@ -173,6 +187,8 @@ def main(engine, injector, examples):
         run(job)
         begun = sum(record["event"] == "started" for _, record in records(job.out))
         assert begun == sum(number for (event, _), number in events.items() if event == "started")
+        if engine == "ray":
+            check_pasted_lines(job)
         print(f"{engine}: {MODELS} models, {SHARDS} shards, faults: the bytes of one batch, {seconds:.1f} s")
 
 
