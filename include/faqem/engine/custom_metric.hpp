@@ -60,6 +60,7 @@ public:
         return candidate.cost;
     }
 
+    static bool exceeds_limit(const Candidate&) { return false; }
     static double contraction_cost(const CollapseMesh&, const Contraction&, const Candidate& candidate) {
         return candidate.cost;
     }

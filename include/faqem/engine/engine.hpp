@@ -11,6 +11,7 @@
 ///         record the collapse, collapse, merge pairs, re-evaluate the pairs around the new vertex
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -99,8 +100,8 @@ public:
         });
     }
 
-    /// Continues after run() to a lower target. Rules that were relaxed stay relaxed, and the ladder starts again with
-    /// its first rung. If the metric does not depend on the target, the stop does not change the order of the collapses.
+    /// Continues after run() to a lower target. Relaxed rules stay relaxed, and the ladder starts again with its first
+    /// rung. If the metric does not depend on the target, the stop does not change the order of the collapses.
     /// \param options  those of run(), with a lower target face count and a distance weight that is not smaller
     /// \return the totals of all calls
     /// \throws whatever `options.progress` throws
@@ -145,7 +146,8 @@ private:
         const std::size_t excess = mesh_.face_count() - options.target_faces;
         // This is expensive. It is repeated only if the faces removed since are a tenth of those in excess.
         const bool worth_it = 10 * removed_faces >= excess && removed_faces > 0;
-        if (!worth_it && (rung_ > 0 || result_.rungs[0] > 0)) return take_next_rung(options);
+        if (!worth_it && (rung_ > 0 || result_.rungs[0] > 0))
+            return options.ladder == Ladder::on && take_next_rung(options);
         ++result_.rungs[static_cast<std::size_t>(Rung::reseed)];
         defers_high_valence_ = false;
         return true;
@@ -213,16 +215,15 @@ private:
         evaluate(pair);
     }
 
-    // Whether the pair has a high-valence vertex and is therefore not collapsed yet. Its tests visit all faces of
-    // that vertex, and it would be tested again whenever one of them changes. Other collapses around the vertex
-    // reduce its valence. If they do not reach the target, all pairs are evaluated again without this rule.
+    // Whether the pair has a high-valence vertex and is not collapsed yet: its tests visit all faces of the vertex, again
+    // and again. Other collapses reduce the valence; before the ladder all pairs are evaluated without this rule.
     bool is_deferred(Index pair) const {
         return defers_high_valence_ &&
                (mesh_.is_high_valence(pairs_.first(pair)) || mesh_.is_high_valence(pairs_.second(pair)));
     }
 
-    // Marks both vertices of a pair that has left the queue, or was requeued at a higher cost, so that the
-    // pair is evaluated again when the one-ring of one of them changes.
+    // Marks both vertices of a pair that left the queue, or was requeued at a higher cost: it is evaluated again when
+    // the one-ring of one of them changes.
     void mark_rejected(Index pair) {
         has_rejected_[pairs_.first(pair)] = has_rejected_[pairs_.second(pair)] = 1;
     }
@@ -243,10 +244,11 @@ private:
             return refuse(pair, found->cost, *refusal);
         if constexpr (Metric::has_exact_cost) {
             found->cost = metric_.exact_cost(mesh_, pairs_, u, v, *found);
+            if (!std::isfinite(found->cost)) return false;
             if (requeue_if_costlier(pair, found->cost)) return true;
+            if (metric_.exceeds_limit(*found)) return false;
         }
-        // A locked vertex survives. Otherwise the vertex of higher valence does, so that the long lists of
-        // a high-valence vertex are not moved to another vertex again and again.
+        // A locked vertex survives, or that of higher valence: its long lists are not to be moved again and again.
         const bool swap = locked_[u] != locked_[v] ? locked_[v] != 0 : mesh_.degree(v) > mesh_.degree(u);
         if (swap) std::swap(u, v);
         count_lifted_rules(pair);
@@ -269,6 +271,7 @@ private:
             return refuse(pair, to.cost, *reason);
         if constexpr (Metric::has_exact_cost) {
             to.cost = metric_.contraction_cost(mesh_, contraction_, to);
+            if (!std::isfinite(to.cost)) return false;
             if (requeue_if_costlier(pair, to.cost)) return true;
         }
         count_lifted_rules(pair);
@@ -311,9 +314,8 @@ private:
     // If the queue has a pair to pop before one of this cost, requeues this pair at it and returns true.
     bool requeue_if_costlier(Index pair, double cost) {
         if constexpr (!Queue::is_exact) {
-            // Testing a pair at a high-valence vertex is expensive. Such a queue returns pairs only
-            // approximately in order, so the cost is raised by its approximation factor to avoid testing
-            // the pair too early.
+            // Testing a pair at a high-valence vertex is expensive. The order of such a queue is approximate: the cost
+            // is raised by its factor to avoid testing the pair too early.
             const bool touches_high_valence =
                 mesh_.is_high_valence(pairs_.first(pair)) || mesh_.is_high_valence(pairs_.second(pair));
             if (touches_high_valence) cost *= queue_.approximation_factor();
@@ -379,8 +381,7 @@ private:
     bool apply_rung(Rung rung, const LoopOptions& options) {
         switch (rung) {
             case Rung::tiny_components:
-                // A component that is far smaller than the mesh may be all that is visible of it, if the mesh
-                // has a face far away.
+                // A component far smaller than the mesh may be all that is visible, if the mesh has a face far away.
                 return delete_components(
                     options, {options.tiny_component_diagonal, visible_area_share * mesh_.area()});
             case Rung::any_component:
@@ -391,8 +392,8 @@ private:
         }
     }
 
-    // Deletes duplicate faces until the target is reached. The surface stays the same, but a group might
-    // lose its only face, so that this is not done if groups are preserved.
+    // Deletes duplicate faces until the target is reached. The surface stays the same, but a group might lose its only
+    // face: not if groups are preserved.
     bool delete_duplicate_faces(const LoopOptions& options) {
         if (keeps_groups()) return false;
         const bool any = remove_duplicate_faces(mesh_, pairs_, options.target_faces, recorder_);
@@ -402,8 +403,7 @@ private:
 
     bool keeps_groups() const { return curves_ && rules_.groups == GroupBoundaries::preserved; }
 
-    // Deletes removable components, smallest first, until the target is reached. The largest component is
-    // never deleted.
+    // Deletes removable components, smallest first, until the target is reached; never the largest one.
     bool delete_components(const LoopOptions& options, const ComponentSize& largest) {
         killed_.clear();
         const std::size_t deleted =

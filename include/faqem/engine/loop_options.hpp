@@ -20,8 +20,9 @@ namespace engine {
 
 /// What the loop does if no legal collapse is left above the target.
 enum class Ladder {
-    on,   ///< evaluates all pairs again, then relaxes one rule after the other
-    off,  ///< stops
+    on,      ///< evaluates all pairs again, then relaxes one rule after the other
+    reseed,  ///< evaluates all pairs again
+    off,     ///< stops
 };
 
 /// Options of one run of the collapse loop.

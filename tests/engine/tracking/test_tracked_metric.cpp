@@ -1,5 +1,7 @@
 #include "faqem/engine/tracking/tracked_metric.hpp"
 
+#include <cmath>
+
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
 #include "support/catch.hpp"
@@ -11,12 +13,13 @@ using namespace faqem::engine;
 namespace {
 
 struct TrackedBench {
-    explicit TrackedBench(const TriangleMesh& mesh, std::size_t target = 0)
+    explicit TrackedBench(const TriangleMesh& mesh, std::size_t target = 0, DistanceLimit limit = {})
         : original(mesh),
           collapse_mesh(original.positions, original.triangles),
           pairs(collapse_mesh, {}),
           metric({0, 0, 0}, original.surface, original.tracked, target ? target : mesh.triangles.size(),
-                 collapse_mesh.area() / static_cast<double>(target ? target : mesh.triangles.size())) {
+                 collapse_mesh.area() / static_cast<double>(target ? target : mesh.triangles.size()), nullptr,
+                 RunContext::endless(), std::move(limit)) {
         metric.initialise(collapse_mesh, pairs);
     }
     void collapse(Index u, Index v, const Vector3& p) {
@@ -38,15 +41,18 @@ struct TrackedBench {
     TrackedMetric metric;
 };
 
+// A pyramid on the unit square. Collapsing the apex 4, at height h, to corner 0 leaves the faces (0, 1, 2) and
+// (0, 2, 3), from which the apex has distance h.
+TriangleMesh pyramid(double h) {
+    return test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, h}},
+                      {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+}
+
 }  // namespace
 
 TEST_CASE("tracked metric: the mean face area times the largest squared distance is added to the cost") {
-    // A pyramid on the unit square. Collapsing the apex 4, at height h, to corner 0 leaves the faces (0, 1,
-    // 2) and (0, 2, 3), from which the apex has distance h.
     const double h = 0.5;
-    const TriangleMesh pyramid = test::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, h}},
-                                            {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
-    TrackedBench bench(pyramid);
+    TrackedBench bench(pyramid(h));
     const double face_area = 0.5 * std::sqrt(0.25 + h * h);
     const Candidate flat{{0, 0, 0}, 7};
     CHECK(bench.exact_cost(0, 4, flat) == Approx(7 + face_area * h * h));
@@ -61,6 +67,32 @@ TEST_CASE("tracked metric: the distance from the new vertex to the original is m
     TrackedBench bench(flat);
     const Candidate lifted{{0.5, 0.25, 1}, 0};
     CHECK(bench.exact_cost(4, 5, lifted) == Approx(1.0 / 6));
+}
+
+TEST_CASE("tracked metric: a collapse that leaves a vertex beyond the limit is refused") {
+    const Candidate flat{{0, 0, 0}, 7};
+    const auto is_near = [](const Vector3&) { return true; };
+    CHECK(std::isinf(TrackedBench(pyramid(0.5), 0, {0.49, 0, is_near}).exact_cost(0, 4, flat)));
+    CHECK(std::isfinite(TrackedBench(pyramid(0.5), 0, {0.51, 0, is_near}).exact_cost(0, 4, flat)));
+}
+
+TEST_CASE("tracked metric: a collapse with a point of a new face beyond the limit is refused") {
+    // Of the centroids and the middles of the sides at corner 0, the centroid of (0, 1, 2) is at the largest x, 2/3.
+    const Candidate flat{{0, 0, 0}, 7};
+    for (const double most : {0.66, 0.67}) {
+        TrackedBench bench(pyramid(0.5), 0, {1, 0, [&](const Vector3& p) { return p.x() <= most; }});
+        REQUIRE(std::isfinite(bench.exact_cost(0, 4, flat)));
+        CHECK(bench.metric.exceeds_limit(flat) == (most < 2.0 / 3));
+    }
+}
+
+TEST_CASE(
+    "tracked metric: without tracking, the limit is compared with the cost for the area around the pair") {
+    // The area is the square root of two.
+    const Candidate flat{{0, 0, 0}, 7};
+    const double limit = std::sqrt(7 / std::sqrt(2)) / 0.5;
+    CHECK(std::isinf(TrackedBench(pyramid(0.5), 0, {0.99 * limit, 0.5, {}}).exact_cost(0, 4, flat)));
+    CHECK(TrackedBench(pyramid(0.5), 0, {1.01 * limit, 0.5, {}}).exact_cost(0, 4, flat) == 7);
 }
 
 TEST_CASE("tracked metric: small errors in one direction add up") {

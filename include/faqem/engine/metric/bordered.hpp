@@ -59,6 +59,7 @@ public:
                       const Candidate& candidate) {
         return inner_.exact_cost(mesh, pairs, u, v, candidate);
     }
+    bool exceeds_limit(const Candidate& candidate) { return inner_.exceeds_limit(candidate); }
     double contraction_cost(const CollapseMesh& mesh, const Contraction& contraction,
                             const Candidate& candidate) {
         return inner_.contraction_cost(mesh, contraction, candidate);

@@ -41,9 +41,11 @@ concept CollapseMetric = requires(M metric, const M& const_metric, const Collaps
     {metric.initialise(mesh, pairs)};
     // Position and cost of a pair, both finite and the cost >= 0; or nothing if it must not be collapsed.
     { const_metric.evaluate(mesh, pairs, pair, allowed_position) } -> std::same_as<std::optional<Candidate>>;
-    // Exact cost of a candidate returned by evaluate(); at least candidate.cost.
+    // Exact cost of a candidate returned by evaluate(); at least candidate.cost, or infinity: it is refused.
     { metric.exact_cost(mesh, pairs, u, v, candidate) } -> std::same_as<double>;
-    // Cost of contracting several vertices to candidate.point; at least candidate.cost.
+    // Whether a candidate, for which exact_cost() was just called, must not be collapsed.
+    { metric.exceeds_limit(candidate) } -> std::same_as<bool>;
+    // Cost of contracting several vertices to candidate.point; at least candidate.cost, or infinity: it is refused.
     { metric.contraction_cost(mesh, contraction, candidate) } -> std::same_as<double>;
     // The factor > 0 by which the costs of the pair (u, v) were multiplied.
     { const_metric.weight(u, v) } -> std::same_as<double>;
@@ -69,6 +71,7 @@ struct MetricDefaults {
     static double contraction_cost(const CollapseMesh&, const Contraction&, const Candidate& candidate) {
         return candidate.cost;
     }
+    static bool exceeds_limit(const Candidate&) { return false; }
     static constexpr double weight(Index, Index) { return 1; }
     static void set_target(std::size_t, double) {}
     static void before_collapse(const CollapseMesh&, const PairTable&, Index, Index, const Vector3&) {}

@@ -51,6 +51,7 @@ public:
         }
     }
 
+    bool exceeds_limit(const Candidate& candidate) { return inner_.exceeds_limit(candidate); }
     double contraction_cost(const CollapseMesh& mesh, const Contraction& contraction,
                             const Candidate& candidate) {
         const double w = weight(contraction.vertices()[0], contraction.vertices()[1]);

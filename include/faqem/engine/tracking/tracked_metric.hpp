@@ -3,6 +3,8 @@
 /// The memoryless metric with an additional cost for the distance from the original surface.
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -18,6 +20,19 @@
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
+
+/// A distance beyond which collapses are refused, as far as distances of points and costs show. Contractions are refused
+/// as well.
+struct DistanceLimit {
+    double distance = std::numeric_limits<double>::infinity();  ///< engine units
+    /// Above 0: the surface is not tracked, and collapses are refused if the root mean square distance that their cost
+    /// stands for exceeds this share of the distance. 0: the surface is tracked from the start.
+    double untracked_share = 0;
+    /// Whether a point of a new face is near enough to the original; required if the surface is tracked.
+    std::function<bool(const Vector3&)> is_near = {};
+
+    bool is_finite() const { return distance < std::numeric_limits<double>::infinity(); }
+};
 
 /// Memoryless metric with tracked distances, which limits the largest distance from the original. The
 /// memoryless metric does not detect that many small errors in one direction add up. Here each original
@@ -50,15 +65,17 @@ public:
     /// \param curves        as for MemorylessMetric
     /// \param context       must outlive this object; checked by initialise(), exact_cost() and after_collapse();
     ///     exceptions pass through
+    /// \param limit         refuses collapses; if it is finite, `target_faces` has no effect
     TrackedMetric(const MemorylessWeights& weights, const OriginalSurface& original, TrackedVertices tracked,
                   std::size_t target_faces, double weight, const FeatureCurves* curves = nullptr,
-                  const RunContext& context = RunContext::endless())
+                  const RunContext& context = RunContext::endless(), DistanceLimit limit = {})
         : context_(context),
           memoryless_(weights, curves),
           original_(&original),
           tracked_(std::move(tracked)),
           target_faces_(target_faces),
-          weight_(weight) {}
+          weight_(weight),
+          limit_(std::move(limit)) {}
 
     /// Binds the tracked vertices. To be called once. O(faces + tracked vertices), typically
     void initialise(const CollapseMesh& mesh, const PairTable& pairs) {
@@ -78,19 +95,41 @@ public:
     /// bound vertex
     double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
                       const Candidate& candidate) {
-        double farthest =
-            boundary_factor * boundary_bindings_->squared_distance(mesh, pairs, u, v, candidate.point);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const double most = limit_.distance * limit_.distance;
+        const double boundary = boundary_bindings_->squared_distance(mesh, pairs, u, v, candidate.point);
+        if (boundary > most) return infinity;
+        double farthest = boundary_factor * boundary;
         if (is_tracking_) {
             gather_faces_after(mesh, u, v, candidate.point);
-            if (!faces_after_.empty())
-                farthest = std::max(
-                    {farthest, squared_distance_to_result(), squared_distance_to_original(candidate.point)});
+            if (!faces_after_.empty()) {
+                const double to_result = squared_distance_to_result();
+                if (to_result > most) return infinity;
+                farthest = std::max({farthest, to_result, squared_distance_to_original(candidate.point)});
+            } else if (limit_.is_finite()) {
+                return infinity;
+            }
+        } else if (limit_.is_finite()) {
+            double area = 0;
+            mesh.for_each_face_around(u, v, [&](Index f, unsigned) { area += mesh.area(f); });
+            const double share = limit_.untracked_share;
+            if (candidate.cost > share * share * most * area) return infinity;
         }
         return candidate.cost + weight_ * farthest;
     }
 
+    /// Whether a point of the new faces is beyond the limit: between points near the original they may not be.
+    bool exceeds_limit(const Candidate& candidate) const {
+        if (!is_tracking_ || !limit_.is_finite()) return false;
+        const Vector3& p = candidate.point;
+        return !limit_.is_near(p) || std::any_of(opposite_.begin(), opposite_.end(), [&](const auto& edge) {
+            return !limit_.is_near((p + edge[0] + edge[1]) / 3) || !limit_.is_near((p + edge[0]) / 2);
+        });
+    }
+
     double contraction_cost(const CollapseMesh& mesh, const Contraction& contraction,
                             const Candidate& candidate) {
+        if (limit_.is_finite()) return std::numeric_limits<double>::infinity();
         if (!is_tracking_ || contraction.remaining().empty()) return candidate.cost;
         faces_after_.clear();
         bound_.clear();
@@ -151,7 +190,9 @@ public:
 
 private:
     void start_tracking_if_near_target(const CollapseMesh& mesh) {
-        if (mesh.face_count() / tracking_start_ratio > target_faces_) return;
+        const bool waits = limit_.is_finite() ? limit_.untracked_share > 0
+                                              : mesh.face_count() / tracking_start_ratio > target_faces_;
+        if (waits) return;
         is_tracking_ = true;
         bindings_->bind_all(mesh, context_);
     }
@@ -160,13 +201,15 @@ private:
     // around the pair.
     void gather_faces_after(const CollapseMesh& mesh, Index u, Index v, const Vector3& p) {
         faces_after_.clear();
+        opposite_.clear();
         bound_.clear();
         mesh.for_each_face_around(u, v, [&](Index f, unsigned corner) {
             bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
             if (mesh.has_corner(f, u) && mesh.has_corner(f, v)) return;
             const Triangle& t = mesh.triangle(f);
-            faces_after_.emplace_back(p, mesh.position(t[(corner + 1) % 3]),
-                                      mesh.position(t[(corner + 2) % 3]));
+            const Vector3 &a = mesh.position(t[(corner + 1) % 3]), &b = mesh.position(t[(corner + 2) % 3]);
+            faces_after_.emplace_back(p, a, b);
+            opposite_.push_back({a, b});
         });
     }
 
@@ -204,9 +247,11 @@ private:
     std::size_t target_faces_;
     bool is_tracking_ = false;
     double weight_;
-    std::vector<TriangleDistance> faces_after_;  // faces at the new vertex
-    std::vector<Index> faces_;                   // their indices
-    std::vector<Index> bound_;                   // tracked vertices bound around the pair
+    DistanceLimit limit_;
+    std::vector<std::array<Vector3, 2>> opposite_;  // sides of the faces at the new vertex without it
+    std::vector<TriangleDistance> faces_after_;     // faces at the new vertex
+    std::vector<Index> faces_;                      // their indices
+    std::vector<Index> bound_;                      // tracked vertices bound around the pair
 };
 
 static_assert(CollapseMetric<TrackedMetric>);
