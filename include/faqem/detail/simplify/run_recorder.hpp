@@ -8,6 +8,7 @@
 
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
+#include "faqem/detail/simplify/undoable_steps.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/engine/quadric/placement.hpp"
 #include "faqem/engine/recorder.hpp"
@@ -23,14 +24,16 @@ public:
     /// \param slots    number of vertex slots
     /// \param history  called first; may be null, otherwise it must outlive this object
     /// \param costs    receives the cost curve; may be null, otherwise it must outlive this object
+    /// \param steps    receives the collapses; likewise
     RunRecorder(std::size_t slots, engine::HistoryRecorder* history,
-                std::vector<CostCurve::Step>* costs = nullptr)
-        : history_(history), costs_(costs), trace_(slots) {}
+                std::vector<CostCurve::Step>* costs = nullptr, UndoableSteps* steps = nullptr)
+        : history_(history), costs_(costs), steps_(steps), trace_(slots) {}
 
     void before_collapse(const engine::CollapseMesh& mesh, Index survivor, Index removed,
                          const engine::Candidate& to) {
         if (history_) history_->before_collapse(mesh, survivor, removed, to);
         trace_.before_collapse(survivor, removed, mesh.position(survivor), mesh.position(removed), to.point);
+        if (steps_) steps_->add(mesh, survivor, removed, to.point);
         if (costs_) {
             cost_ = std::max(cost_, to.cost);
             costs_->push_back({mesh.face_count(), cost_});
@@ -47,6 +50,7 @@ public:
 private:
     engine::HistoryRecorder* history_;
     std::vector<CostCurve::Step>* costs_;
+    UndoableSteps* steps_;
     SlotTrace trace_;
     double cost_ = 0;
 };
