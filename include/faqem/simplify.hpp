@@ -36,7 +36,7 @@ struct SimplifyResult {
 /// \throws whatever the progress callback throws
 /// Thread-safe: several threads may simplify at once, also the same mesh.
 /// Complexity: O(n log n) time and O(n) memory in the number n of faces, for bounded valence. With max_error and no
-/// target, up to 12 runs from the original, each with a measurement; `progress` covers all of them.
+/// target, up to 13 runs from the original, each with a measurement; `progress` covers all of them.
 FAQEM_EXPORT SimplifyResult simplify(const MeshView& mesh, const Options& options = {});
 
 FAQEM_NAMESPACE_END

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "faqem/compare.hpp"
 #include "faqem/levels.hpp"
@@ -96,6 +97,72 @@ TEST_CASE("an error search with any preset gives a result within max_error") {
         CHECK(result.mesh.triangles.size() <= 400);
         CHECK(result.mesh.triangles.size() >= 50);
     }
+}
+
+TEST_CASE("a place that reaches the error early does not keep faces elsewhere") {
+    // Two spheres of 1280 faces; one of them has a spike, which cannot go.
+    const TriangleMesh sphere = test::icosphere(3), other = test::moved(sphere, {5, 0, 0});
+    TriangleMesh spiked = sphere;
+    for (double& x : spiked.positions[0]) x *= 2;
+    const TriangleMesh mesh = test::both(spiked, other);
+    const SimplifyResult result = simplify(mesh.view(), within(model_units(0.04)));
+    TriangleMesh left;
+    left.positions = result.mesh.positions;
+    for (const Triangle& t : result.mesh.triangles) {
+        if (left.positions[t[0]][0] > 2.5) left.triangles.push_back(t);
+    }
+    // The error of a sphere with n faces is about 2 / n at best.
+    CHECK(hausdorff(left.view(), other.view()).value >= 0.02);
+    CHECK(hausdorff(left.view(), other.view()).value <= 0.04);
+    CHECK(left.triangles.size() <= 200);
+}
+
+TEST_CASE(
+    "with max_error a terrain that is rough in one half has far fewer faces than with their number as the "
+    "target") {
+    TriangleMesh terrain = test::square(40, 1, 0);
+    const TriangleMesh noise = test::shaken(terrain, 0.01, 3);
+    for (std::size_t v = 0; v < terrain.positions.size(); ++v) {
+        Vec3& p = terrain.positions[v];
+        p[2] = 0.1 * std::sin(6 * p[0]) * std::cos(5 * p[1]) + (p[0] < 0.5 ? noise.positions[v][2] : 0);
+    }
+    for (const Preset preset : {Preset::fast, Preset::balanced, Preset::best}) {
+        CAPTURE(name(preset));
+        const SimplifyResult result = simplify(terrain.view(), within(model_units(0.005), preset));
+        CHECK(result.report.max_error->within());
+        CHECK(hausdorff(terrain.view(), result.mesh.view()).value <= 0.005);
+        Options options{.target = faces(result.mesh.triangles.size() * 5 / 4)};
+        CHECK(hausdorff(terrain.view(), simplify(terrain.view(), options).mesh.view()).value > 0.005);
+    }
+}
+
+TEST_CASE("faces that are too far are those of the result where one of the surfaces is") {
+    const TriangleMesh flat = test::square(8, 1, 0), raised = bump(8, 0.1);
+    const engine::RunContext& context = engine::RunContext::endless();
+    const auto touch_the_bump = [&](const std::vector<detail::FarFaces>& far) {
+        const auto touches = [&](Index f) {
+            const Triangle& t = raised.triangles[f];
+            return std::any_of(t.begin(), t.end(), [&](Index v) { return raised.positions[v][2] > 0; });
+        };
+        std::set<Index> faces;
+        for (const auto& [face, original] : far) {
+            CHECK((touches(face) && touches(original)));
+            faces.insert(face);
+        }
+        return faces.size() == 6;
+    };
+    const detail::DistanceReference from_flat(flat.view()), from_raised(raised.view());
+    CHECK(touch_the_bump(detail::FarFaceSearch(from_flat, 0.06)(raised.view(), context)));
+    const std::vector<detail::FarFaces> below =
+        detail::FarFaceSearch(from_raised, 0.06)(flat.view(), context);
+    CHECK(touch_the_bump(below));
+    CHECK(detail::FarFaceSearch(from_flat, 0.11)(raised.view(), context).empty());
+    // After the first result only what changed is measured.
+    detail::FarFaceSearch search(from_raised, 0.06);
+    CHECK(search(raised.view(), context).empty());
+    CHECK(search(flat.view(), context) == below);
+    CHECK(search(flat.view(), context) == below);
+    CHECK(search(raised.view(), context).empty());
 }
 
 TEST_CASE("results with clearly fewer faces than found by the error search exceed max_error") {

@@ -24,6 +24,7 @@ inline constexpr std::size_t stop_interval = 16 * vertex_block;
 struct Piece {
     std::array<Vector3, 3> corner;
     std::array<Index, 3> nearest;                                ///< face closest to each corner
+    Index of = no_index;                                         ///< the whole face
     std::array<Index, 2> bounding_faces = {no_index, no_index};  ///< the faces that determine the bound
     double bound_squared = std::numeric_limits<double>::infinity();
 };
@@ -109,6 +110,7 @@ inline void tighten(const Surface& to, Piece& piece, const Candidates& candidate
 /// Squared upper bound at which a piece needs no further refinement.
 /// \param value_squared  largest squared distance found so far
 inline double enough_squared(double value_squared, const SearchLimits& limits) {
+    if (limits.beyond) return limits.stop_below * limits.stop_below;
     const double enough = std::max(
         std::sqrt(value_squared) * (1 + limits.tolerance) + limits.absolute_tolerance, limits.stop_below);
     return enough * enough;
@@ -120,7 +122,16 @@ struct Found {
     double closed_squared = 0;  ///< largest bound of the pieces that need no further refinement
     std::vector<Piece> open;    ///< pieces that need further refinement
     std::uint64_t pieces = 0;   ///< number of pieces that faces were split into
+    bool collects = false;      ///< whether `beyond` is filled, see SearchLimits
+    std::vector<std::array<Index, 2>> beyond;
 
+    /// Adds the distance of a point of a piece. \return whether nothing else is to be known of the piece
+    bool add(const Piece& piece, Index nearest, double distance_squared, double enough) {
+        value_squared = std::max(value_squared, distance_squared);
+        if (!collects || distance_squared <= enough) return false;
+        beyond.push_back({piece.of, nearest});
+        return true;
+    }
     void keep(const Piece& piece, double enough) {
         if (piece.bound_squared <= enough) {
             closed_squared = std::max(closed_squared, piece.bound_squared);
@@ -142,11 +153,16 @@ inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
     CoherentQuery query(to, tree);
     for (std::size_t f = begin; f < end; ++f) {
         Piece piece;
+        piece.of = static_cast<Index>(f);
+        bool is_beyond = false;
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = from.triangles[f][k];
+            is_beyond =
+                is_beyond || found.add(piece, at_vertices[v].face, at_vertices[v].distance_squared, enough);
             piece.corner[k] = engine::to_eigen(from.positions[v]);
             piece.nearest[k] = at_vertices[v].face;
         }
+        if (is_beyond) continue;
         piece.bounding_faces[0] = piece.nearest[0];
         const auto bound = [&](const Candidates& candidates) {
             std::array<Distances, 3> at;
@@ -159,7 +175,7 @@ inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
             // that of the centre is unique.
             const Vector3 centre = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3;
             const Bvh::Hit hit = query(engine::to_array(centre), piece.bounding_faces[0]);
-            found.value_squared = std::max(found.value_squared, hit.distance_squared);
+            if (found.add(piece, hit.face, hit.distance_squared, enough)) continue;
             Candidates candidates(piece);
             candidates.add(hit.face);
             bound(candidates);
@@ -181,7 +197,7 @@ inline void split(const Surface& to, CoherentQuery& query, const Piece& piece, d
     const std::size_t next = (longest + 1) % 3;
     const Vector3 middle = 0.5 * piece.corner[longest] + 0.5 * piece.corner[next];
     const Bvh::Hit hit = query(engine::to_array(middle), piece.bounding_faces[0]);
-    found.value_squared = std::max(found.value_squared, hit.distance_squared);
+    if (found.add(piece, hit.face, hit.distance_squared, enough)) return;
 
     Candidates candidates(piece);
     candidates.add(hit.face);
@@ -208,17 +224,19 @@ inline void cover(const Surface& to, CoherentQuery& query, const Covering& cover
                   Covering::Scratch& scratch, Piece piece, int splits, double enough, Found& found) {
     const Vector3 middle = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3;
     const Bvh::Hit hit = query(engine::to_array(middle), piece.bounding_faces[0]);
-    found.value_squared = std::max(found.value_squared, hit.distance_squared);
+    if (found.add(piece, hit.face, hit.distance_squared, enough)) return;
     if (hit.distance_squared <= enough) {
         const double bound = covering.bound(piece.corner, hit.face, std::sqrt(enough), scratch);
         piece.bound_squared = std::min(piece.bound_squared, bound * bound);
     }
     if (piece.bound_squared <= enough || splits == 0) return found.keep(piece, enough);
     Found halves;
+    halves.collects = found.collects;
     split(to, query, piece, enough, halves);
     found.pieces += 2;
     found.value_squared = std::max(found.value_squared, halves.value_squared);
     found.closed_squared = std::max(found.closed_squared, halves.closed_squared);
+    found.beyond.insert(found.beyond.end(), halves.beyond.begin(), halves.beyond.end());
     for (const Piece& half : halves.open)
         cover(to, query, covering, scratch, half, splits - 1, enough, found);
 }
@@ -298,20 +316,22 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
     for (const NearestFace& n : at_vertices) value_squared = std::max(value_squared, n.distance_squared);
 
     OpenPieces open;
+    Found empty;
+    empty.collects = limits.beyond != nullptr;
     const auto join = [&](std::vector<Found>& blocks) {
         for (Found& found : blocks) {
             value_squared = std::max(value_squared, found.value_squared);
             closed_squared = std::max(closed_squared, found.closed_squared);
-            for (const Piece& piece : found.open) {
-                open.push(piece);
-            }
-            found = {};
+            for (const Piece& piece : found.open) open.push(piece);
+            if (limits.beyond)
+                limits.beyond->insert(limits.beyond->end(), found.beyond.begin(), found.beyond.end());
+            found = empty;
         }
     };
     const auto enough = [&] { return enough_squared(value_squared, limits); };
 
     const bool refine = std::isfinite(limits.tolerance);
-    std::vector<Found> blocks((from.triangles.size() + face_block - 1) / face_block);
+    std::vector<Found> blocks((from.triangles.size() + face_block - 1) / face_block, empty);
     const double enough_at_first = refine ? enough() : 0;
     parallel_blocks(from.triangles.size(), face_block, context, [&](std::size_t begin, std::size_t end) {
         bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end,
@@ -325,7 +345,7 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
         const Covering covering(to);
         while (!open.empty()) batch.push_back(open.pop());
         const double enough_now = enough();
-        blocks.resize((batch.size() + cover_block - 1) / cover_block);
+        blocks.resize((batch.size() + cover_block - 1) / cover_block, empty);
         parallel_blocks(batch.size(), cover_block, context, [&](std::size_t begin, std::size_t end) {
             CoherentQuery query(to, tree);
             Covering::Scratch scratch(covering);
@@ -342,7 +362,7 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
         batch.clear();
         while (needs_work() && batch.size() < batch_size) batch.push_back(open.pop());
         const double enough_now = enough();
-        blocks.resize((batch.size() + piece_block - 1) / piece_block);
+        blocks.resize((batch.size() + piece_block - 1) / piece_block, empty);
         parallel_blocks(batch.size(), piece_block, context, [&](std::size_t begin, std::size_t end) {
             CoherentQuery query(to, tree);
             for (std::size_t i = begin; i < end; ++i) {
@@ -353,6 +373,10 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
         join(blocks);
     }
     if (!open.empty()) closed_squared = std::max(closed_squared, open.largest_squared());
+    while (limits.beyond && needs_work()) {
+        const Piece piece = open.pop();
+        limits.beyond->push_back({piece.of, piece.nearest[0]});
+    }
     result.value = std::sqrt(value_squared);
     result.bound = std::sqrt(std::max(value_squared, closed_squared));
     return result;

@@ -38,6 +38,9 @@ struct SearchLimits {
     double stop_above = std::numeric_limits<double>::infinity();  ///< stop when the value exceeds this
     double stop_below = 0;                                        ///< stop when the bound is at most this
     std::uint64_t max_pieces = 0;  ///< maximum number of pieces of faces to evaluate
+    /// If not null, the distance is only compared with `stop_below`: for each place of `from` that is farther, or is not
+    /// decided, its face and the nearest face of `to` are added. `tolerance` is 0.
+    std::vector<std::array<Index, 2>>* beyond = nullptr;
 };
 
 /// Lower and upper bound of a distance, in model units: value <= distance <= bound, up to rounding.

@@ -67,7 +67,8 @@ inline std::vector<double> vertex_importance(const MeshView& mesh, const Preproc
 inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs, const Settings& settings,
                                      RunRecorder& recorder, const engine::LoopOptions& loop,
                                      const RunState& state, const RunContext& context,
-                                     const std::function<bool(const engine::LoopResult&)>& should_continue) {
+                                     const std::function<bool(const engine::LoopResult&)>& should_continue,
+                                     const engine::DistanceLimit& limit) {
     engine::FeatureCurves* curves = work.curves.empty() ? nullptr : &work.curves;
     const auto collapse = [&]<class Queue>(auto metric, Queue queue) {
         engine::Engine<decltype(metric), Queue, RunRecorder> engine(
@@ -97,7 +98,7 @@ inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs
             break;
     }
     return bordered(engine::TrackedMetric({}, *state.original(), engine::TrackedVertices(state.vertex_map()),
-                                          loop.target_faces, loop.distance_weight, curves, context));
+                                          loop.target_faces, loop.distance_weight, curves, context, limit));
 }
 
 }  // namespace detail

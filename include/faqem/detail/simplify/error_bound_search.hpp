@@ -4,6 +4,7 @@
 /// simplification and measurement.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/detail/simplify/face_count_search.hpp"
+#include "faqem/detail/simplify/run.hpp"
 #include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
@@ -61,9 +63,41 @@ public:
     MeasuredDistance distance(const MeshView& result, double allowed, MeasureMode mode,
                               const RunContext& context) const;
 
+    /// Its tree.
+    const Bvh& tree() const { return tree_; }
+
 private:
     Surface surface_;
     Bvh tree_;
+};
+
+/// Finds the faces of a result that are too far from the original. For a series of results of which each is a small change
+/// of the previous one: what was near before, and is still there, is not measured again.
+class FAQEM_EXPORT FarFaceSearch {
+public:
+    /// \param original  must outlive this object
+    /// \param allowed   model units
+    FarFaceSearch(const DistanceReference& original, double allowed)
+        : original_(&original), allowed_(allowed) {}
+
+    /// The places of the next result that are farther from the original than allowed, and those of the original that are
+    /// farther from the result; also those for which the allowed work cannot decide. If there are none, the distance is at
+    /// most the allowed one.
+    /// \param context  the result does not depend on the number of threads
+    /// \return a face of the result for each, and the nearest face of the original, or the other way round; sorted
+    /// \throws whatever `context` throws
+    std::vector<FarFaces> operator()(const MeshView& result, const RunContext& context);
+
+private:
+    using Corners = std::array<Vec3, 3>;
+
+    std::vector<Index> faces_to_search(const std::vector<Corners>& now) const;
+
+    const DistanceReference* original_;
+    double allowed_;
+    bool is_first_ = true;
+    std::vector<Corners> faces_, near_;  // of the last result, sorted; near_: those that are not too far
+    std::vector<Index> far_originals_;   // faces of the original that are too far from it
 };
 
 /// The distance between a result of simplify() and the original. It is 0 without measurement if the mesh was
@@ -104,13 +138,20 @@ SimplifyResult simplify_within_error(
 /// \param undecided_count  number of results that could not be decided within the limit on the work
 FAQEM_EXPORT void report_search(Report& report, std::uint64_t undecided_count);
 
+/// Whether collapses are refused beyond Options::max_error, before a search for the face count.
+bool refuses_collapses(const Options& options);
+
+/// Finds a mesh within the error without a search for its face count; nothing if that was not possible.
+template <class Result>
+using RunWithin = std::function<std::optional<Result>(const Options&, const RunContext&)>;
+
 /// The steps of search_within_error(), which documents the parameters.
 template <class Result, class Run, class Measure>
 class ErrorBoundSearch {
 public:
     ErrorBoundSearch(const Options& options, const RunContext& context, std::uint64_t faces, double allowed,
-                     Run& run, Measure& measure)
-        : options_(options), context_(context), faces_(faces), run_(run), measure_(measure) {
+                     Run& run, Measure& measure, const RunWithin<Result>& within)
+        : options_(options), context_(context), faces_(faces), run_(run), measure_(measure), within_(within) {
         error_.allowed = allowed;
         options_.max_error.reset();
     }
@@ -118,7 +159,9 @@ public:
     Result simplify() {
         const Stopwatch watch;
         std::optional<Result> best;
-        if (is_searching_) best = search();
+        if (is_searching_ && within_) best = run_within_error();
+        const bool is_within = best.has_value();
+        if (is_searching_ && !is_within) best = search();
         if (best && is_cancelled(*best)) return std::move(*best);
         if (best) {
             if (!measure(*best, MeasureMode::full)) return std::move(*best);
@@ -132,7 +175,7 @@ public:
             if (is_cancelled(*best)) return std::move(*best);
         }
         error_.value = distance_.value;
-        error_.bound = distance_.bound;
+        error_.bound = is_within ? std::min(distance_.bound, error_.allowed) : distance_.bound;
         best->report.max_error = error_;
         if (is_searching_) report_search(best->report, undecided_count_);
         if (is_late_) {
@@ -145,6 +188,14 @@ public:
 
 private:
     static bool is_cancelled(const Result& result) { return result.report.stop == StopReason::cancelled; }
+
+    std::optional<Result> run_within_error() {
+        std::optional<Result> result =
+            within_(std::as_const(options_), context_.step(Phase::simplify, 0, refusing_share));
+        ++error_.runs;
+        if (result) is_late_ = result->report.stop == StopReason::reached_time_limit;
+        return result;
+    }
 
     // The smallest result within the error that was found in time; nothing if there is none, or the result that was
     // cancelled.
@@ -197,16 +248,20 @@ private:
     }
 
     double progress_at(double of_run) const {
+        if (within_) return refusing_share;
         // If no result is within the error, there is one more run with all faces as the target.
         const double planned = is_searching_ ? static_cast<double>(FaceCountSearch::max_runs + 1) : 1;
         return (static_cast<double>(error_.runs) + of_run) / planned;
     }
+
+    static constexpr double refusing_share = 0.9;  // of the progress
 
     Options options_;  // of the runs
     const RunContext& context_;
     std::uint64_t faces_;
     Run& run_;
     Measure& measure_;
+    const RunWithin<Result>& within_;
     bool is_searching_ = options_.target.kind == Target::Kind::unset;
     MeasuredError error_;
     MeasuredDistance distance_;  // of the last result that was measured
@@ -214,22 +269,25 @@ private:
     bool is_late_ = false;  // the search ended early
 };
 
-/// Simplifies and measures: once if the options have a target, otherwise with the targets of FaceCountSearch.
+/// Simplifies and measures: once if the options have a target, otherwise with `within` or, without it or if it finds
+/// nothing, with the targets of FaceCountSearch.
 /// Used by every entry point, which passes its own simplification and measurement.
 /// \param options  of the caller, with max_error
 /// \param faces    number of faces of the input
 /// \param allowed  the maximum error, in the units of `measure`
 /// \param run      (Options, RunContext) -> Result; Result has a member `report`
 /// \param measure  (Result, MeasureMode, RunContext) -> MeasuredDistance
+/// \param within   its results are proved to be within the error
 /// \return the result with the fewest faces within the error; if there is none, the input with only welding
 ///         applied. Report::max_error is set unless the search was cancelled.
 /// \throws whatever `run` and `measure` throw, except engine::Cancelled from `measure`
 /// Complexity: at most FaceCountSearch::max_runs + 1 runs and measurements
 template <class Result, class Run, class Measure>
 Result search_within_error(const Options& options, const RunContext& context, std::uint64_t faces,
-                           double allowed, Run&& run, Measure&& measure) {
+                           double allowed, Run&& run, Measure&& measure,
+                           const RunWithin<Result>& within = {}) {
     return ErrorBoundSearch<Result, std::remove_reference_t<Run>, std::remove_reference_t<Measure>>(
-               options, context, faces, allowed, run, measure)
+               options, context, faces, allowed, run, measure, within)
         .simplify();
 }
 

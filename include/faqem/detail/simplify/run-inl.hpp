@@ -2,11 +2,13 @@
 
 #include "faqem/detail/simplify/run.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
 
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/rounds/rounds.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
@@ -22,6 +24,9 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
+/// The limit for points of new faces as a share of the allowed distance: points between them may be farther.
+inline constexpr double limit_inside = 0.95;
+
 // One run of simplify(): preprocessing, collapses, fitting, results.
 class Run {
 public:
@@ -34,11 +39,9 @@ public:
 
     std::vector<SimplifyResult> simplify(std::span<const std::uint64_t> targets) {
         targets_ = targets;
-        totals_.preset = options_.preset;
-        totals_.faces_in = mesh_.triangles.size();
-        totals_.vertices_in = mesh_.positions.size();
         try {
-            simplify_to_targets();
+            start();
+            collapse_to_targets();
         } catch (const engine::Cancelled&) {
             SimplifyResult nothing;
             nothing.report = totals_;
@@ -48,31 +51,105 @@ public:
         return std::move(results_);
     }
 
+    // See run_within().
+    std::optional<SimplifyResult> simplify_within(double allowed, double untracked_share,
+                                                  const FindFarFaces& far) {
+        targets_ = {&min_target_faces, 1};
+        settings_.quadric_policy = Settings::QuadricPolicy::tracked;
+        if (mesh_.triangles.empty() || (untracked_share > 0 && !supports_blocks())) return std::nullopt;
+        far_ = &far;
+        start();
+        loop_.ladder = engine::Ladder::off;
+        limit_ = {allowed * prepared_.scale, untracked_share, {}};
+        if (untracked_share > 0) {
+            set_target();
+            EngineInput work(state_.mesh());
+            RunRecorder recorder(work.collapse_mesh.vertex_slots(), history_ ? &*history_ : nullptr);
+            advance(work, recorder, collapse_once(work, recorder));
+        }
+        loop_.ladder = engine::Ladder::reseed;
+        set_target();
+        const MeshRef surface = state_.initial_surface();
+        const Bvh tree(surface.positions, surface.triangles, untimed_);
+        const double most = limit_inside * limit_.distance;
+        limit_.untracked_share = 0;
+        limit_.is_near = [&tree, most](const engine::Vector3& p) {
+            return tree.closest(engine::to_array(p), most * most).face != no_index;
+        };
+        UndoableSteps steps;
+        EngineInput work(state_.mesh());
+        RunRecorder recorder(work.collapse_mesh.vertex_slots(), nullptr, nullptr, &steps);
+        return repaired(steps, collapse_once(work, recorder));
+    }
+
     CostCurve curve() {
-        const std::uint64_t target = min_target_faces;
-        targets_ = {&target, 1};
+        targets_ = {&min_target_faces, 1};
         try {
             prepare();
             set_target();
             EngineInput work(state_.mesh());
             std::vector<CostCurve::Step> steps;
             RunRecorder recorder(work.collapse_mesh.vertex_slots(), nullptr, &steps);
-            const engine::LoopResult loop_result =
-                collapse(work, recorder, [](const engine::LoopResult&) { return false; });
+            const StopReason stop = collapse_once(work, recorder).stop;
             return {std::move(steps), work.collapse_mesh.face_count(), settings_.diagonal / prepared_.scale,
-                    loop_result.stop};
+                    stop};
         } catch (const engine::Cancelled& stopped) {
             return {{}, 0, 0, stopped.reason};
         }
     }
 
 private:
-    void simplify_to_targets() {
+    void start() {
+        totals_.preset = options_.preset;
+        totals_.faces_in = mesh_.triangles.size();
+        totals_.vertices_in = mesh_.positions.size();
         prepare();
         if (options_.history == Recording::on)
             history_.emplace(state_.mesh().vertex, state_.mesh().face,
                              static_cast<Index>(prepared_.positions.size()));
-        collapse_to_targets();
+    }
+
+    // Undoes the last step at each place that is too far, until there is none. \return nothing if there was no step
+    std::optional<SimplifyResult> repaired(UndoableSteps& steps, engine::LoopResult done) {
+        std::vector<Index> slot_of_face(mesh_.triangles.size(), no_index);
+        for (Index f = 0; f < state_.mesh().face.size(); ++f) slot_of_face[state_.mesh().face[f]] = f;
+        while (true) {
+            SimplifyResult result;
+            replay(steps, nullptr, [&](const EngineInput& work, const SlotTrace& trace) {
+                build_result(mesh_, prepared_, state_.mesh(), work.collapse_mesh, work.wedges,
+                             state_.source_vertices_of(trace.source_slots()), result);
+            });
+            if (result.mesh.triangles.empty()) return std::nullopt;
+            const std::vector<FarFaces> far = (*far_)(result.mesh);
+            if (far.empty()) break;
+            for (const auto& [face, original] : far) {
+                if (!steps.undo_last(slot_of_face[result.face_origin[face]]) &&
+                    !steps.undo_last(slot_of_face[original]))
+                    return std::nullopt;
+            }
+        }
+        done.collapses = steps.count();
+        if (done.stop == StopReason::no_legal_collapse) done.stop = StopReason::reached_max_error;
+        replay(steps, history_ ? &*history_ : nullptr,
+               [&](const EngineInput& work, const SlotTrace& trace) { add_result(work, trace, done); });
+        return std::move(results_.front());
+    }
+
+    // Calls use(work, trace) with the surface after the steps.
+    template <class Use>
+    void replay(UndoableSteps& steps, engine::HistoryRecorder* history, Use&& use) const {
+        EngineInput work(state_.mesh());
+        fill(work);
+        RunRecorder recorder(work.collapse_mesh.vertex_slots(), history);
+        steps.replay(work.collapse_mesh.face_slots(),
+                     [&](Index survivor, Index removed, const engine::Vector3& to) {
+                         recorder.before_collapse(work.collapse_mesh, survivor, removed, {to, 0});
+                         work.wedges.before_collapse(work.collapse_mesh, survivor, removed, to);
+                         if (!work.curves.empty()) work.curves.before_collapse(survivor, removed);
+                         work.locked[survivor] |= work.locked[removed];
+                         work.collapse_mesh.collapse(survivor, removed, to);
+                     });
+        use(work, recorder.trace());
     }
 
     void prepare() {
@@ -106,8 +183,10 @@ private:
     void set_target() {
         totals_.target_faces = std::max(min_target_faces, targets_[results_.size()]);
         loop_.target_faces = static_cast<std::size_t>(totals_.target_faces);
+        // With a limit nobody knows the face count of the result.
+        const std::size_t faces = limit_.is_finite() ? state_.mesh().triangles.size() : loop_.target_faces;
         if (settings_.quadric_policy != Settings::QuadricPolicy::memory)
-            loop_.distance_weight = area_ / static_cast<double>(loop_.target_faces);
+            loop_.distance_weight = area_ / static_cast<double>(faces);
         done_in_blocks_ = 0;
     }
 
@@ -159,8 +238,7 @@ private:
         if (faces <= least || context_.is_late()) return true;
         const double share = (1 - done_in_blocks_) * static_cast<double>(faces - least) /
                              static_cast<double>(faces - loop_.target_faces);
-        // After a first round, smaller surfaces are split as well: tracking distances in parallel saves more
-        // time than the faces between blocks cost.
+        // Later, smaller surfaces are split as well: tracking in parallel saves more time than faces between blocks cost.
         const std::size_t few = has_used_blocks_ ? max_vertices_per_block / 4 : max_vertices_per_block;
         ReorderedMesh& now = state_.mesh();
         const RunContext step = context_.step(Phase::simplify, progress_at(done_in_blocks_),
@@ -191,8 +269,7 @@ private:
         return true;
     }
 
-    // Reserves memory for the remaining collapses as well: growing the arrays later would need twice the
-    // memory.
+    // Reserves memory for the remaining collapses as well: growing the arrays later would need twice as much.
     void record_blocks(const BlockSteps& blocks, const CompactedMesh& compacted) {
         const std::size_t to_go = compacted.triangles.size() - loop_.target_faces;
         const auto steps = static_cast<double>(std::max<std::size_t>(blocks.steps.size(), 1));
@@ -221,25 +298,36 @@ private:
         }
         totals_.virtual_edges = extra.size();
         engine::PairTable pairs(collapse_mesh, extra);
+        fill(work);
+        loop_.closed = closed();
+        return run_engine(work, pairs, settings_, recorder, loop_, state_, context_, should_continue, limit_);
+    }
+
+    engine::LoopResult collapse_once(EngineInput& work, RunRecorder& recorder) {
+        const engine::LoopResult result =
+            collapse(work, recorder, [](const engine::LoopResult&) { return false; });
+        if (result.stop == StopReason::cancelled) throw engine::Cancelled{};
+        return result;
+    }
+
+    // Sets what belongs to the vertices and faces of the surface.
+    void fill(EngineInput& work) const {
         if (mesh_.attributes) {
             const auto [values, width] = *mesh_.attributes;
             work.wedges = engine::Wedges(
-                collapse_mesh, {state_.mesh().per_face<float>(values, std::size_t{3} * width), width});
+                work.collapse_mesh, {state_.mesh().per_face<float>(values, std::size_t{3} * width), width});
         }
         work.locked = state_.locked();
         work.borders = state_.borders().at;
-        loop_.closed = closed();
         if (has_curves()) {
             work.groups = state_.mesh().per_face(mesh_.face_groups);
-            work.curves = engine::FeatureCurves(collapse_mesh, work.groups);
+            work.curves = engine::FeatureCurves(work.collapse_mesh, work.groups);
         }
         work.importance = vertex_importance(mesh_, prepared_, state_.mesh());
-        return run_engine(work, pairs, settings_, recorder, loop_, state_, context_, should_continue);
     }
 
-    // If the mesh may be split into blocks, each target has its own engine, which uses the right distance
-    // weight from the start. Otherwise one engine continues from target to target, since it has state that
-    // cannot be transferred.
+    // If the mesh may be split into blocks, each target has its own engine, which uses the right distance weight from the
+    // start. Otherwise one engine continues from target to target, since its state cannot be transferred.
     void collapse_to_targets() {
         while (results_.size() < targets_.size()) {
             set_target();
@@ -260,11 +348,16 @@ private:
                 });
             }
             if (is_done()) return;
-            add_counts(loop_result, totals_);
-            CompactedMesh left = compacted(work.collapse_mesh, recorder.trace());
-            if (history_) history_->renumber(left.vertices, left.faces);
-            state_.advance_to(std::move(left));
+            advance(work, recorder, loop_result);
         }
+    }
+
+    // Replaces the surface by the result of an engine.
+    void advance(const EngineInput& work, RunRecorder& recorder, const engine::LoopResult& loop_result) {
+        add_counts(loop_result, totals_);
+        CompactedMesh left = compacted(work.collapse_mesh, recorder.trace());
+        if (history_) history_->renumber(left.vertices, left.faces);
+        state_.advance_to(std::move(left));
     }
 
     bool is_done() const {
@@ -299,15 +392,18 @@ private:
         results_.push_back(std::move(result));
     }
 
-    // Fits the vertices, unless the run was stopped or the time is over. Without a collapse the mesh equals the
-    // original.
+    // Fits the vertices, unless the run was stopped or the time is over, or without a collapse. Not if the result is too
+    // far from the original then.
     void fit(const EngineInput& work, const std::vector<Index>& slots, SimplifyResult& result) {
         Report& report = result.report;
         if (report.stop == StopReason::cancelled || report.stop == StopReason::reached_time_limit) return;
         if (report.collapses == 0) return;
+        std::optional<SimplifyResult> unfitted;
+        if (far_) unfitted = result;
         const bool is_fitted = context_.in_time([&] {
             fit_result(state_, prepared_, settings_.min_normal_cosine, work, slots, context_, result);
         });
+        if (far_ && !(*far_)(result.mesh).empty()) result = std::move(*unfitted);
         if (!is_fitted) report.warnings.push_back("max_seconds was over before the vertices were fitted");
     }
 
@@ -322,6 +418,8 @@ private:
     std::optional<engine::HistoryRecorder> history_;  // if a history is recorded
     engine::LoopOptions loop_;
     double area_ = 0;  // of the original, engine units
+    engine::DistanceLimit limit_;
+    const FindFarFaces* far_ = nullptr;  // not null: the result must have no such faces
     std::span<const std::uint64_t> targets_;
     bool has_used_blocks_ = false;
     double done_in_blocks_ = 0;  // share of the work for the current target that was done in blocks
@@ -334,6 +432,15 @@ FAQEM_INLINE std::vector<SimplifyResult> run_to_targets(const MeshView& mesh,
                                                         std::span<const std::uint64_t> targets,
                                                         const Options& options, const RunContext& context) {
     return Run(mesh, options, context).simplify(targets);
+}
+
+FAQEM_INLINE std::optional<SimplifyResult> run_within(const MeshView& mesh, double allowed,
+                                                      const FindFarFaces& far, const Options& options,
+                                                      const RunContext& context) {
+    for (const double share : {0.1, 0.03, 0.0}) {
+        if (auto found = Run(mesh, options, context).simplify_within(allowed, share, far)) return found;
+    }
+    return std::nullopt;
 }
 
 FAQEM_INLINE CostCurve cost_curve(const MeshView& mesh, const Options& options, const RunContext& context) {

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +31,27 @@ inline std::uint64_t target_face_count(const Target& target, double faces) {
         target.kind == Target::Kind::faces ? target.value : target.value * faces * (1 + 1e-15);
     return static_cast<std::uint64_t>(std::floor(std::min(wanted, 1e18)));
 }
+
+/// A place that is too far: a face of the result and a face of the original, of which one is far from the other surface
+/// and the other one is nearest to it.
+struct FarFaces {
+    Index result, original;
+    auto operator<=>(const FarFaces&) const = default;
+};
+/// Finds the places of a result that are too far.
+using FindFarFaces = std::function<std::vector<FarFaces>(const TriangleMesh&)>;
+
+/// Collapses until every further collapse would exceed a distance, as far as distances of points show; then undoes the
+/// last collapses at places that are too far.
+/// \param allowed  the distance, model units
+/// \param far      called with results, until it returns none; best: without the fitting of vertices if it returns any
+/// \param options  as for run_to_targets(), with preset fast, balanced or best
+/// \return nothing if places are too far around which nothing was collapsed
+/// \throws Cancelled, otherwise as run_to_targets(), and whatever `far` throws
+/// Complexity: O(n log n), and the calls of `far`
+FAQEM_EXPORT std::optional<SimplifyResult> run_within(const MeshView& mesh, double allowed,
+                                                      const FindFarFaces& far, const Options& options,
+                                                      const engine::RunContext& context);
 
 /// Simplifies to each target in turn, continuing from the mesh of the previous target. Vertex fitting and
 /// edge flips of a result (preset best) are not passed on to the next target. The counts in a report are
