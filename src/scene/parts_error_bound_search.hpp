@@ -2,9 +2,12 @@
 /// \file
 /// Simplification of an asset within Options::max_error.
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "asset/scene/position_rounding.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
 #include "scene/scene_size.hpp"
@@ -32,16 +35,27 @@ public:
     MeasuredDistance operator()(const SimplifiedParts& simplified, double allowed, MeasureMode mode,
                                 const RunContext& context) const;
 
+    /// The smallest result for a part that was found without a search for its face count, or nothing.
+    /// \param part     its index
+    /// \param view     the part as the input of simplify()
+    /// \param allowed  as above
+    /// \param options  of the part
+    std::optional<SimplifyResult> run_within(std::size_t part, const MeshView& view, double allowed,
+                                             const Options& options, const RunContext& context) const;
+
 private:
+    double allowed_for(std::size_t part, double allowed) const;
+
     const Options& options_;
+    StoredPrecision precision_;  // to which results are rounded
     SceneSize size_;
     double rounding_;  // largest distance by which positions are rounded afterwards, units of the scene
     std::vector<DistanceReference> originals_;
     std::uint64_t faces_ = 0;
 };
 
-/// simplify_parts() with Options::max_error: a search over the face count of the whole asset, with one call
-/// of simplify_welded_parts() per attempt.
+/// simplify_parts() with Options::max_error: each part uses the error everywhere, or, if that is not possible, there is a
+/// search over the face count of the whole asset, with one call of simplify_welded_parts() per attempt.
 /// \param source   must have passed check_asset()
 /// \param options  must be valid, with max_error set
 SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options,

@@ -127,6 +127,22 @@ public:
         return std::move(run(share).front());
     }
 
+    /// Simplifies each part with a function. \return nothing if it returned nothing for a part
+    std::optional<SimplifiedParts> with(const detail::SimplifyPart& simplify) {
+        begin(1);
+        bool is_complete = true;
+        std::vector<SimplifiedParts> results = run_parts(
+            [&](std::size_t p, const MeshView& view, const Options& own, const RunContext& of_part) {
+                std::vector<SimplifyResult> result(1);
+                std::optional<SimplifyResult> found;
+                if (is_complete) found = simplify(p, view, own, of_part);
+                is_complete = found.has_value();
+                if (found) result.front() = std::move(*found);
+                return result;
+            });
+        return is_complete ? std::optional(std::move(results.front())) : std::nullopt;
+    }
+
 private:
     void begin(std::size_t levels) {
         results_.resize(levels);
@@ -138,10 +154,18 @@ private:
     }
 
     std::vector<SimplifiedParts> run(const std::vector<std::vector<std::uint64_t>>& share) {
+        return run_parts(
+            [&](std::size_t p, const MeshView& view, const Options& own, const RunContext& of_part) {
+                return simplify_part(source_.parts[p], view, share[p], own, of_part);
+            });
+    }
+
+    // Simplifies each part with a function that returns one result for each of results_.
+    template <class Simplify>
+    std::vector<SimplifiedParts> run_parts(Simplify&& simplify) {
         for_each_part([&](std::size_t p, const MeshView& view, Options& own, const RunContext& of_part) {
             own.history = Recording::on;
-            std::vector<SimplifyResult> results =
-                simplify_part(source_.parts[p], view, share[p], own, of_part);
+            std::vector<SimplifyResult> results = simplify(p, view, own, of_part);
             if (results.back().report.stop == StopReason::cancelled) throw engine::Cancelled{};
             for (std::size_t i = 0; i < results.size(); ++i) {
                 round_result(results[i]);
@@ -345,6 +369,12 @@ SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options
     if (tries_uvs && !context.is_late())
         add_parts_with_uvs(source, options, context.step(Phase::simplify, 0.5, 1), result);
     return result;
+}
+
+std::optional<SimplifiedParts> detail::simplify_each_part(const Asset& source, const Options& options,
+                                                          const RunContext& context,
+                                                          const SimplifyPart& simplify) {
+    return PartsRun(source, options, context).with(simplify);
 }
 
 std::vector<SimplifiedParts> detail::simplify_parts_in_steps(const Asset& source,

@@ -2,7 +2,10 @@
 /// \file
 /// Simplification of all parts of an asset to one or more targets.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +34,15 @@ std::vector<SimplifiedParts> simplify_parts_to_targets(const Asset& source,
 /// \param levels   as for simplify_parts_to_targets()
 SimplifiedParts simplify_welded_parts(const Asset& source, const Options& options, const RunContext& context,
                                       std::span<const LevelTarget> levels = {});
+
+/// Simplifies the part of an index; nothing if that is not possible.
+using SimplifyPart = std::function<std::optional<SimplifyResult>(std::size_t, const MeshView&, const Options&,
+                                                                 const RunContext&)>;
+
+/// As simplify_welded_parts(), but each part is simplified by a function, and none again with its UVs.
+/// \return nothing if the function returned nothing for a part
+std::optional<SimplifiedParts> simplify_each_part(const Asset& source, const Options& options,
+                                                  const RunContext& context, const SimplifyPart& simplify);
 
 /// simplify_parts() to several targets in one run, with the kind of baking that the options say: Bake::automatic makes no
 /// SimplifiedParts::with_uvs.
