@@ -127,11 +127,7 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
     for (std::uint64_t round = 1; round <= most_rounds && idle < most_idle_rounds; ++round) {
         const std::size_t need = mesh.alive - least;
         if (need < least / 64 || context.is_late()) break;
-        if (2 * mesh.alive < mesh.faces.size()) {
-            compact(mesh, untimed);
-            // Small planes are lost in the rounding errors of large ones that were subtracted.
-            sum_planes(mesh, untimed);
-        }
+        if (2 * mesh.alive < mesh.faces.size()) compact(mesh, untimed);
         const float limit = threshold(mesh, need);
         const std::size_t cells = assign_cells(mesh, mesh.area, round, untimed);
         const Buckets<Corner> sorted = candidates(mesh, cells, limit, untimed);
