@@ -1,9 +1,8 @@
 #include "asset/image/image_size.hpp"
 
-#include <webp/decode.h>
-
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "asset/image/image.hpp"
 
@@ -77,11 +76,18 @@ std::uint64_t jpeg_coefficient_bytes(Bytes bytes) {
     return is_single_scan ? 0 : 2 * components;
 }
 
-/// Of an animation that of its canvas.
+/// Size in the first chunk, which must be VP8X, VP8L or VP8 (RFC 9649).
 std::optional<ImageSize> webp_size(Bytes bytes) {
-    int width = 0, height = 0;
-    if (!WebPGetInfo(bytes.data(), bytes.size(), &width, &height)) return {};
-    return ImageSize{static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)};
+    if (bytes.size() < 30) return {};
+    const std::string_view chunk(reinterpret_cast<const char*>(bytes.data()) + 12, 4);
+    if (chunk == "VP8X") return ImageSize{little_endian(bytes, 24, 3) + 1, little_endian(bytes, 27, 3) + 1};
+    if (chunk == "VP8L") {
+        const std::uint64_t bits = little_endian(bytes, 21, 4);
+        return ImageSize{(bits & 0x3FFF) + 1, (bits >> 14 & 0x3FFF) + 1};
+    }
+    if (chunk == "VP8 ")
+        return ImageSize{little_endian(bytes, 26, 2) & 0x3FFF, little_endian(bytes, 28, 2) & 0x3FFF};
+    return {};
 }
 
 /// Only headers of the types that exist, since TGA has no signature.
