@@ -38,7 +38,10 @@ ModelSize model_size(const Asset& asset, ModelFormat format) {
     constexpr std::size_t name_length = 64;
     const std::string_view extension = result_format(format, format).extension;
     const EncodedModel model = encode_model(asset, std::string(name_length, 'm').append(extension));
-    return {model.bytes() - model.image_bytes(), model.image_bytes()};
+    ModelSize size{model.bytes() - model.image_bytes(), model.image_bytes(), 0};
+    for (const ResultView& view : model.views)
+        if (view.content.find("animation") != std::string::npos) size.fixed += view.bytes;
+    return size;
 }
 
 ModelSize fit_images(UnencodedResult& result, const Options& options, const RunContext& context,

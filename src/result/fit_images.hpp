@@ -14,6 +14,7 @@ namespace faqem::detail {
 struct ModelSize {
     std::uint64_t geometry = 0;  ///< other than images
     std::uint64_t images = 0;    ///< encoded images
+    std::uint64_t fixed = 0;     ///< of the geometry: animations, whose size does not depend on the faces
 
     std::uint64_t total() const { return geometry + images; }
 };

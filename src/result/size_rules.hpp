@@ -20,8 +20,8 @@ namespace faqem::detail {
 SimplifiedAsset bake_no_larger(const Asset& source, const SimplifiedParts& simplified, const Options& options,
                                const engine::RunContext& context);
 
-/// Bakes. If the result exceeds Options::max_bytes, its images are fitted (fit_images()), and a warning has the number of
-/// bytes before.
+/// Bakes. If the result exceeds Options::max_bytes, it gives up what bake_no_larger() does, also images of a quality that
+/// was asked for. A warning has the sizes.
 /// \param options  max_bytes is set
 /// \return a result within the limit
 /// \throws ByteLimitError  even the smallest images exceed the limit; the message has the size of the result with them
@@ -31,11 +31,12 @@ SimplifiedAsset bake_within_bytes(const Asset& source, const SimplifiedParts& si
                                   const Options& options, const engine::RunContext& context);
 
 /// Simplifies and bakes within Options::max_bytes: best_picture_within_bytes() where the options leave the face count
-/// open. Otherwise a result that fits is not changed, and one that does not gets
-/// 1. fewer faces, until the geometry takes at most half of the bytes, or what existing images leave if none is baked;
-/// 2. fitted images (fit_images());
-/// 3. fewer faces, if the smallest images do not fit.
-/// If anything was reduced, the report has a warning with the sizes.
+/// open. Otherwise a result that fits is not changed, and one that does not gives up, as in bake_within_bytes(),
+/// 1. the new normal map;
+/// 2. images, if the face count was asked for, or the geometry takes at most half of the bytes beside animations, or what
+///    existing images leave if none is baked;
+/// 3. faces, until the geometry does, and then images again.
+/// If anything was reduced, the report has a warning with the sizes; its target is the one that was asked for.
 /// \param options  max_bytes is set; target and texture size are upper limits
 /// \return as bake_within_bytes()
 /// \throws ByteLimitError  no result fits

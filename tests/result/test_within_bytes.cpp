@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -90,4 +91,33 @@ TEST_CASE("simplify --max-bytes counts all files of a model") {
         CHECK(bytes_in(folder / "to") <= 50000);
         fs::remove_all(folder / "to");
     }
+}
+
+TEST_CASE("--max-bytes is kept wherever the same command without it has as few bytes") {
+    const Folder folder;
+    faqem::Asset asset = noisy_sheet(12);
+    for (faqem::Vec3& p : asset.parts[0].positions) p[2] = 0.2 * std::sin(9 * p[0]) * std::cos(7 * p[1]);
+    faqem::save(asset, folder / "in.glb");
+    REQUIRE(run(folder, "simplify in.glb plain.glb --faces 60").code == 0);
+    const std::string bytes = std::to_string(fs::file_size(folder / "plain.glb"));
+    REQUIRE(run(folder, "simplify in.glb out.glb --faces 60 --report r.json --max-bytes " + bytes).code == 0);
+    CHECK(fs::file_size(folder / "out.glb") <= fs::file_size(folder / "plain.glb"));
+    CHECK(faqem::load(folder / "out.glb").parts[0].triangles.size() ==
+          faqem::load(folder / "plain.glb").parts[0].triangles.size());
+}
+
+TEST_CASE("--max-bytes with a face count makes images smaller before it takes faces") {
+    const Folder folder;
+    faqem::save(noisy_sheet(30), folder / "in.glb");
+    const std::string command = "simplify in.glb out.glb --force --faces 400 --bake atlas --report r.json";
+    REQUIRE(run(folder, command + " --allow-larger").code == 0);
+    const faqem::Asset plain = faqem::load(folder / "out.glb");
+    const std::uintmax_t geometry = fs::file_size(folder / "out.glb") - plain.images[0].encoded.size();
+    REQUIRE(run(folder, command + " --max-bytes " + std::to_string(geometry * 5 / 4)).code == 0);
+    CHECK(faqem::load(folder / "out.glb").parts[0].triangles.size() == plain.parts[0].triangles.size());
+    CHECK(warnings(folder).find("given up: size and quality of the images") != std::string::npos);
+    // The target of the report is the one that was asked for, also where the bytes hold fewer faces.
+    REQUIRE(run(folder, command + " --max-bytes " + std::to_string(geometry / 2)).code == 0);
+    CHECK(faqem::load(folder / "out.glb").parts[0].triangles.size() < 300);
+    CHECK(nlohmann::json::parse(read(folder / "r.json"))["target_faces"] == 400);
 }
