@@ -45,6 +45,18 @@ std::vector<std::string> without_short_form(const CommandTree& tree, std::vector
     return words;
 }
 
+/// The message of the parser. It lists words in reverse order, and does not name the commands.
+std::string usage_message(const CLI::App& app, const CommandTree& tree, const CLI::ParseError& error) {
+    if (app.get_subcommands().empty()) {
+        std::string text = "the first word must be a model or a command:";
+        for (const CommandInfo& command : tree.commands) text += " " + command.name;
+        return text;
+    }
+    const std::string command = app.get_subcommands().front()->get_name() + ": ";
+    if (!dynamic_cast<const CLI::ExtrasError*>(&error)) return command + error.what();
+    return command + "not expected: " + CLI::detail::join(app.remaining(true), " ");
+}
+
 int parse_and_run(int argc, char** argv) {
     CLI::App app;
     Action action;
@@ -55,7 +67,8 @@ int parse_and_run(int argc, char** argv) {
         std::vector<std::string> reversed(words.rbegin(), words.rend());  // as CLI11 expects them
         app.parse(std::move(reversed));
     } catch (const CLI::ParseError& error) {
-        if (app.exit(error) == 0) return exit_ok;
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::cerr << "faqem: " << usage_message(app, tree, error) << "\n";
         const std::string suggested = suggestion(tree, words);
         if (!suggested.empty()) std::cerr << "Did you mean " << suggested << "?\n";
         return exit_usage;
