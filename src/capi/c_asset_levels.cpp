@@ -71,7 +71,7 @@ faqem_status faqem_asset_history_create(const faqem_asset* const* levels, size_t
         for (std::size_t i = 0; i < level_count; ++i) {
             const std::string where = "level " + std::to_string(i);
             if (levels[i]->histories.empty())
-                throw OptionError(where + " has no history: see faqem_options_set_history()");
+                throw OptionError(where + " has no history: set the option history");
             if (levels[i]->histories.size() != count)
                 throw InputError("", where, "the number of parts differs from that of level 0");
         }

@@ -18,7 +18,7 @@ const CollapseHistory& history_of(const faqem_result* result) {
     capi::require_argument(result, "result");
     if (result->out.history.empty())
         throw OptionError(
-            "a result has no history: see faqem_options_set_history() (results without faces have none)");
+            "the result has no history: set the option history (results without faces have none)");
     return result->out.history;
 }
 

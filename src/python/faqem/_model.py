@@ -143,6 +143,11 @@ class SimplifiedModel(Model):
         """Report of simplify(), with the keys documented in docs/reference.md."""
         return dict(super().report or {})
 
+    @property
+    def warnings(self) -> list[str]:
+        """List of str: those of the report, and what could not be saved."""
+        return [*self.report["warnings"], *super().warnings]
+
 
 class ModelLevel(SimplifiedModel):
     """A level of simplify_levels()."""
