@@ -177,7 +177,11 @@ public:
         error_.value = distance_.value;
         error_.bound = is_within ? std::min(distance_.bound, error_.allowed) : distance_.bound;
         best->report.max_error = error_;
-        if (is_searching_) report_search(best->report, undecided_count_);
+        if (is_searching_)
+            report_search(best->report, undecided_count_);
+        else if (!error_.within())
+            best->report.warnings.push_back(
+                "the target is reached only farther than max_error from the original");
         if (is_late_) {
             best->report.stop = StopReason::reached_time_limit;
             best->report.warnings.push_back("max_seconds was over before the search was complete");
