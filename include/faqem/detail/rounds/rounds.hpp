@@ -25,6 +25,9 @@ struct RoundInput {
     const engine::PlanarBorders* borders = nullptr;  ///< of this surface; null: none
 };
 
+/// Targets below this are left to the engine: a surface of one or two cells of rounds has only local orders of costs.
+inline constexpr std::size_t min_target_of_rounds = 13000;
+
 /// Simplifies the whole surface in parallel.
 ///
 /// In each round the surface is divided into the cells of a grid that is shifted at random. Each cell collapses its

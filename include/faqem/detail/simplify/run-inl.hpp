@@ -247,8 +247,8 @@ private:
         std::optional<CompactedMesh> left;
         if (!state_.original() && now.positions.size() > few)
             left = simplify_in_rounds(
-                {now.positions, now.triangles, state_.links(), state_.locked(), &state_.borders()}, least,
-                options_.history, step, found);
+                {now.positions, now.triangles, state_.links(), state_.locked(), &state_.borders()},
+                std::max(least, min_target_of_rounds), options_.history, step, found);
         if (!left) {
             const BlockInput input{now.positions,   now.triangles,
                                    state_.locked(), vertices_per_block(now.positions.size(), few),
