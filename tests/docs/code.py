@@ -18,6 +18,7 @@ READER = {
         "triangles": "std::vector<std::array<std::uint32_t, 3>> triangles;",
         "materials": "std::vector<faqem::Index> materials;",
         "weights": "std::vector<float> weights;",
+        "locks": "std::vector<std::uint8_t> locks;",
         "options": "faqem::Options options;",
         "use": "template <class... Results> void use(const Results&...) {}",
     },

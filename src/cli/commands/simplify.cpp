@@ -93,7 +93,7 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
             asked.append(command_spelling(*option.row)).append(" ").append(option.value).append(", ");
     if (asked.empty()) asked = "--ratio 10% by default, ";
     std::ostringstream out;
-    out << arguments.in << " -> " << arguments.out << "\n"
+    out << arguments.in << " -> " << (report.bytes_out > 0 ? arguments.out : "no file") << "\n"
         << report.faces_in << " -> " << report.faces_out << " faces (" << asked << name(report.stop) << ")\n";
     if (report.bytes_out > 0) print_bytes(out, report);
     if (report.little_saved) print_little_saved(out, *report.little_saved);
