@@ -43,7 +43,7 @@ private:
         for (std::size_t f = 0; f < part_.triangles.size(); ++f)
             for (const Index v : part_.triangles[f])
                 if (!(v < part_.positions.size()))
-                    fail("face " + std::to_string(f), "vertex index out of range");
+                    fail("face " + std::to_string(f), "vertex index out of range: " + std::to_string(v));
         for (const FaceArray& array : face_arrays) {
             const std::vector<Index>& values = part_.*array.values;
             const std::string kind(array.kind);
@@ -52,7 +52,8 @@ private:
             const std::size_t count = array.names ? (part_.*array.names).size() : asset_.materials.size();
             for (std::size_t f = 0; f < values.size(); ++f)
                 if (values[f] != no_index && !(values[f] < count))
-                    fail("face " + std::to_string(f), kind + " index out of range");
+                    fail("face " + std::to_string(f),
+                         kind + " index out of range: " + std::to_string(values[f]));
         }
     }
 

@@ -280,7 +280,7 @@ TEST_CASE("invalid assets are rejected with the name of the part or material") {
     };
     const std::string part = "part 'square': ";
     const float nan = std::nanf("");
-    refused([](Asset&, Part& p) { p.triangles[1][2] = 4; }, part + "face 1: vertex index out of range");
+    refused([](Asset&, Part& p) { p.triangles[1][2] = 4; }, part + "face 1: vertex index out of range: 4");
     refused([](Asset&, Part& p) { p.uvs[0].pop_back(); },
             part + "uvs 0: has 3 entries, expected one for each of 4 vertices");
     refused([](Asset&, Part& p) { p.normals.resize(5); },
@@ -296,7 +296,7 @@ TEST_CASE("invalid assets are rejected with the name of the part or material") {
     refused([&](Asset&, Part& p) { p.positions[3][0] = nan; }, part + "positions, vertex 3: is not finite");
     refused([](Asset&, Part& p) { p.face_material.pop_back(); },
             part + "face_material: needs one entry per face or none");
-    refused([](Asset&, Part& p) { p.face_material[1] = 7; }, part + "face 1: material index out of range");
+    refused([](Asset&, Part& p) { p.face_material[1] = 7; }, part + "face 1: material index out of range: 7");
     refused([](Asset& a, Part&) { a.images.clear(); }, "material 'paint': image index out of range");
     refused([&](Asset& a, Part&) { a.materials[0].base_color_texture.rotation = nan; },
             "material 'paint': the transform of a texture is not finite");
