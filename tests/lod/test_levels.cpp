@@ -198,10 +198,14 @@ TEST_CASE("levels: distances and face counts may be mixed") {
     CHECK(levels[1].result.report.max_error->allowed == 0.03);
     CHECK(levels[2].result.mesh.triangles.size() <= 60);
     CHECK(levels[2].error > 0.03);
-    const auto first = simplify_levels(mesh.view(), {model_units(0.03)}, with(Preset::fast));
+    const auto searched = simplify_levels(mesh.view(), {model_units(0.03)}, with(Preset::fast));
     Options options = with(Preset::fast);
     options.max_error = model_units(0.03);
-    CHECK(first[0].result.mesh.positions == simplify(mesh.view(), options).mesh.positions);
+    CHECK(simplify(mesh.view(), options).mesh.triangles.size() <= searched[0].result.mesh.triangles.size());
+    const auto counted = simplify_levels(mesh.view(), {faces(200)}, with(Preset::fast));
+    options.max_error.reset();
+    options.target = faces(200);
+    CHECK(counted[0].result.mesh.positions == simplify(mesh.view(), options).mesh.positions);
 }
 
 TEST_CASE("levels: a level finer than the previous one repeats its mesh") {
