@@ -139,7 +139,7 @@ SimplifyResult simplify_within_error(
 FAQEM_EXPORT void report_search(Report& report, std::uint64_t undecided_count);
 
 /// Whether collapses are refused beyond Options::max_error, before a search for the face count.
-bool refuses_collapses(const Options& options);
+FAQEM_EXPORT bool refuses_collapses(const Options& options);
 
 /// Finds a mesh within the error without a search for its face count; nothing if that was not possible.
 template <class Result>

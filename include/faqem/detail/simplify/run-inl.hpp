@@ -24,9 +24,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// The limit for points of new faces as a share of the allowed distance: points between them may be farther.
-inline constexpr double limit_inside = 0.95;
-
 // One run of simplify(): preprocessing, collapses, fitting, results.
 class Run {
 public:
@@ -71,7 +68,7 @@ public:
         set_target();
         const MeshRef surface = state_.initial_surface();
         const Bvh tree(surface.positions, surface.triangles, untimed_);
-        const double most = limit_inside * limit_.distance;
+        const double most = engine::DistanceLimit::share_inside * limit_.distance;
         limit_.untracked_share = 0;
         limit_.is_near = [&tree, most](const engine::Vector3& p) {
             return tree.closest(engine::to_array(p), most * most).face != no_index;
@@ -169,7 +166,7 @@ private:
         if (state_.original() || !supports_blocks()) state_.links() = {};
         untimed_.check_now();
         area_ = state_.area();
-        loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length(),
+        loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length_,
                        settings_.min_fold_cosine};
         loop_.rules.groups = options_.topology.group_boundaries;
         loop_.tiny_component_diagonal = 0.02 * settings_.diagonal;
@@ -179,7 +176,6 @@ private:
         };
     }
 
-    // Sets the options of the loop for the next target.
     void set_target() {
         totals_.target_faces = std::max(min_target_faces, targets_[results_.size()]);
         loop_.target_faces = static_cast<std::size_t>(totals_.target_faces);
@@ -206,8 +202,6 @@ private:
         const bool is_published = options_.preset == Preset::paper || options_.preset == Preset::stmw;
         return is_published ? std::span<const std::uint8_t>() : state_.closed();
     }
-
-    double min_pair_length() const { return 1e-8 * settings_.diagonal; }
 
     // Whether boundaries between groups are more than free.
     bool has_curves() const {
@@ -294,7 +288,7 @@ private:
         if (options_.topology.virtual_edges == VirtualEdges::on) {
             extra = virtual_edges(collapse_mesh, state_.mesh().per_face(mesh_.face_groups),
                                   options_.topology.virtual_edge_distance * settings_.diagonal,
-                                  min_pair_length());
+                                  min_pair_length_);
         }
         totals_.virtual_edges = extra.size();
         engine::PairTable pairs(collapse_mesh, extra);
@@ -413,6 +407,7 @@ private:
     // The time limit does not stop steps without which there is no result.
     const RunContext untimed_ = context_.untimed();
     Settings settings_;
+    const double min_pair_length_ = 1e-8 * settings_.diagonal;
     PreprocessedMesh prepared_;
     RunState state_;
     std::optional<engine::HistoryRecorder> history_;  // if a history is recorded

@@ -24,6 +24,9 @@ namespace engine {
 /// A distance beyond which collapses are refused, as far as distances of points and costs show. Contractions are refused
 /// as well.
 struct DistanceLimit {
+    /// The limit for points of new faces as a share of `distance`: points between them may be farther.
+    static constexpr double share_inside = 0.95;
+
     double distance = std::numeric_limits<double>::infinity();  ///< engine units
     /// Above 0: the surface is not tracked, and collapses are refused if the root mean square distance that their cost
     /// stands for exceeds this share of the distance. 0: the surface is tracked from the start.
