@@ -271,9 +271,9 @@ SimplifiedAsset bake_within_bytes(const Asset& source, const SimplifiedParts& si
     one.give_up_normal_map();
     one.give_up_images();
     if (!one.fits())
-        throw ByteLimitError("the smallest result has " + std::to_string(one.size().total()) +
-                             " bytes, but max_bytes allows " + std::to_string(*options.max_bytes) + ": " +
-                             size_text(one));
+        throw ByteLimitError("the smallest result with " + std::to_string(one.report().faces_out) +
+                             " faces has " + std::to_string(one.size().total()) +
+                             " bytes, but max_bytes allows " + std::to_string(*options.max_bytes));
     return one.given_up().empty() ? one.take() : reduced(one);
 }
 

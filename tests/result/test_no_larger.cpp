@@ -202,7 +202,7 @@ TEST_CASE("a normal map that the source does not have goes first, with the tange
     CHECK(less.asset.parts[0].tangents.empty());
     CHECK(less.asset.images.size() == full.asset.images.size() - 1);
     CHECK(less.asset.materials[0].base_color_texture.image == 0);
-    CHECK(has_warning(less, "the normal map"));
+    CHECK(has_warning(less, "a new normal map, which the source does not have"));
 }
 
 TEST_CASE("nothing is given up where no image is new") {
