@@ -136,6 +136,20 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("handles that are smaller than the error do not keep their faces") {
+    TriangleMesh tori;  // each keeps at least 14 faces while it has its handle
+    for (Index i = 0; i < 6; ++i) {
+        const TriangleMesh one = test::moved(test::torus(16, 8), {10.0 * i, 0, 0});
+        const auto first = static_cast<Index>(tori.positions.size());
+        for (const Triangle& t : one.triangles)
+            tori.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        tori.positions.insert(tori.positions.end(), one.positions.begin(), one.positions.end());
+    }
+    const SimplifyResult result = simplify(tori.view(), {.max_error = model_units(1)});
+    CHECK(result.report.max_error->within());
+    CHECK(result.mesh.triangles.size() < 6 * 14);
+}
+
 TEST_CASE("faces that are too far are those of the result where one of the surfaces is") {
     const TriangleMesh flat = test::square(8, 1, 0), raised = bump(8, 0.1);
     const engine::RunContext& context = engine::RunContext::endless();

@@ -48,7 +48,6 @@ public:
         return std::move(results_);
     }
 
-    // See run_within().
     std::optional<SimplifyResult> simplify_within(double allowed, double untracked_share,
                                                   const FindFarFaces& far) {
         targets_ = {&min_target_faces, 1};
@@ -286,9 +285,9 @@ private:
         const CollapseMesh& collapse_mesh = work.collapse_mesh;
         std::vector<std::pair<Index, Index>> extra;
         if (options_.topology.virtual_edges == VirtualEdges::on) {
-            extra = virtual_edges(collapse_mesh, state_.mesh().per_face(mesh_.face_groups),
-                                  options_.topology.virtual_edge_distance * settings_.diagonal,
-                                  min_pair_length_);
+            extra =
+                virtual_edges(collapse_mesh, state_.mesh().per_face(mesh_.face_groups),
+                              options_.topology.virtual_edge_distance * settings_.diagonal, min_pair_length_);
         }
         totals_.virtual_edges = extra.size();
         engine::PairTable pairs(collapse_mesh, extra);
@@ -433,7 +432,8 @@ FAQEM_INLINE std::optional<SimplifyResult> run_within(const MeshView& mesh, doub
                                                       const FindFarFaces& far, const Options& options,
                                                       const RunContext& context) {
     for (const double share : {0.1, 0.03, 0.0}) {
-        if (auto found = Run(mesh, options, context).simplify_within(allowed, share, far)) return found;
+        auto found = Run(mesh, options, context).simplify_within(allowed, share, far);
+        if (found) return is_held_by_handles(found->mesh.view()) ? std::nullopt : std::move(found);
     }
     return std::nullopt;
 }

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/compare.hpp"
 #include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 #include "faqem/option_types.hpp"
@@ -32,6 +33,13 @@ inline std::uint64_t target_face_count(const Target& target, double faces) {
     return static_cast<std::uint64_t>(std::floor(std::min(wanted, 1e18)));
 }
 
+/// Whether handles and holes hold more than a sixth of the faces: a surface of genus g needs over 4 g faces.
+inline bool is_held_by_handles(const MeshView& mesh) {
+    const MeshInfo found = info(mesh);
+    const auto faces = static_cast<std::int64_t>(found.faces);
+    return 12 * (2 * static_cast<std::int64_t>(found.components) - found.euler) > faces;
+}
+
 /// A place that is too far: a face of the result and a face of the original, of which one is far from the other surface
 /// and the other one is nearest to it.
 struct FarFaces {
@@ -46,7 +54,8 @@ using FindFarFaces = std::function<std::vector<FarFaces>(const TriangleMesh&)>;
 /// \param allowed  the distance, model units
 /// \param far      called with results, until it returns none; best: without the fitting of vertices if it returns any
 /// \param options  as for run_to_targets(), with preset fast, balanced or best
-/// \return nothing if places are too far around which nothing was collapsed
+/// \return nothing if places are too far around which nothing was collapsed, or if the result is_held_by_handles(), of
+///         which none vanishes here
 /// \throws Cancelled, otherwise as run_to_targets(), and whatever `far` throws
 /// Complexity: O(n log n), and the calls of `far`
 FAQEM_EXPORT std::optional<SimplifyResult> run_within(const MeshView& mesh, double allowed,
