@@ -19,10 +19,10 @@ class CommonOptions(TypedDict, total=False):
     w_normal: float | None
     w_uv: float | None
     w_plane_area: float | None
-    link: Literal["as_preset", "off", "by_size", "on", "strict"] | None
+    link: Literal["as_preset", "as-preset", "off", "by_size", "by-size", "on", "strict"] | None
     boundary: Literal["free", "locked"] | None
     group_boundaries: Literal["free", "preferred", "preserved"] | None
-    welding: Literal["by_position", "none"] | None
+    welding: Literal["by_position", "by-position", "none"] | None
     weld_distance: float | None
     prune: Length | None
     virtual_edges: float | bool | None
@@ -46,10 +46,10 @@ class CommonModelOptions(CommonOptions, total=False):
     format: Literal["auto", "glb", "gltf", "obj", "ply", "stl"] | None
     allow_larger: bool | None
     max_bytes: int | str | None
-    bake: Literal["automatic", "atlas", "per_triangle", "vertex", "keep", "none"] | None
+    bake: Literal["automatic", "auto", "atlas", "per_triangle", "per-triangle", "vertex", "keep", "none"] | None
     texture_size: int | None
     texel_density: float | None
-    normal_map: Literal["automatic", "on", "off"] | None
+    normal_map: Literal["automatic", "auto", "on", "off"] | None
     normals: Literal["auto", "transfer", "smooth", "flat", "none"] | None
     crease_angle: float | None
     image_format: Literal["auto", "png", "jpeg", "source", "webp", "png-or-jpeg", "png_or_jpeg"] | None
