@@ -33,11 +33,11 @@ inline std::uint64_t target_face_count(const Target& target, double faces) {
     return static_cast<std::uint64_t>(std::floor(std::min(wanted, 1e18)));
 }
 
-/// Whether handles and holes hold more than a sixth of the faces: a surface of genus g needs over 4 g faces.
+/// Whether a surface is closed, and handles hold more than a sixth of its faces: genus g needs over 4 g faces.
 inline bool is_held_by_handles(const MeshView& mesh) {
     const MeshInfo found = info(mesh);
-    const auto faces = static_cast<std::int64_t>(found.faces);
-    return 12 * (2 * static_cast<std::int64_t>(found.components) - found.euler) > faces;
+    return found.boundary_edges == 0 &&
+           12 * (2 * std::int64_t(found.components) - found.euler) > std::int64_t(found.faces);
 }
 
 /// A place that is too far: a face of the result and a face of the original, of which one is far from the other surface
