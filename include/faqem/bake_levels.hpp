@@ -35,8 +35,8 @@ enum class LevelTextures {
 /// Simplifies the parts of an asset to several levels of detail, as simplify_levels(const MeshView&, ...).
 /// \param source   the asset; read only during the call
 /// \param levels   from fine to coarse. Face counts are totals over all parts and are distributed according
-///                 to Options::budget, but no part gets more faces than in the previous level. Distances are
-///                 in scene units
+///                 to Options::budget, but no part gets more than for the previous count. Distances are in scene
+///                 units
 /// \param options  as for simplify_parts(); target, max_error and max_seconds must be unset
 /// \return one result per level, each with the history that bake() needs. If the progress callback cancels,
 ///         report.stop of the last result is StopReason::cancelled, and results may be missing

@@ -56,7 +56,7 @@ std::vector<SimplifiedPartsLevel> simplify_parts_levels(const Asset& source, con
                     const engine::RunContext& of_run) {
                     return detail::simplify_parts_to_targets(welded, targets, own, of_run, level_targets);
                 },
-                measured);
+                measured, detail::parts_within(welded, measured, resolved));
         });
     for (SimplifiedPartsLevel& level : made) level.result.parts.resize(source.parts.size());
     return made;

@@ -34,7 +34,8 @@ double ReferenceParts::allowed_for(std::size_t part, double allowed) const {
 }
 
 std::optional<SimplifyResult> ReferenceParts::run_within(std::size_t part, const MeshView& view,
-                                                         double allowed, const Options& options,
+                                                         double allowed, Simplified what,
+                                                         const Options& options,
                                                          const RunContext& context) const {
     const double own = allowed_for(part, allowed);
     FarFaceSearch search(originals_[part], own);
@@ -43,7 +44,10 @@ std::optional<SimplifyResult> ReferenceParts::run_within(std::size_t part, const
         [&](const TriangleMesh& result) {
             std::vector<Vec3> rounded = result.positions;
             round_positions(precision_, result.triangles, rounded);
-            return search({rounded, result.triangles}, context.untimed());
+            std::vector<FarFaces> far = search({rounded, result.triangles}, context.untimed());
+            for (FarFaces& place : far)
+                if (what == Simplified::finer_level) place.original = no_index;
+            return far;
         },
         options, context);
 }
@@ -65,6 +69,22 @@ MeasuredDistance ReferenceParts::operator()(const SimplifiedParts& simplified, d
     return most;
 }
 
+RunWithin<SimplifiedParts> parts_within(const Asset& source, const ReferenceParts& measured,
+                                        const Options& options, Simplified what) {
+    // A part that is flat at rest is simplified in another shape than it is measured in.
+    if (!refuses_collapses(options) ||
+        std::any_of(source.parts.begin(), source.parts.end(), has_displacements))
+        return {};
+    return [&, what](double allowed, const Options& own, const RunContext& context) {
+        return simplify_each_part(source, own, context,
+                                  [&](std::size_t p, const MeshView& view, const Options& of_part_options,
+                                      const RunContext& of_part) {
+                                      return measured.run_within(p, view, allowed, what, of_part_options,
+                                                                 of_part);
+                                  });
+    };
+}
+
 SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& options,
                                             const RunContext& context) {
     context.show(Phase::simplify, 0);
@@ -72,16 +92,6 @@ SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& 
     const double allowed = measured.size()(*options.max_error);
     std::vector<LevelTarget> found;
     if (options.target.kind == Target::Kind::unset) found.resize(1);
-    // A part that is flat at rest is simplified in another shape than it is measured in.
-    const bool refuses = refuses_collapses(options) &&
-                         std::none_of(source.parts.begin(), source.parts.end(), has_displacements);
-    const RunWithin<SimplifiedParts> within = [&](const Options& own, const RunContext& of_run) {
-        return simplify_each_part(source, own, of_run,
-                                  [&](std::size_t p, const MeshView& view, const Options& of_part_options,
-                                      const RunContext& of_part) {
-                                      return measured.run_within(p, view, allowed, of_part_options, of_part);
-                                  });
-    };
     return search_within_error<SimplifiedParts>(
         options, context, measured.faces(), allowed,
         [&](const Options& own, const RunContext& of_run) {
@@ -90,7 +100,7 @@ SimplifiedParts simplify_parts_within_error(const Asset& source, const Options& 
         [&](const SimplifiedParts& simplified, MeasureMode mode, const RunContext& of_measurement) {
             return measured(simplified, allowed, mode, of_measurement);
         },
-        refuses ? within : RunWithin<SimplifiedParts>());
+        parts_within(source, measured, options));
 }
 
 }  // namespace faqem::detail

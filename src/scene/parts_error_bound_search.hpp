@@ -14,6 +14,9 @@
 
 namespace faqem::detail {
 
+/// What is simplified within an error of the original.
+enum class Simplified { original, finer_level };
+
 /// The original parts of an asset, to which several results can be compared.
 class ReferenceParts {
 public:
@@ -39,9 +42,11 @@ public:
     /// \param part     its index
     /// \param view     the part as the input of simplify()
     /// \param allowed  as above
+    /// \param what     the original part, or another surface near to it
     /// \param options  of the part
     std::optional<SimplifyResult> run_within(std::size_t part, const MeshView& view, double allowed,
-                                             const Options& options, const RunContext& context) const;
+                                             Simplified what, const Options& options,
+                                             const RunContext& context) const;
 
 private:
     double allowed_for(std::size_t part, double allowed) const;
@@ -53,6 +58,12 @@ private:
     std::vector<DistanceReference> originals_;
     std::uint64_t faces_ = 0;
 };
+
+/// run_within() for all parts of an asset; empty if it is not possible for one of them.
+/// \param source    must outlive the function that is returned, as `measured`
+/// \param measured  made from the original
+RunWithin<SimplifiedParts> parts_within(const Asset& source, const ReferenceParts& measured,
+                                        const Options& options, Simplified what = Simplified::original);
 
 /// simplify_parts() with Options::max_error: each part uses the error everywhere, or, if that is not possible, there is a
 /// search over the face count of the whole asset, with one call of simplify_welded_parts() per attempt.

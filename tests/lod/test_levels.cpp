@@ -198,14 +198,20 @@ TEST_CASE("levels: distances and face counts may be mixed") {
     CHECK(levels[1].result.report.max_error->allowed == 0.03);
     CHECK(levels[2].result.mesh.triangles.size() <= 60);
     CHECK(levels[2].error > 0.03);
-    const auto searched = simplify_levels(mesh.view(), {model_units(0.03)}, with(Preset::fast));
-    Options options = with(Preset::fast);
-    options.max_error = model_units(0.03);
-    CHECK(simplify(mesh.view(), options).mesh.triangles.size() <= searched[0].result.mesh.triangles.size());
-    const auto counted = simplify_levels(mesh.view(), {faces(200)}, with(Preset::fast));
-    options.max_error.reset();
-    options.target = faces(200);
-    CHECK(counted[0].result.mesh.positions == simplify(mesh.view(), options).mesh.positions);
+}
+
+TEST_CASE(
+    "levels: a level of a distance equals the result of simplify() within that error, after any others") {
+    const TriangleMesh mesh = test::lump(4);
+    for (const Preset preset : {Preset::fast, Preset::best}) {
+        Options options = with(preset, Recording::on);
+        const auto levels =
+            simplify_levels(mesh.view(), {ratio(0.5), model_units(0.03), model_units(0.1)}, options);
+        for (const std::size_t i : {1u, 2u}) {
+            options.max_error = model_units(i == 1 ? 0.03 : 0.1);
+            check_same_level(levels[i].result, simplify(mesh.view(), options));
+        }
+    }
 }
 
 TEST_CASE("levels: a level finer than the previous one repeats its mesh") {

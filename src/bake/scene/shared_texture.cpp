@@ -87,7 +87,7 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
         [&](const std::vector<std::uint64_t>& targets, const Options& own, const RunContext& of_run) {
             return simplify_parts_to_targets(source, targets, own, of_run, level_targets.first(1));
         },
-        measured);
+        measured, parts_within(source, measured, finest_options));
     const SimplifiedPartsLevel& finest = made.front();
     std::vector<SimplifiedAssetLevel> out;
     out.reserve(level_targets.size());  // `baked` is a reference to the first element
@@ -96,6 +96,13 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
     const SimplifiedAsset& baked = out.front().result;
     if (level_targets.size() == 1) return out;
 
+    const RunWithin<SimplifiedParts> within =
+        parts_within(baked.asset, measured, other_options, Simplified::finer_level);
+    const auto other_within = [&](double allowed, const Options& own, const RunContext& of_run) {
+        std::optional<SimplifiedParts> simplified = within(allowed, own, of_run);
+        if (simplified) add_counts_of_finest(*simplified, finest.result, baked.report);
+        return simplified;
+    };
     std::vector<SimplifiedPartsLevel> others = run_lod_chain<SimplifiedPartsLevel>(
         level_targets.subspan(1), other_options, baking(1), finest.result.report.faces_out,
         [&](const std::vector<std::uint64_t>& targets, const Options& own, const RunContext& of_run) {
@@ -105,7 +112,7 @@ std::vector<SimplifiedAssetLevel> levels_with_shared_texture(const Asset& source
                 add_counts_of_finest(simplified, finest.result, baked.report);
             return results;
         },
-        measured);
+        measured, within ? other_within : RunWithin<SimplifiedParts>());
     keep_only_cancelled(others);
     for (SimplifiedPartsLevel& level : others) {
         const SimplifiedParts simplified = std::move(level.result);

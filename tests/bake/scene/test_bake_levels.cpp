@@ -142,6 +142,7 @@ TEST_CASE("levels with a shared texture use one image and have the colours of th
     }
     REQUIRE(levels[2].result.report.max_error);
     CHECK(levels[2].result.report.max_error->within());
+    CHECK(levels[2].result.report.max_error->runs == 1);  // no search
     CHECK(levels[3].result.report.collapses > levels[0].result.report.collapses);
 }
 

@@ -94,7 +94,8 @@ FAQEM_INLINE std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
         [&](const SimplifyResult& result, double allowed, detail::MeasureMode mode,
             const engine::RunContext& of_measurement) {
             return detail::distance(original, result, allowed, mode, options, of_measurement);
-        });
+        },
+        detail::mesh_within(mesh, original, options));
     for (SimplifiedLevel& level : chain) detail::report_removed_components(mesh, level.result);
     return chain;
 } catch (const engine::Cancelled&) {

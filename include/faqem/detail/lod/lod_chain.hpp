@@ -46,13 +46,14 @@ template <class Out, class Run, class Measure>
 class LodChain {
 public:
     LodChain(std::span<const LevelTarget> level_targets, const Options& options, const RunContext& context,
-             std::uint64_t faces, Run& run, Measure& measure)
+             std::uint64_t faces, Run& run, Measure& measure, const RunWithin<decltype(Out::result)>& within)
         : level_targets_(level_targets),
           options_(options),
           context_(context),
           faces_(faces),
           run_(run),
           measure_(measure),
+          within_(within),
           steps_(1 +
                  static_cast<double>(std::count_if(level_targets.begin(), level_targets.end(), is_distance))),
           out_(level_targets.size()) {}
@@ -84,10 +85,20 @@ private:
         return only;
     }
 
-    // Finds the face count of level i, whose target is a distance. Returns false if cancelled.
+    // Simplifies level i, whose target is a distance. Returns false if cancelled.
     bool search(std::size_t i, std::uint64_t most) {
         Options search = options_;
         search.max_error = model_units(level_targets_[i].allowed);
+        RunWithin<Attempt<Result>> within;
+        if (within_) {
+            within = [&](double allowed, const Options& own,
+                         const RunContext& of_run) -> std::optional<Attempt<Result>> {
+                std::optional<Result> result = within_(allowed, own, of_run);
+                if (!result || result->report.faces_out > most) return std::nullopt;
+                const std::uint64_t faces = result->report.faces_out;
+                return Attempt<Result>{std::move(*result), faces};
+            };
+        }
         auto found = search_within_error<Attempt<Result>>(
             search, next_step(), most, level_targets_[i].allowed,
             [&](const Options& tried, const RunContext& of_run) {
@@ -99,7 +110,8 @@ private:
             },
             [&](const Result& result, MeasureMode mode, const RunContext& of_measurement) {
                 return measure_(result, level_targets_[i].allowed, mode, of_measurement);
-            });
+            },
+            within);
         targets_.push_back(found.target);
         out_[i].result = std::move(found);
         if (out_[i].result.report.stop == StopReason::cancelled) return false;
@@ -167,14 +179,15 @@ private:
     std::uint64_t faces_;
     Run& run_;
     Measure& measure_;
+    const RunWithin<Result>& within_;
     double steps_;  // one per search, and one for the levels that need none
     double steps_done_ = 0;
     std::vector<std::uint64_t> targets_;  // face counts of the levels so far
     std::vector<Out> out_;
 };
 
-/// Runs the simplification for all levels and measures each level against the original. Distances are first
-/// converted to face counts by a search each; then one run produces all levels.
+/// Runs the simplification for all levels and measures each level against the original. Levels of a distance come first,
+/// each simplified from the original by `within` or found by a search for its face count; then one run produces the others.
 /// \tparam Out           a type with the members of SimplifiedLevel
 /// \param level_targets  as returned by level_targets()
 /// \param options        options of the runs
@@ -182,13 +195,15 @@ private:
 /// \param faces          number of faces of the original
 /// \param run            (targets, Options, RunContext) -> results, as run_to_targets()
 /// \param measure        (Result, allowed, MeasureMode, RunContext) -> MeasuredDistance
+/// \param within         for levels of a distance; a result with more faces than the level before is not used
 /// \return one element per level; fewer if cancelled, the last one with StopReason::cancelled
 /// \throws whatever `run`, `measure` or the progress callback throws, except Cancelled from `measure`
 template <class Out, class Run, class Measure>
 std::vector<Out> run_lod_chain(std::span<const LevelTarget> level_targets, const Options& options,
-                               const RunContext& context, std::uint64_t faces, Run&& run, Measure&& measure) {
+                               const RunContext& context, std::uint64_t faces, Run&& run, Measure&& measure,
+                               const RunWithin<decltype(Out::result)>& within = {}) {
     LodChain<Out, std::remove_reference_t<Run>, std::remove_reference_t<Measure>> chain(
-        level_targets, options, context, faces, run, measure);
+        level_targets, options, context, faces, run, measure, within);
     return chain.simplify();
 }
 

@@ -171,6 +171,16 @@ FAQEM_INLINE double unpruned_diagonal(const MeshView& mesh, const Options& optio
     return options.topology.prune ? extract_surface(mesh).diagonal() : original.surface().diagonal();
 }
 
+FAQEM_INLINE RunWithin<SimplifyResult> mesh_within(const MeshView& mesh, const DistanceReference& original,
+                                                   const Options& options) {
+    if (!refuses_collapses(options)) return {};
+    return [&](double allowed, const Options& own, const RunContext& context) {
+        FarFaceSearch search(original, allowed);
+        const auto far = [&](const TriangleMesh& result) { return search(result.view(), context.untimed()); };
+        return run_within(mesh, allowed, far, own, context);
+    };
+}
+
 FAQEM_INLINE SimplifyResult
 simplify_within_error(const MeshView& mesh, const Options& options, const RunContext& context,
                       const std::function<SimplifyResult(const Options&, const RunContext&)>& run) try {
@@ -179,17 +189,12 @@ simplify_within_error(const MeshView& mesh, const Options& options, const RunCon
     const MaxError& error = *options.max_error;
     const double unit = error.unit == MaxError::Unit::model ? 1 : unpruned_diagonal(mesh, options, original);
     const double allowed = error.value * unit;
-    const auto within = [&](const Options& own, const RunContext& of_run) {
-        FarFaceSearch search(original, allowed);
-        const auto far = [&](const TriangleMesh& result) { return search(result.view(), of_run.untimed()); };
-        return run_within(mesh, allowed, far, own, of_run);
-    };
     return search_within_error<SimplifyResult>(
         options, context, mesh.triangles.size(), allowed, run,
         [&](const SimplifyResult& result, MeasureMode mode, const RunContext& of_measurement) {
             return distance(original, result, allowed, mode, options, of_measurement);
         },
-        refuses_collapses(options) ? within : RunWithin<SimplifyResult>());
+        mesh_within(mesh, original, options));
 } catch (const engine::Cancelled&) {
     return cancelled_result<SimplifyResult>();
 }

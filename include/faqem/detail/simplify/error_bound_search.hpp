@@ -133,6 +133,17 @@ SimplifyResult simplify_within_error(
     const MeshView& mesh, const Options& options, const RunContext& context,
     const std::function<SimplifyResult(const Options&, const RunContext&)>& run);
 
+/// Finds a mesh within an error without a search for its face count; nothing if that is not possible. Empty: it never is.
+/// Its arguments are the error in the units of the measurement, the options without target, and the context.
+template <class Result>
+using RunWithin = std::function<std::optional<Result>(double, const Options&, const RunContext&)>;
+
+/// run_within() for a mesh; empty if collapses of the preset cannot be refused.
+/// \param mesh      must outlive the function that is returned, as `original`
+/// \param original  made from `mesh`
+FAQEM_EXPORT RunWithin<SimplifyResult> mesh_within(const MeshView& mesh, const DistanceReference& original,
+                                                   const Options& options);
+
 /// Sets stop reason, target and warnings of the report of a search.
 /// \param report           of the best result, with max_error
 /// \param undecided_count  number of results that could not be decided within the limit on the work
@@ -140,10 +151,6 @@ FAQEM_EXPORT void report_search(Report& report, std::uint64_t undecided_count);
 
 /// Whether collapses are refused beyond Options::max_error, before a search for the face count.
 FAQEM_EXPORT bool refuses_collapses(const Options& options);
-
-/// Finds a mesh within the error without a search for its face count; nothing if that was not possible.
-template <class Result>
-using RunWithin = std::function<std::optional<Result>(const Options&, const RunContext&)>;
 
 /// The steps of search_within_error(), which documents the parameters.
 template <class Result, class Run, class Measure>
@@ -194,8 +201,8 @@ private:
     static bool is_cancelled(const Result& result) { return result.report.stop == StopReason::cancelled; }
 
     std::optional<Result> run_within_error() {
-        std::optional<Result> result =
-            within_(std::as_const(options_), context_.step(Phase::simplify, 0, refusing_share));
+        std::optional<Result> result = within_(error_.allowed, std::as_const(options_),
+                                               context_.step(Phase::simplify, 0, refusing_share));
         ++error_.runs;
         if (result) is_late_ = result->report.stop == StopReason::reached_time_limit;
         return result;

@@ -120,7 +120,7 @@ private:
             if (far.empty()) break;
             for (const auto& [face, original] : far) {
                 if (!steps.undo_last(slot_of_face[result.face_origin[face]]) &&
-                    !steps.undo_last(slot_of_face[original]))
+                    (original == no_index || !steps.undo_last(slot_of_face[original])))
                     return std::nullopt;
             }
         }

@@ -41,7 +41,7 @@ inline bool is_held_by_handles(const MeshView& mesh) {
 }
 
 /// A place that is too far: a face of the result and a face of the original, of which one is far from the other surface
-/// and the other one is nearest to it.
+/// and the other one is nearest to it; no_index: another mesh than the original is simplified.
 struct FarFaces {
     Index result, original;
     auto operator<=>(const FarFaces&) const = default;
