@@ -82,11 +82,11 @@ inline std::vector<std::array<Index, 2>> find_boundary_edges(std::span<const Tri
     return open;
 }
 
-/// Calls visit(BoundaryEdge) for each boundary edge that the new vertex of a pair would have after the
+/// Calls visit(BoundaryEdge) for each boundary edge from a neighbour of u to the new vertex of the pair (u, v) after its
 /// collapse. O(valence squared)
 template <class Visit>
-void for_each_boundary_edge_after(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
-                                  Visit&& visit) {
+void for_each_boundary_edge_after_at(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+                                     Visit&& visit) {
     using namespace boundary_edges;
     pairs.for_each_pair(u, [&](Neighbour n) {
         const std::uint32_t with_u = pairs.face_count(n.pair);
@@ -95,6 +95,15 @@ void for_each_boundary_edge_after(const CollapseMesh& mesh, const PairTable& pai
         const std::uint32_t removed = with_v > 0 ? 2 * mesh.count_faces_with(u, v, n.vertex) : 0;
         if (with_u + with_v - removed == 1) visit(BoundaryEdge{n.vertex, with_u, with_v});
     });
+}
+
+/// Calls visit(BoundaryEdge) for each boundary edge that the new vertex of a pair would have after the
+/// collapse. O(valence squared)
+template <class Visit>
+void for_each_boundary_edge_after(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+                                  Visit&& visit) {
+    using namespace boundary_edges;
+    for_each_boundary_edge_after_at(mesh, pairs, u, v, visit);
     pairs.for_each_pair(v, [&](Neighbour n) {
         if (n.vertex == u || pairs.face_count(n.pair) != 1) return;
         if (edge_face_count(mesh, pairs, u, n.vertex) == 0) visit(BoundaryEdge{n.vertex, 0, 1});

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "faqem/engine/mesh/normal_cones.hpp"
@@ -73,8 +74,8 @@ public:
         const Vector3 d = mesh.position(v) - origin;
         Planes shared;
         sum_shared(mesh, pairs, pair, shared);
-        const Planes at_v = planes_at(v);
-        Planes sum = planes_at(u);
+        const Planes at_v = planes_at(mesh, v);
+        Planes sum = planes_at(mesh, u);
         sum.add(at_v, 1);
         sum.add(shared, -0.5);
         const Vector3 moment = at_v.apply(d);
@@ -147,10 +148,15 @@ private:
         }
     }
 
-    Planes planes_at(Index v) const {
+    Planes planes_at(const CollapseMesh& mesh, Index v) const {
         const VertexPlanes& planes = vertex_planes_[v];
         Planes q = planes.faces;
-        if (planes.has_edge_planes) q.add(edge_planes_[v], 1);
+        if (!planes.has_edge_planes) return q;
+        if (!high_valence_edges_.empty()) {
+            const auto known = high_valence_edges_.find(v);
+            if (known != high_valence_edges_.end()) sum_high_valence_edges(mesh, v, known->second);
+        }
+        q.add(edge_planes_[v], 1);
         return q;
     }
 
@@ -160,9 +166,10 @@ private:
         if (!high_valence_edges_.empty()) high_valence_edges_.erase(v);
         if (has_regular_edges_only(mesh, pairs, v)) return;
         if (mesh.is_high_valence(v)) {
-            std::vector<Index>& ends = high_valence_edges_[v];
-            pairs.for_each_pair(v, [&](Neighbour n) { ends.push_back(n.vertex); });
-            return sum_high_valence_edges(mesh, v, ends);
+            HighValenceEdges& edges = high_valence_edges_[v];
+            pairs.for_each_pair(v, [&](Neighbour n) { edges.ends.push_back(n.vertex); });
+            vertex_planes_[v].has_edge_planes = edges.is_stale = true;
+            return;
         }
         Planes q;
         pairs.for_each_pair(v, [&](Neighbour n) {
@@ -187,7 +194,7 @@ private:
             high_valence_edges_.empty() ? high_valence_edges_.end() : high_valence_edges_.find(v);
         if (known == high_valence_edges_.end() || has_regular_edges_only(mesh, pairs, v))
             return update_edge_planes(mesh, pairs, v);
-        std::vector<Index>& ends = known->second;
+        std::vector<Index>& ends = known->second.ends;
         const auto [lower, higher] = mesh.lower_degree_first(u, v);
         mesh.for_each_face(lower, [&, other = higher](Index f, unsigned) {
             if (!mesh.has_corner(f, other)) return;
@@ -195,12 +202,20 @@ private:
                 if (w != v) ends.push_back(w);
             }
         });
-        sum_high_valence_edges(mesh, v, ends);
+        vertex_planes_[v].has_edge_planes = known->second.is_stale = true;
     }
 
-    // \param ends  other ends of the edges that may have planes, in any order; becomes those that have,
-    //     ascending
-    void sum_high_valence_edges(const CollapseMesh& mesh, Index v, std::vector<Index>& ends) {
+    // The planes of a high-valence vertex are summed when a pair needs them: often its neighbours are collapsed first, many
+    // of them.
+    struct HighValenceEdges {
+        std::vector<Index>
+            ends;  // of the edges that have planes, ascending; stale: of those that may have, in any order
+        bool is_stale = false;
+    };
+
+    void sum_high_valence_edges(const CollapseMesh& mesh, Index v, HighValenceEdges& edges) const {
+        if (!std::exchange(edges.is_stale, false)) return;
+        std::vector<Index>& ends = edges.ends;
         std::sort(ends.begin(), ends.end());
         ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
         Planes q;
@@ -221,7 +236,6 @@ private:
             q.add(own, weight);
             return false;
         });
-        vertex_planes_[v].has_edge_planes = !ends.empty();
         edge_planes_[v] = q;
     }
 
@@ -297,9 +311,8 @@ private:
     const FeatureCurves* curves_;
     Eigen::AlignedBox3d placement_bounds_;  // see placement_bounds()
     std::vector<VertexPlanes> vertex_planes_;
-    std::vector<Planes> edge_planes_;  // per vertex: sum of the planes along its edges
-    // Per high-valence vertex with such edges: their other ends, ascending.
-    std::map<Index, std::vector<Index>> high_valence_edges_;
+    mutable std::vector<Planes> edge_planes_;  // per vertex: sum of the planes along its edges
+    mutable std::map<Index, HighValenceEdges> high_valence_edges_;  // per high-valence vertex with such edges
     NormalCones cones_;
 };
 

@@ -4,6 +4,7 @@
 /// them.
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -24,6 +25,9 @@ namespace engine {
 /// thread-safe.
 class BoundaryBindings {
 public:
+    /// Where one vertex of a pair has more boundary edges than this, only those of the other vertex are tracked.
+    static constexpr std::uint32_t max_tracked_edges = 64;
+
     /// Binds each tracked boundary vertex to a boundary edge near it. Typically O(boundary edges + tracked
     /// vertices)
     /// \param original         used during construction only
@@ -57,11 +61,16 @@ public:
         gather(pairs, u, v);
         edges_.clear();
         ends_.clear();
-        for_each_boundary_edge_after(mesh, pairs, u, v, [&](const BoundaryEdge& edge) {
-            const Vector3& end = mesh.position(edge.vertex);
-            edges_.emplace_back(p, end);
+        const auto add = [&](const BoundaryEdge& edge) {
+            edges_.emplace_back(p, mesh.position(edge.vertex));
             ends_.push_back(edge.vertex);
-        });
+        };
+        if (tracks_both(pairs, u, v))
+            for_each_boundary_edge_after(mesh, pairs, u, v, add);
+        else if (pairs.boundary_degree(u) <= pairs.boundary_degree(v))
+            for_each_boundary_edge_after_at(mesh, pairs, u, v, add);
+        else
+            for_each_boundary_edge_after_at(mesh, pairs, v, u, add);
         if (edges_.empty()) return 0;
         FarthestPoint farthest(edges_);
         for (const Index i : bound_) farthest.add(points_[i].position);
@@ -80,11 +89,11 @@ public:
         bound_.clear();
         if (!touches_boundary(pairs, u, v)) return;
         gather(pairs, u, v);
-        for (const Index a : {u, v}) {
+        for_each_tracked(pairs, u, v, [&](Index a) {
             pairs.for_each_pair(a, [&](Neighbour n) {
                 if (pairs.face_count(n.pair) == 1) first_bound_[n.pair] = no_index;
             });
-        }
+        });
     }
 
     /// Must be called after the collapse. O(valence times bound vertices)
@@ -137,11 +146,25 @@ private:
         first_bound_[pair] = point;
     }
 
-    // Sets bound_ to the points bound to the boundary edges of u and v.
+    // Whether the edges of both vertices are tracked, or only those of the vertex with fewer.
+    static bool tracks_both(const PairTable& pairs, Index u, Index v) {
+        return std::max(pairs.boundary_degree(u), pairs.boundary_degree(v)) <= max_tracked_edges;
+    }
+
+    // Calls visit(vertex) for those of the pair whose edges are tracked.
+    template <class Visit>
+    static void for_each_tracked(const PairTable& pairs, Index u, Index v, Visit&& visit) {
+        const bool both = tracks_both(pairs, u, v),
+                   first = pairs.boundary_degree(u) <= pairs.boundary_degree(v);
+        if (both || first) visit(u);
+        if (both || !first) visit(v);
+    }
+
+    // Sets bound_ to the points bound to the boundary edges of the pair.
     void gather(const PairTable& pairs, Index u, Index v) {
         bound_.clear();
-        gather_at(pairs, u, no_index);
-        gather_at(pairs, v, u);
+        Index excluded = no_index;
+        for_each_tracked(pairs, u, v, [&](Index a) { gather_at(pairs, a, std::exchange(excluded, a)); });
     }
 
     // Adds the points bound to the boundary edges of v, except for the edge to `excluded`.

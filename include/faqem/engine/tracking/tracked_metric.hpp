@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -58,6 +59,9 @@ public:
     /// Factor on the squared distances of boundaries: outlines are visible first, and the distances at the
     /// original boundary vertices are smaller than those between them.
     static constexpr double boundary_factor = 2;
+    /// Where one vertex of a pair has more faces than this, only those of the other vertex are tracked: each pair of the
+    /// vertex would visit all of them.
+    static constexpr std::uint32_t max_tracked_valence = 64;
 
     /// \param weights       weights of the memoryless metric
     /// \param original      borrowed, must outlive this object
@@ -154,9 +158,13 @@ public:
         boundary_bindings_->before_collapse(pairs, survivor, removed);
         if (!is_tracking_) return bindings_->merge(survivor, removed);
         bound_.clear();
-        mesh.for_each_face_around(survivor, removed, [&](Index f, unsigned) {
+        faces_.clear();
+        tracked_all_ = tracks_all_faces(mesh, survivor, removed);
+        for_each_tracked_face(mesh, survivor, removed, [&](Index f, unsigned) {
             bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
             bindings_->unbind_all(f);
+            if (!tracked_all_ && !(mesh.has_corner(f, survivor) && mesh.has_corner(f, removed)))
+                faces_.push_back(f);
         });
     }
 
@@ -165,14 +173,13 @@ public:
         memoryless_.after_collapse(mesh, pairs, survivor, around);
         boundary_bindings_->after_collapse(mesh, pairs, survivor, around);
         if (!is_tracking_) return start_tracking_if_near_target(mesh);
+        if (tracked_all_) mesh.for_each_face(survivor, [&](Index f, unsigned) { faces_.push_back(f); });
+        if (faces_.empty()) return;
         faces_after_.clear();
-        faces_.clear();
-        mesh.for_each_face(survivor, [&](Index f, unsigned) {
+        for (const Index f : faces_) {
             const Triangle& t = mesh.triangle(f);
             faces_after_.emplace_back(mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2]));
-            faces_.push_back(f);
-        });
-        if (faces_.empty()) return;
+        }
         for_each_bound([&](Index x) {
             bindings_->bind(x, faces_[nearest_index(faces_after_, bindings_->position(x))]);
         });
@@ -200,13 +207,24 @@ private:
         bindings_->bind_all(mesh, context_);
     }
 
-    // Sets faces_after_ to the faces at the new vertex after the collapse, and bound_ to the vertices bound
+    static bool tracks_all_faces(const CollapseMesh& mesh, Index u, Index v) {
+        return std::max(mesh.degree(u), mesh.degree(v)) <= max_tracked_valence;
+    }
+
+    // Calls visit(face, corner) for the faces around a pair that are tracked.
+    template <class Visit>
+    static void for_each_tracked_face(const CollapseMesh& mesh, Index u, Index v, Visit&& visit) {
+        if (tracks_all_faces(mesh, u, v)) return mesh.for_each_face_around(u, v, visit);
+        mesh.for_each_face(mesh.lower_degree_first(u, v).first, visit);
+    }
+
+    // Sets faces_after_ to the tracked faces at the new vertex after the collapse, and bound_ to the vertices bound
     // around the pair.
     void gather_faces_after(const CollapseMesh& mesh, Index u, Index v, const Vector3& p) {
         faces_after_.clear();
         opposite_.clear();
         bound_.clear();
-        mesh.for_each_face_around(u, v, [&](Index f, unsigned corner) {
+        for_each_tracked_face(mesh, u, v, [&](Index f, unsigned corner) {
             bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
             if (mesh.has_corner(f, u) && mesh.has_corner(f, v)) return;
             const Triangle& t = mesh.triangle(f);
@@ -249,11 +267,12 @@ private:
     TrackedVertices tracked_;
     std::size_t target_faces_;
     bool is_tracking_ = false;
+    bool tracked_all_ = true;  // around the pair that is being collapsed
     double weight_;
     DistanceLimit limit_;
     std::vector<std::array<Vector3, 2>> opposite_;  // sides of the faces at the new vertex without it
     std::vector<TriangleDistance> faces_after_;     // faces at the new vertex
-    std::vector<Index> faces_;                      // their indices
+    std::vector<Index> faces_;                      // those that are tracked after a collapse
     std::vector<Index> bound_;                      // tracked vertices bound around the pair
 };
 
