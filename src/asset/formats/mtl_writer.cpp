@@ -11,7 +11,7 @@
 #include "asset/io/file.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/repair.hpp"
-#include "asset/text/text_buffer.hpp"
+#include "asset/text/number_text.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -58,19 +58,12 @@ private:
         return candidate;
     }
 
-    void number(const char* key, float value) {
-        library_.text += std::string(key) + " ";
-        append_number(library_.text, value);
-        library_.text += "\n";
-    }
+    void number(const char* key, float value) { append_line(library_.text, key, std::array{value}); }
 
     void color(const char* key, const Vec3f& linear) {
-        library_.text += key;
-        for (const float c : linear) {
-            library_.text += " ";
-            append_number(library_.text, round_to_six_decimals(srgb_from_linear(c)));
-        }
-        library_.text += "\n";
+        Vec3 srgb;
+        for (std::size_t k = 0; k < 3; ++k) srgb[k] = round_to_six_decimals(srgb_from_linear(linear[k]));
+        append_line(library_.text, key, srgb);
     }
 
     /// \param key  with options

@@ -17,7 +17,7 @@
 #include "asset/scene/objects.hpp"
 #include "asset/scene/position_rounding.hpp"
 #include "asset/scene/value_numbers.hpp"
-#include "asset/text/text_buffer.hpp"
+#include "asset/text/number_text.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -91,21 +91,21 @@ public:
         return position_line_[vertex] = positions_.insert(row);
     }
 
-    void write(TextBuffer& text) const {
+    void write(std::string& text) const {
         const bool floats = is_float_representable(part_.positions);
         for (const LineValues<6>& row : positions_.values()) {
-            text.put('v');
+            text += 'v';
             for (std::size_t k = 0; k < (part_.colors.empty() ? 3 : 6); ++k) {
-                text.put(' ');
+                text += ' ';
                 if (floats && k < 3)
-                    text.put_number(static_cast<float>(row[k]));
+                    append_number(text, static_cast<float>(row[k]));
                 else
-                    text.put_number(row[k]);
+                    append_number(text, row[k]);
             }
-            text.put('\n');
+            text += '\n';
         }
-        write_floats(text, "vt", uvs_.values());
-        write_floats(text, "vn", normals_.values());
+        for (const Vec2f& uv : uvs_.values()) append_line(text, "vt", uv);
+        for (const Vec3f& normal : normals_.values()) append_line(text, "vn", normal);
     }
 
 private:
@@ -123,18 +123,6 @@ private:
         return {ref.offset[0] + rotated[0], 1 - (ref.offset[1] + rotated[1])};
     }
 
-    template <class Values>
-    static void write_floats(TextBuffer& text, std::string_view key, const Values& lines) {
-        for (const auto& row : lines) {
-            text.put(key);
-            for (const float x : row) {
-                text.put(' ');
-                text.put_number(x);
-            }
-            text.put('\n');
-        }
-    }
-
     /// Line number of the UV of a vertex for the material that used it last.
     struct CachedUv {
         Index material = no_index, number = no_index;
@@ -149,14 +137,14 @@ private:
     UniqueValues<Vec3f> normals_;
 };
 
-void append_corner(TextBuffer& text, const std::array<std::uint64_t, 3>& numbers) {
-    text.put(' ');
-    text.put_number(numbers[0]);
-    if (numbers[1] || numbers[2]) text.put('/');
-    if (numbers[1]) text.put_number(numbers[1]);
+void append_corner(std::string& text, const std::array<std::uint64_t, 3>& numbers) {
+    text += ' ';
+    append_number(text, numbers[0]);
+    if (numbers[1] || numbers[2]) text += '/';
+    if (numbers[1]) append_number(text, numbers[1]);
     if (!numbers[2]) return;
-    text.put('/');
-    text.put_number(numbers[2]);
+    text += '/';
+    append_number(text, numbers[2]);
 }
 
 /// An object of the file: a name and its first face.
@@ -191,28 +179,29 @@ std::vector<ObjObject> objects_of(const Asset& asset, const std::vector<Instance
     return objects;
 }
 
-TextBuffer faces_text(const Part& part, VertexLines& lines, const UsedMaterials& used,
-                      const MtlLibrary& library, const std::vector<ObjObject>& objects) {
-    TextBuffer text;
+std::string faces_text(const Part& part, VertexLines& lines, const UsedMaterials& used,
+                       const MtlLibrary& library, const std::vector<ObjObject>& objects) {
+    std::string text;
+    text.reserve(40 * part.triangles.size());  // as long as most files need, since growing copies the text
     Index current = no_index, group = no_index;
     auto next = objects.begin();
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         if (objects.size() > 1 && next != objects.end() && next->first_face == f)
-            text.put("o " + next++->name + "\n");
+            text += "o " + next++->name + "\n";
         if (!part.face_group.empty() && part.face_group[f] != group) {
             group = part.face_group[f];
-            text.put("g " +
-                     (group == no_index ? std::string(default_group_name)
-                                        : sanitized_name(part.group_names[group], default_group_name)) +
-                     "\n");
+            text += "g " +
+                    (group == no_index ? std::string(default_group_name)
+                                       : sanitized_name(part.group_names[group], default_group_name)) +
+                    "\n";
         }
         const Index material = part.face_material[f];
         const Index slot = used.slot_of(material);
-        if (!used.materials.empty() && slot != current) text.put("usemtl " + library.names[slot] + "\n");
+        if (!used.materials.empty() && slot != current) text += "usemtl " + library.names[slot] + "\n";
         current = slot;
-        text.put('f');
+        text += 'f';
         for (const Index v : part.triangles[f]) append_corner(text, lines.corner(v, material));
-        text.put('\n');
+        text += '\n';
     }
     return text;
 }
@@ -235,15 +224,16 @@ EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
 
     VertexLines lines(asset, flat);
     const std::vector<ObjObject> objects = objects_of(parts, all, stem, losses);
-    const TextBuffer faces = faces_text(flat, lines, used, library, objects);
+    const std::string faces = faces_text(flat, lines, used, library, objects);
     for (Index v = 0; v < flat.positions.size(); ++v) lines.position(v);
-    TextBuffer text;
-    if (!used.materials.empty()) text.put("mtllib " + library_file_name(stem) + "\n");
-    if (objects.size() < 2) text.put("o " + (objects.empty() ? stem : objects[0].name) + "\n");
+    std::string text;
+    text.reserve(2 * faces.size() + faces.size() / 2);  // the vertices take about as much as the faces
+    if (!used.materials.empty()) text += "mtllib " + library_file_name(stem) + "\n";
+    if (objects.size() < 2) text += "o " + (objects.empty() ? stem : objects[0].name) + "\n";
     lines.write(text);
     if (asset.smoothing != Smoothing::unknown && flat.normals.empty())
-        text.put(asset.smoothing == Smoothing::on ? "s 1\n" : "s off\n");
-    text.put(faces.view());
+        text += asset.smoothing == Smoothing::on ? "s 1\n" : "s off\n";
+    text += faces;
 
     for (const MtlImage& image : library.images)
         model.files.push_back(encoded_image(image.name, asset.images[image.image]));

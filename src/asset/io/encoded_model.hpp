@@ -25,7 +25,7 @@ struct EncodedFile {
 };
 
 /// A file with the bytes of a buffer, which are not copied.
-/// \tparam Buffer  std::vector<std::uint8_t>, std::string or TextBuffer
+/// \tparam Buffer  std::vector<std::uint8_t> or std::string
 template <class Buffer>
 EncodedFile encoded_file(std::string name, Buffer content) {
     const auto owner = std::make_shared<const Buffer>(std::move(content));
