@@ -26,8 +26,6 @@ void check_spec(const Image& image, const OIIO::ImageSpec& spec) {
     constexpr std::size_t max_channel_bytes = 4;
     if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
         fail_image(image, "is not a two-dimensional image");
-    check_image_size(image,
-                     {static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)});
     constexpr auto max_tile_side = static_cast<int>(max_image_side);
     if (spec.nchannels > max_channels || spec.format.size() > max_channel_bytes ||
         spec.tile_width > max_tile_side || spec.tile_height > max_tile_side || spec.tile_depth > 1)
@@ -73,10 +71,9 @@ Pixels decode_as(const Image& image, const std::string& format) {
     if (!input->open("memory." + format, spec, config)) fail_image(image, first_line(input->geterror()));
     check_spec(image, spec);
 
-    Pixels pixels;
-    pixels.width = static_cast<std::uint32_t>(spec.width);
-    pixels.height = static_cast<std::uint32_t>(spec.height);
-    const std::size_t count = std::size_t{pixels.width} * pixels.height;
+    Pixels pixels =
+        pixels_for(image, {static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height)});
+    const std::size_t count = pixels.rgba.size() / 4;
     const int channels = std::min(spec.nchannels, 4);
     std::vector<std::uint8_t> stored(count * static_cast<std::size_t>(channels));
     const bool read = input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, stored.data());
@@ -84,7 +81,6 @@ Pixels decode_as(const Image& image, const std::string& format) {
     const std::string error = input->geterror();
     if (!read || !closed || !error.empty())
         fail_image(image, error.empty() ? "is damaged" : "is damaged: " + first_line(error));
-    pixels.rgba.resize(count * 4);
     expand_to_rgba(stored.data(), count, static_cast<std::size_t>(channels),
                    has_alpha_channel(spec, channels, format), pixels.rgba.data());
     if (format == "targa" || format == "bmp") show_unused_alpha(pixels);

@@ -37,15 +37,6 @@ FAQEM_EXPORT Image write_png(const Pixels& pixels, const std::string& name, int 
 /// O(pixels + bytes)
 Pixels read_jpeg(const Image& image);
 
-/// Encodes pixels as a baseline JPEG with the best Huffman codes, without alpha.
-/// \param pixels   of the declared size, at least one
-/// \param name     Image::name of the result
-/// \param quality  in [1, 100]
-/// \param content  below quality 90 the chroma of Content::color has half the resolution in both directions
-/// \throws WriteError  a side is longer than 65500 pixels
-/// O(pixels)
-Image write_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content);
-
 /// Resolution of the chroma of a JPEG.
 enum class Chroma { full, half };
 
@@ -58,7 +49,12 @@ struct JpegRounding {
     Chroma chroma = Chroma::full;
 };
 
-/// The same with steps instead of a quality.
+/// Encodes pixels as a baseline JPEG with the best Huffman codes, without alpha, as encode_jpeg() but with steps instead
+/// of a quality.
+/// \param pixels  of the declared size, at least one
+/// \param name    Image::name of the result
+/// \throws WriteError  a side is longer than 65500 pixels
+/// O(pixels)
 FAQEM_EXPORT Image write_jpeg(const Pixels& pixels, const std::string& name, const JpegRounding& rounding);
 
 /// Decodes a WebP to RGBA; of an animation the first picture.
@@ -66,14 +62,5 @@ FAQEM_EXPORT Image write_jpeg(const Pixels& pixels, const std::string& name, con
 /// \throws InputError  the image is damaged
 /// O(pixels + bytes)
 Pixels read_webp(const Image& image);
-
-/// Encodes pixels as WebP. Colours under an alpha of 0 are kept, because filtered textures show them; only
-/// WebpMode::near_lossless loses them.
-/// \param pixels  of the declared size, at least one. If Pixels::has_alpha is false, alpha is not written
-/// \param name    Image::name of the result
-/// \throws OptionError  an option is out of range
-/// \throws WriteError   a side is longer than 16383 pixels, the limit of the format
-/// O(pixels)
-Image write_webp(const Pixels& pixels, const std::string& name, const WebpOptions& options);
 
 }  // namespace faqem::detail

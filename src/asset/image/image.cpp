@@ -143,14 +143,4 @@ Image encode_png(const Pixels& pixels, const std::string& name) {
     return detail::write_png(pixels, name);
 }
 
-Image encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
-    detail::check_pixel_count(pixels, name);
-    return detail::write_jpeg(pixels, name, quality, content);
-}
-
-Image encode_webp(const Pixels& pixels, const std::string& name, const WebpOptions& options) {
-    detail::check_pixel_count(pixels, name);
-    return detail::write_webp(pixels, name, options);
-}
-
 }  // namespace faqem

@@ -48,6 +48,15 @@ inline void check_image_size(const Image& image, const ImageSize& size) {
                               image_size_text({max_image_side, max_image_side}) + " are supported");
 }
 
+/// Pixels of the given size, for a decoder.
+/// \throws InputError  as check_image_size()
+inline Pixels pixels_for(const Image& image, const ImageSize& size) {
+    check_image_size(image, size);
+    Pixels pixels{static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height), {}, false};
+    pixels.rgba.resize(4 * size.pixels());
+    return pixels;
+}
+
 /// Checks that the pixels to encode are as many as width and height say, and at least one.
 /// \param name  of the image, for the message
 /// \throws InputError  otherwise

@@ -53,22 +53,20 @@ std::string jpeg_error(const JpegErrors& errors) {
     return errors.message.data();
 }
 
-void set_jpeg_errors(JpegErrors& errors) {
-    jpeg_std_error(&errors.base);
-    errors.base.error_exit = fail_jpeg;
-    errors.base.emit_message = check_jpeg_message;
-}
-
-struct JpegDecoder {
-    JpegDecoder() {
-        set_jpeg_errors(errors);
+/// A decoder or encoder of libjpeg.
+template <class State>
+struct JpegCodec {
+    JpegCodec() {
+        jpeg_std_error(&errors.base);
+        errors.base.error_exit = fail_jpeg;
+        errors.base.emit_message = check_jpeg_message;
         state.err = &errors.base;
     }
-    ~JpegDecoder() { jpeg_destroy_decompress(&state); }
-    JpegDecoder(const JpegDecoder&) = delete;
-    JpegDecoder& operator=(const JpegDecoder&) = delete;
+    ~JpegCodec() { jpeg_destroy(reinterpret_cast<j_common_ptr>(&state)); }
+    JpegCodec(const JpegCodec&) = delete;
+    JpegCodec& operator=(const JpegCodec&) = delete;
 
-    jpeg_decompress_struct state = {};
+    State state = {};
     JpegErrors errors = {};
 };
 
@@ -104,17 +102,8 @@ void cmyk_to_rgba(Pixels& pixels) {
     }
 }
 
-struct JpegEncoder {
-    JpegEncoder() {
-        set_jpeg_errors(errors);
-        state.err = &errors.base;
-    }
-    ~JpegEncoder() {
-        jpeg_destroy_compress(&state);
-        std::free(output.bytes);
-    }
-    JpegEncoder(const JpegEncoder&) = delete;
-    JpegEncoder& operator=(const JpegEncoder&) = delete;
+struct JpegEncoder : JpegCodec<jpeg_compress_struct> {
+    ~JpegEncoder() { std::free(output.bytes); }
 
     /// The bytes written so far, from malloc(); `base` is first, as above. libjpeg's own output to memory loses
     /// its buffer if it fails.
@@ -123,9 +112,6 @@ struct JpegEncoder {
         std::uint8_t* bytes;
         std::size_t capacity;
     };
-
-    jpeg_compress_struct state = {};
-    JpegErrors errors = {};
     Output output = {};
 };
 
@@ -194,35 +180,20 @@ Image coded_jpeg(const Pixels& pixels, const std::string& name, const JpegCoding
     JpegEncoder encoder;
     if (!write_jpeg_file(encoder, pixels, coding))
         throw WriteError("image '" + name + "': cannot encode: " + jpeg_error(encoder.errors));
-    Image image;
-    image.name = name;
-    image.mime_type = "image/jpeg";
     const std::size_t size = encoder.output.capacity - encoder.output.base.free_in_buffer;
-    image.encoded.assign(encoder.output.bytes, encoder.output.bytes + size);
-    return image;
+    return {name, "image/jpeg", {encoder.output.bytes, encoder.output.bytes + size}, {}};
 }
 
 }  // namespace
 
 Pixels read_jpeg(const Image& image) {
-    JpegDecoder decoder;
+    JpegCodec<jpeg_decompress_struct> decoder;
     const auto fail = [&] { fail_image(image, "is damaged: " + jpeg_error(decoder.errors)); };
     if (!read_jpeg_header(decoder.state, decoder.errors, image.encoded.data(), image.encoded.size())) fail();
-    check_image_size(image, {decoder.state.image_width, decoder.state.image_height});
-    Pixels pixels;
-    pixels.width = decoder.state.image_width;
-    pixels.height = decoder.state.image_height;
-    pixels.rgba.resize(std::size_t{4} * pixels.width * pixels.height);
+    Pixels pixels = pixels_for(image, {decoder.state.image_width, decoder.state.image_height});
     if (!read_jpeg_rows(decoder.state, decoder.errors, pixels.rgba.data())) fail();
     if (decoder.state.out_color_space == JCS_CMYK) cmyk_to_rgba(pixels);
     return pixels;
-}
-
-Image write_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality, Content content) {
-    const bool halves = content == Content::color && quality < full_chroma_quality;
-    return coded_jpeg(
-        pixels, name,
-        {.quality = static_cast<int>(quality), .rounding = {.chroma = halves ? Chroma::half : Chroma::full}});
 }
 
 Image write_jpeg(const Pixels& pixels, const std::string& name, const JpegRounding& rounding) {
@@ -230,3 +201,12 @@ Image write_jpeg(const Pixels& pixels, const std::string& name, const JpegRoundi
 }
 
 }  // namespace faqem::detail
+
+faqem::Image faqem::encode_jpeg(const Pixels& pixels, const std::string& name, std::uint32_t quality,
+                                Content content) {
+    detail::check_pixel_count(pixels, name);
+    const bool halves = content == Content::color && quality < detail::full_chroma_quality;
+    return detail::coded_jpeg(pixels, name,
+                              {.quality = static_cast<int>(quality),
+                               .rounding = {.chroma = halves ? detail::Chroma::half : detail::Chroma::full}});
+}

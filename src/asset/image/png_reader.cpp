@@ -91,8 +91,7 @@ bool read_png_rows(png_structp png, png_infop info, std::uint8_t* rgba) {
 
 /// Checks that the compressed bytes can hold the pixels: deflate expands one byte to at most 1032 bytes (zlib,
 /// "Technical Details").
-void check_png_length(const Image& image, png_structp png, png_infop info) {
-    const ImageSize size{png_get_image_width(png, info), png_get_image_height(png, info)};
+void check_png_length(const Image& image, const ImageSize& size, png_structp png, png_infop info) {
     const std::uint64_t bits = std::uint64_t{png_get_bit_depth(png, info)} * png_get_channels(png, info);
     if (size.pixels() * bits / 8 / 1032 > image.encoded.size()) fail_truncated_image(image, size);
 }
@@ -105,11 +104,10 @@ Pixels read_png(const Image& image) {
     if (!decoder.png || !decoder.info) throw std::bad_alloc();
     const auto fail = [&] { fail_image(image, std::string("is damaged: ") + source.error.data()); };
     if (!read_png_header(decoder.png, decoder.info, &source)) fail();
-    check_png_length(image, decoder.png, decoder.info);
-    Pixels pixels;
-    pixels.width = png_get_image_width(decoder.png, decoder.info);
-    pixels.height = png_get_image_height(decoder.png, decoder.info);
-    pixels.rgba.resize(std::size_t{4} * pixels.width * pixels.height);
+    const ImageSize size{png_get_image_width(decoder.png, decoder.info),
+                         png_get_image_height(decoder.png, decoder.info)};
+    check_png_length(image, size, decoder.png, decoder.info);
+    Pixels pixels = pixels_for(image, size);
     if (!read_png_rows(decoder.png, decoder.info, pixels.rgba.data())) fail();
     pixels.has_alpha = has_transparent_pixel(pixels);
     return pixels;

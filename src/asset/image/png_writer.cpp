@@ -238,10 +238,7 @@ Image write_png(const Pixels& pixels, const std::string& name, int max_differenc
         }
     }
 
-    Image image;
-    image.name = name;
-    image.mime_type = "image/png";
-    PngBytes& file = image.encoded;
+    PngBytes file;
     file.reserve(data.size + 2048);
     file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     PngBytes header;
@@ -253,7 +250,7 @@ Image write_png(const Pixels& pixels, const std::string& name, int max_differenc
     for (std::size_t at = 0; at < data.size; at += max_chunk_bytes)
         append_chunk(file, "IDAT", {&data.buffer[at], std::min(max_chunk_bytes, data.size - at)});
     append_chunk(file, "IEND", {});
-    return image;
+    return {name, "image/png", std::move(file), {}};
 }
 
 }  // namespace faqem::detail

@@ -74,12 +74,8 @@ Pixels read_webp(const Image& image) {
     WebPBitstreamFeatures features;
     if (WebPGetFeatures(image.encoded.data(), image.encoded.size(), &features) != VP8_STATUS_OK)
         fail_image(image, "is damaged");
-    check_image_size(
+    Pixels pixels = pixels_for(
         image, {static_cast<std::uint64_t>(features.width), static_cast<std::uint64_t>(features.height)});
-    Pixels pixels;
-    pixels.width = static_cast<std::uint32_t>(features.width);
-    pixels.height = static_cast<std::uint32_t>(features.height);
-    pixels.rgba.resize(std::size_t{4} * pixels.width * pixels.height);
     const bool decoded =
         features.has_animation
             ? read_first_picture(image, pixels.rgba.data(), pixels.rgba.size())
@@ -90,12 +86,15 @@ Pixels read_webp(const Image& image) {
     return pixels;
 }
 
-Image write_webp(const Pixels& pixels, const std::string& name, const WebpOptions& options) {
-    const WebPConfig config = webp_config(options);
+}  // namespace faqem::detail
+
+faqem::Image faqem::encode_webp(const Pixels& pixels, const std::string& name, const WebpOptions& options) {
+    detail::check_pixel_count(pixels, name);
+    const WebPConfig config = detail::webp_config(options);
     if (pixels.width > WEBP_MAX_DIMENSION || pixels.height > WEBP_MAX_DIMENSION)
-        throw WriteError("image '" + name + "': " + image_size_text({pixels.width, pixels.height}) +
+        throw WriteError("image '" + name + "': " + detail::image_size_text({pixels.width, pixels.height}) +
                          " pixels are too many for WebP, at most 16383 x 16383 are possible");
-    WebpEncoder encoder;
+    detail::WebpEncoder encoder;
     encoder.picture.use_argb = config.lossless;
     encoder.picture.width = static_cast<int>(pixels.width);
     encoder.picture.height = static_cast<int>(pixels.height);
@@ -110,11 +109,5 @@ Image write_webp(const Pixels& pixels, const std::string& name, const WebpOption
         // Left are the limits of the format for the bytes of its partitions.
         throw WriteError("image '" + name + "': too large for WebP (error " + std::to_string(error) + ")");
     }
-    Image image;
-    image.name = name;
-    image.mime_type = "image/webp";
-    image.encoded.assign(encoder.output.mem, encoder.output.mem + encoder.output.size);
-    return image;
+    return {name, "image/webp", {encoder.output.mem, encoder.output.mem + encoder.output.size}, {}};
 }
-
-}  // namespace faqem::detail
