@@ -55,6 +55,23 @@ TEST_CASE("textures of unknown members are kept unless the material is rebaked")
     CHECK_FALSE(written.json["materials"][0]["pbrMetallicRoughness"].contains("spoutTexture"));
 }
 
+TEST_CASE("a material that only lines have keeps its textures, also without pbrMetallicRoughness") {
+    GltfBuilder builder = square_gltf();
+    add_texture(builder, 1);
+    add_texture(builder, 2);
+    builder.json["materials"] = Json::parse(R"([{},{"name":"wire","emissiveTexture":{"index":1}}])");
+    Json& primitives = builder.json["meshes"][0]["primitives"];
+    primitives.push_back(primitives[0]);
+    primitives[0]["material"] = 0;
+    primitives[1]["material"] = primitives[1]["mode"] = 1;
+    Asset asset = load_glb(builder);
+    asset.materials.resize(1);
+    const WrittenGltf written = write_gltf_of(asset);
+    CHECK(written.json["materials"][1]["emissiveTexture"]["index"] == 0);
+    REQUIRE(written.json["images"].size() == 1);
+    CHECK(load_glb(written.glb).images[0].encoded == small_png(2).encoded);
+}
+
 TEST_CASE("a rebaked material loses textures that were not baked, with a warning") {
     GltfBuilder builder = square_gltf();
     add_texture(builder, 1);

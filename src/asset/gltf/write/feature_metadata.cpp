@@ -160,11 +160,10 @@ void remap_structural_metadata(GltfWriter& writer) {
     std::map<Index, Index> copied;  // views of the source
     visit_views(metadata, [&](Json& reference) {
         const auto view = reference.get<Index>();
-        const auto [entry, is_new] = copied.try_emplace(view, no_index);
-        if (is_new)
-            entry->second = writer.binary.add_view(
+        reference = once(copied, view, [&] {
+            return writer.binary.add_view(
                 view_bytes(writer.source, source_array(writer, "bufferViews")[view]), metadata_alignment);
-        reference = entry->second;
+        });
         return true;
     });
     visit_textures(metadata, [&](Json& reference) {

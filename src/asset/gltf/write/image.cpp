@@ -14,16 +14,14 @@ constexpr int gl_nearest_mipmap_nearest = 9984, gl_linear_mipmap_linear = 9987;
 std::uint32_t wrap_mode(Wrap wrap) { return wrap_modes[static_cast<std::size_t>(wrap)]; }
 
 Index make_sampler(GltfWriter& writer, const TextureRef& ref) {
-    const auto [entry, is_new] = writer.samplers.try_emplace({ref.wrap_u, ref.wrap_v, ref.filter}, no_index);
-    if (is_new) {
+    return once(writer.samplers, {ref.wrap_u, ref.wrap_v, ref.filter}, [&] {
         const bool smooth = ref.filter == Filter::linear;
-        entry->second = append(writer, "samplers",
-                               {{"magFilter", smooth ? gl_linear : gl_nearest},
-                                {"minFilter", smooth ? gl_linear_mipmap_linear : gl_nearest_mipmap_nearest},
-                                {"wrapS", wrap_mode(ref.wrap_u)},
-                                {"wrapT", wrap_mode(ref.wrap_v)}});
-    }
-    return entry->second;
+        return append(writer, "samplers",
+                      {{"magFilter", smooth ? gl_linear : gl_nearest},
+                       {"minFilter", smooth ? gl_linear_mipmap_linear : gl_nearest_mipmap_nearest},
+                       {"wrapS", wrap_mode(ref.wrap_u)},
+                       {"wrapT", wrap_mode(ref.wrap_v)}});
+    });
 }
 
 Index add_image(GltfWriter& writer, const Image& image, Json json) {
@@ -35,15 +33,14 @@ Index add_image(GltfWriter& writer, const Image& image, Json json) {
 /// \param json  other members of the image
 Index write_asset_image(GltfWriter& writer, Index image, Json json = Json::object()) {
     if (writer.source_image_of[image] != no_index) return copy_image(writer, writer.source_image_of[image]);
-    const auto [entry, is_new] = writer.asset_images.try_emplace(image, no_index);
-    if (!is_new) return entry->second;
-    const Image* written = &writer.asset.images[image];
-    if (needs_plugin(*written)) {
-        writer.converted_images.push_back(encode_png(decode(*written), written->name));
-        written = &writer.converted_images.back();
-    }
-    entry->second = add_image(writer, *written, std::move(json));
-    return entry->second;
+    return once(writer.asset_images, image, [&] {
+        const Image* written = &writer.asset.images[image];
+        if (needs_plugin(*written)) {
+            writer.converted_images.push_back(encode_png(decode(*written), written->name));
+            written = &writer.converted_images.back();
+        }
+        return add_image(writer, *written, std::move(json));
+    });
 }
 
 /// Makes an image of the asset the only one of a texture.
@@ -76,15 +73,13 @@ void find_source_images(GltfWriter& writer) {
 }
 
 Index copy_image(GltfWriter& writer, Index image) {
-    const auto [entry, is_new] = writer.source_images.try_emplace(image, no_index);
-    if (is_new) {
+    return once(writer.source_images, image, [&] {
         Json json = source_array(writer, "images")[image];
         for (const char* key : {"uri", "bufferView", "mimeType"}) json.erase(key);
         const Index other = writer.replaced_images.empty() ? no_index : writer.replaced_images[image];
-        entry->second = other != no_index ? write_asset_image(writer, other, std::move(json))
-                                          : add_image(writer, writer.source.images[image], std::move(json));
-    }
-    return entry->second;
+        return other != no_index ? write_asset_image(writer, other, std::move(json))
+                                 : add_image(writer, writer.source.images[image], std::move(json));
+    });
 }
 
 Index copy_texture(GltfWriter& writer, Index texture, Index image) {
@@ -92,44 +87,38 @@ Index copy_texture(GltfWriter& writer, Index texture, Index image) {
         const Index own = texture_image(source_array(writer, "textures")[texture]);
         image = own == no_index ? no_index : writer.replaced_images[own];
     }
-    const auto [entry, is_new] = writer.source_textures.try_emplace({texture, image}, no_index);
-    if (!is_new) return entry->second;
-    Json json = source_array(writer, "textures")[texture];
-    const auto remap_image = [&](Json& holder) {
-        const Index own = index_member(holder, "source");
-        if (own == no_index) return;
-        if (writer.source.images[own].encoded.empty())
-            holder.erase("source");
-        else
-            holder["source"] = copy_image(writer, own);
-    };
-    if (image != no_index) {
-        set_image(writer, json, image);
-    } else {
-        remap_image(json);
-        if (json.contains("extensions"))
-            for (Json& extension : json["extensions"]) remap_image(extension);
-    }
-    const Index sampler = index_member(json, "sampler");
-    if (sampler != no_index) {
-        const auto [copied, is_first] = writer.source_samplers.try_emplace(sampler, no_index);
-        if (is_first) copied->second = append(writer, "samplers", source_array(writer, "samplers")[sampler]);
-        json["sampler"] = copied->second;
-    }
-    entry->second = append(writer, "textures", std::move(json));
-    return entry->second;
+    return once(writer.source_textures, {texture, image}, [&] {
+        Json json = source_array(writer, "textures")[texture];
+        const auto remap_image = [&](Json& holder) {
+            const Index own = index_member(holder, "source");
+            if (own == no_index) return;
+            if (writer.source.images[own].encoded.empty())
+                holder.erase("source");
+            else
+                holder["source"] = copy_image(writer, own);
+        };
+        if (image != no_index) {
+            set_image(writer, json, image);
+        } else {
+            remap_image(json);
+            if (json.contains("extensions"))
+                for (Json& extension : json["extensions"]) remap_image(extension);
+        }
+        if (const Index sampler = index_member(json, "sampler"); sampler != no_index)
+            json["sampler"] = once(writer.source_samplers, sampler, [&] {
+                return append(writer, "samplers", source_array(writer, "samplers")[sampler]);
+            });
+        return append(writer, "textures", std::move(json));
+    });
 }
 
 Index make_texture(GltfWriter& writer, const TextureRef& ref) {
     const Index image = write_asset_image(writer, ref.image);
-    const auto [entry, is_new] =
-        writer.textures.try_emplace({image, ref.wrap_u, ref.wrap_v, ref.filter}, no_index);
-    if (is_new) {
+    return once(writer.textures, {image, ref.wrap_u, ref.wrap_v, ref.filter}, [&] {
         Json json = {{"sampler", make_sampler(writer, ref)}};
         set_image(writer, json, ref.image);
-        entry->second = append(writer, "textures", std::move(json));
-    }
-    return entry->second;
+        return append(writer, "textures", std::move(json));
+    });
 }
 
 }  // namespace faqem::detail

@@ -152,9 +152,10 @@ std::vector<std::string> erase_textures(const Material& current, const Material&
 }
 
 /// Copies the remaining textures of the source that are not written from the Material.
-void remap_textures(GltfWriter& writer, const Material& current, const std::string& holder, Json& object) {
+/// \param current  null: none of them is
+void remap_textures(GltfWriter& writer, const Material* current, const std::string& holder, Json& object) {
     for (auto& [key, value] : object.items()) {
-        if (is_texture_info(key, value) && !is_known(current, holder, key))
+        if (is_texture_info(key, value) && !(current && is_known(*current, holder, key)))
             value["index"] = copy_texture(writer, index_member(value, "index"));
     }
 }
@@ -170,7 +171,7 @@ void write_extensions(GltfWriter& writer, const Material& current, const Materia
         for (auto& [name, extension] : json["extensions"].items()) {
             if (!erase_textures(current, original, name, extension).empty())
                 warn_about_removed(writer, current, name, "textures");
-            remap_textures(writer, current, name, extension);
+            remap_textures(writer, &current, name, extension);
         }
     }
     for (const ExtensionTexture& texture : current.extension_textures) {
@@ -192,7 +193,7 @@ void write_unknown_textures(GltfWriter& writer, const Material& current, const M
         Json& object = holder.empty() ? json : json[holder];
         for (const std::string& name : erase_textures(current, original, holder, object))
             warn_about_removed(writer, current, name, "textures");
-        remap_textures(writer, current, holder, object);
+        remap_textures(writer, &current, holder, object);
     }
 }
 
@@ -239,32 +240,26 @@ Json material_json(GltfWriter& writer, const Material& material) {
 }  // namespace
 
 Index write_material(GltfWriter& writer, Index material) {
-    const auto [entry, is_new] = writer.asset_materials.try_emplace(material, no_index);
-    if (is_new)
-        entry->second =
-            append(writer, "materials", material_json(writer, material_or_default(writer.asset, material)));
-    return entry->second;
+    return once(writer.asset_materials, material, [&] {
+        return append(writer, "materials",
+                      material_json(writer, material_or_default(writer.asset, material)));
+    });
 }
 
 Index write_source_material(GltfWriter& writer, Index material) {
     const std::vector<Material>& materials = writer.asset.materials;
     for (Index i = 0; i < materials.size(); ++i)
         if (materials[i].source == material && !materials[i].rebaked) return write_material(writer, i);
-    const auto [entry, is_new] = writer.source_materials.try_emplace(material, no_index);
-    if (!is_new) return entry->second;
-
-    Json json = source_array(writer, "materials")[material];
-    for (Json* holder : {&json, json.contains(pbr_key) ? &json[pbr_key] : &json})
-        for (auto& [key, value] : holder->items())
-            if (is_texture_info(key, value))
-                value["index"] = copy_texture(writer, index_member(value, "index"));
-    if (json.contains("extensions")) {
-        for (auto& [name, extension] : json["extensions"].items())
-            remap_textures(writer, {}, name, extension);
-    }
-    write_levels_of_material(writer, json);
-    entry->second = append(writer, "materials", std::move(json));
-    return entry->second;
+    return once(writer.source_materials, material, [&] {
+        Json json = source_array(writer, "materials")[material];
+        remap_textures(writer, nullptr, "", json);
+        if (json.contains(pbr_key)) remap_textures(writer, nullptr, pbr_key, json[pbr_key]);
+        if (json.contains("extensions"))
+            for (auto& [name, extension] : json["extensions"].items())
+                remap_textures(writer, nullptr, name, extension);
+        write_levels_of_material(writer, json);
+        return append(writer, "materials", std::move(json));
+    });
 }
 
 void write_numbered_objects(GltfWriter& writer) {

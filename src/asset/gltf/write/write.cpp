@@ -169,17 +169,16 @@ Index append(GltfWriter& writer, const char* key, Json value) {
 }
 
 Index copy_accessor(GltfWriter& writer, Index accessor, AccessorUse use) {
-    const auto [entry, is_new] = writer.accessors.try_emplace(accessor, no_index);
-    if (!is_new) return entry->second;
-    Json description = source_array(writer, "accessors")[accessor];
-    for (const char* key : {"bufferView", "byteOffset", "sparse"}) description.erase(key);
-    // Zero elements without a bufferView are stored too: readers limit the count of such accessors by the
-    // number of bytes in the file, which may be too small.
-    const std::vector<std::uint8_t> dense = dense_bytes(writer.source, accessor);
-    if (use == AccessorUse::vertices || string_member(description, "type") == "SCALAR")
-        add_missing_bounds(description, dense);
-    entry->second = writer.binary.add_accessor(std::move(description), dense, use);
-    return entry->second;
+    return once(writer.accessors, accessor, [&] {
+        Json description = source_array(writer, "accessors")[accessor];
+        for (const char* key : {"bufferView", "byteOffset", "sparse"}) description.erase(key);
+        // Zero elements without a bufferView are stored too: readers limit the count of such accessors by the
+        // number of bytes in the file, which may be too small.
+        const std::vector<std::uint8_t> dense = dense_bytes(writer.source, accessor);
+        if (use == AccessorUse::vertices || string_member(description, "type") == "SCALAR")
+            add_missing_bounds(description, dense);
+        return writer.binary.add_accessor(std::move(description), dense, use);
+    });
 }
 
 EncodedModel encode_gltf(const Asset& asset, const fs::path& file) {

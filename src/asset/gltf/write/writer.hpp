@@ -53,6 +53,14 @@ struct GltfWriter {
     std::span<const Index> sources = {};
 };
 
+/// Returns the output object of a key, which make() writes on first use. While it does, the object is no_index.
+template <class Key, class Make>
+Index once(std::map<Key, Index>& written, const Key& key, const Make& make) {
+    const auto [entry, is_new] = written.try_emplace(key, no_index);
+    if (is_new) entry->second = make();
+    return entry->second;
+}
+
 /// The top-level array `key` of the source document, or null.
 const Json& source_array(const GltfWriter& writer, const char* key);
 
