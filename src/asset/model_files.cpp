@@ -31,11 +31,8 @@ std::string image_suffix(const fs::path& file) {
 std::set<std::string> image_suffixes(const fs::path& folder) {
     std::set<std::string> suffixes;
     std::error_code error;
-    fs::directory_iterator entry(folder, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-        std::string suffix = image_suffix(entry->path());
-        if (!suffix.empty()) suffixes.insert(std::move(suffix));
-    }
+    for (const std::string& name : file_names(folder, error))
+        if (const std::string suffix = image_suffix(name); !suffix.empty()) suffixes.insert(suffix);
     if (error && error != std::errc::no_such_file_or_directory)
         throw WriteError(folder.string() +
                          ": cannot list the files that would be overwritten: " + error.message());
@@ -75,7 +72,7 @@ std::vector<fs::path> existing_side_files(const std::vector<fs::path>& models) {
         if (format->side_file.name) add_if_exists(format->side_file.name(stem));
         if (!format->has_image_files) continue;
         const auto [in_folder, is_new] = suffixes.try_emplace(folder);
-        if (is_new) in_folder->second = image_suffixes(folder.empty() ? "." : folder);
+        if (is_new) in_folder->second = image_suffixes(folder);
         // The stem is not compared with the names in the folder: only the file system knows which are equal.
         for (const std::string& suffix : in_folder->second) add_if_exists(stem + suffix);
     }

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <charconv>
 #include <string>
-#include <system_error>
 
 #include "asset/io/locked_file.hpp"
 #include "asset/io/set_folder.hpp"
@@ -41,18 +40,6 @@ bool has_scheme(std::string_view text) {
     return end != text.end() && *end == ':';
 }
 
-bool escapes_folder(const fs::path& relative) {
-    std::ptrdiff_t depth = 0;
-    for (const fs::path& step : relative) {
-        if (step == "..")
-            --depth;
-        else if (!step.empty() && step != ".")
-            ++depth;
-        if (depth < 0) return true;
-    }
-    return false;
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_bytes) {
@@ -79,6 +66,14 @@ std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_byte
     return bytes;
 }
 
+std::vector<std::string> file_names(const fs::path& folder, std::error_code& error) {
+    std::vector<std::string> names;
+    fs::directory_iterator entry(folder.empty() ? "." : folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+        names.push_back(entry->path().filename().string());
+    return names;
+}
+
 std::string percent_decoded(std::string_view text) {
     std::string decoded;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -102,7 +97,7 @@ fs::path resolve_inside(const fs::path& folder, std::string_view reference, Refe
     if (has_scheme(name)) refuse("is not a relative path");
     const fs::path relative(name);
     if (relative.is_absolute()) refuse("is an absolute path");
-    if (escapes_folder(relative)) refuse("is outside the folder of the file");
+    if (*relative.lexically_normal().begin() == "..") refuse("is outside the folder of the file");
     try {
         const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder);
         fs::path found = fs::canonical(root / relative);

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "faqem/detail/base/lower_case.hpp"
@@ -23,6 +23,9 @@ namespace faqem::detail {
 ///                    files that an interrupted run replaced only in part (check_completely_replaced())
 FAQEM_EXPORT std::vector<std::uint8_t> read_file(const std::filesystem::path& file,
                                                  std::uint64_t max_bytes = std::uint64_t{1} << 34);
+
+/// The names in a folder, in the order of the file system. \param folder  empty: the current directory
+std::vector<std::string> file_names(const std::filesystem::path& folder, std::error_code& error);
 
 /// Syntax of a file reference inside a model file.
 enum class ReferenceSyntax {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -88,11 +87,8 @@ std::vector<std::string> FileFinder::files_with_extension(const std::string& ext
 const FileFinder::Names& FileFinder::names_in(const fs::path& subfolder) {
     const auto [known, is_new] = names_.try_emplace(subfolder);
     if (!is_new) return known->second;
-    const fs::path folder = folder_ / subfolder;
-    std::error_code error;
-    fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-        known->second.push_back(entry->path().filename().string());
+    std::error_code error;  // what cannot be listed has no files
+    known->second = file_names(folder_ / subfolder, error);
     std::ranges::sort(known->second);
     return known->second;
 }

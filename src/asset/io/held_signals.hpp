@@ -6,29 +6,20 @@
 
 namespace faqem::detail {
 
-/// Holds the signals that end a process by default and that users, shells and timers send (HUP, INT, QUIT,
-/// TERM, ALRM, USR1, USR2 ...) for the calling thread: they are delivered at destruction. In a process with
-/// several threads, another thread may receive such a signal; its handler should call
+/// States that the calling thread is replacing files, and holds the signals that end a process by default and that users,
+/// shells and timers send (HUP, INT, QUIT, TERM, ALRM, USR1, USR2 ...) for it: they are delivered at destruction. In a
+/// process with several threads, another thread may receive such a signal; its handler should call
 /// remove_temporary_files() and end the process only if that returns true.
 class HeldSignals {
 public:
-    HeldSignals() noexcept;
+    /// \throws WriteError  begin_exit() has returned true: the process is about to end
+    HeldSignals();
     ~HeldSignals();
     HeldSignals(const HeldSignals&) = delete;
     HeldSignals& operator=(const HeldSignals&) = delete;
 
 private:
     sigset_t before_;
-};
-
-/// States that a thread is replacing files.
-class ReplacementInProgress {
-public:
-    /// \throws WriteError  begin_exit() has returned true: the process is about to end
-    ReplacementInProgress();
-    ~ReplacementInProgress();
-    ReplacementInProgress(const ReplacementInProgress&) = delete;
-    ReplacementInProgress& operator=(const ReplacementInProgress&) = delete;
 };
 
 /// Returns whether the process may end: no thread is replacing files. From then on none can begin to.

@@ -39,8 +39,9 @@ enum class Lock {
 };
 
 /// Locks a file with flock() without waiting. The lock ends with the process, however that ends.
-inline Lock try_lock(int file) {
-    while (::flock(file, LOCK_EX | LOCK_NB) != 0) {
+/// \param kind  LOCK_EX or LOCK_SH
+inline Lock try_lock(int file, int kind = LOCK_EX) {
+    while (::flock(file, kind | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK) return Lock::held;
         if (errno != EINTR) return Lock::unsupported;
     }

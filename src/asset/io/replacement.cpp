@@ -27,7 +27,6 @@ void require_temporary(const PendingFile& file) {
 
 void replace_single_file(PendingFile& file, void (*completed)() noexcept) {
     const HeldSignals held;
-    const ReplacementInProgress in_progress;
     require_temporary(file);
     const Descriptor folder(::open(file.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (!folder) fail_write(file.target(), "open its folder", errno);
@@ -87,12 +86,10 @@ private:
         constexpr int attempts = 2000;
         for (int i = 0; i < attempts; ++i) {
             held_.emplace();
-            in_progress_.emplace();
             if (try_lock_folders()) {
                 for (const auto& [path, folder] : folders_) recover_set(folder.set);
                 return;
             }
-            in_progress_.reset();
             held_.reset();
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
@@ -198,7 +195,6 @@ private:
     }
 
     std::optional<HeldSignals> held_;
-    std::optional<ReplacementInProgress> in_progress_;
     std::span<PendingFile> files_;
     std::vector<bool> has_old_;  // by file: whether it replaces one
     std::map<fs::path, ReplacedFolder> folders_;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/io/file.hpp"
 #include "asset/io/held_signals.hpp"
 #include "asset/io/temporary_file.hpp"
 #include "asset/io/write_all.hpp"
@@ -19,20 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> names_in(const fs::path& folder, std::error_code& error) {
-    std::vector<std::string> names;
-    fs::directory_iterator entry(folder, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-        names.push_back(entry->path().filename().string());
-    return names;
-}
-
 /// Removes everything but the lock.
 void clear_set(const SetFolder& set) noexcept try {
     for (const char* part : {"new", "staged", "old"}) {
         std::error_code error;
         if (const Descriptor opened = open_subfolder(set.set_file.get(), part)) {
-            for (const std::string& name : names_in(set.path() / part, error)) {
+            for (const std::string& name : file_names(set.path() / part, error)) {
                 if (::unlinkat(opened.get(), name.c_str(), 0) != 0)
                     ::unlinkat(opened.get(), name.c_str(), AT_REMOVEDIR);
             }
@@ -46,54 +39,43 @@ std::pair<time_t, long> changed(const struct stat& file) {
     return {file.st_mtim.tv_sec, file.st_mtim.tv_nsec};
 }
 
-/// Files of a set that has not been completed.
-class Recovery {
-public:
-    Recovery(const SetFolder& set, int new_files)
-        : set_(set),
-          folder_(set.folder_file.get()),
-          new_(new_files),
-          old_(open_subfolder(set.set_file.get(), "old")) {}
+bool is_in(int folder, const char* name, struct stat& status) {
+    return ::fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) == 0;
+}
 
-    void run() {
-        std::error_code error;
-        const std::vector<std::string> names = names_in(set_.path() / "new", error);
-        if (error) fail_write(set_.path(), "read", error.value());
-        for (const std::string& name : names)
-            if (!is_unchanged(name.c_str()))
-                throw WriteError(
-                    (set_.folder / name).string() +
-                    ": belongs to a set of files that an interrupted run replaced only in part, and was "
-                    "changed since; check the files, then delete " +
-                    set_.path().string());
-        for (const std::string& name : names) {
-            struct stat now = {};
-            const bool renamed = is_in(folder_, name.c_str(), now)
-                                     ? ::renameat(new_, name.c_str(), folder_, name.c_str()) == 0
-                                     : rename_if_absent(new_, name.c_str(), folder_, name.c_str());
-            if (!renamed) fail_write(set_.folder / name, "complete its set of files", errno);
-        }
-        if (!sync_folder(folder_)) fail_write(set_.folder, "sync it", errno);
+/// Whether the place of a new file of a set still has the old file, or none if there was none, or the new one.
+bool is_unchanged(const SetFolder& set, int new_files, int old_files, const char* name) {
+    struct stat next = {}, now = {}, old = {};
+    if (!is_in(new_files, name, next) || !S_ISREG(next.st_mode)) return false;
+    if (!is_in(set.folder_file.get(), name, now)) return errno == ENOENT;
+    if (now.st_ino == next.st_ino && now.st_dev == next.st_dev) return true;
+    return is_in(old_files, name, old) && S_ISREG(old.st_mode) && S_ISREG(now.st_mode) &&
+           now.st_size == old.st_size && changed(now) == changed(old) && changed(now) <= changed(next);
+}
+
+/// Moves the new files of a set that has not been completed to their places.
+void complete_set(const SetFolder& set, int new_files) {
+    const Descriptor old_files = open_subfolder(set.set_file.get(), "old");
+    const int folder = set.folder_file.get();
+    std::error_code error;
+    const std::vector<std::string> names = file_names(set.path() / "new", error);
+    if (error) fail_write(set.path(), "read", error.value());
+    for (const std::string& name : names)
+        if (!is_unchanged(set, new_files, old_files.get(), name.c_str()))
+            throw WriteError((set.folder / name).string() +
+                             ": belongs to a set of files that an interrupted run replaced only in part, and "
+                             "was changed since; "
+                             "check the files, then delete " +
+                             set.path().string());
+    for (const std::string& name : names) {
+        struct stat now = {};
+        const bool renamed = is_in(folder, name.c_str(), now)
+                                 ? ::renameat(new_files, name.c_str(), folder, name.c_str()) == 0
+                                 : rename_if_absent(new_files, name.c_str(), folder, name.c_str());
+        if (!renamed) fail_write(set.folder / name, "complete its set of files", errno);
     }
-
-private:
-    static bool is_in(int folder, const char* name, struct stat& status) {
-        return ::fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) == 0;
-    }
-
-    bool is_unchanged(const char* name) const {
-        struct stat next = {}, now = {}, old = {};
-        if (!is_in(new_, name, next) || !S_ISREG(next.st_mode)) return false;
-        if (!is_in(folder_, name, now)) return errno == ENOENT;
-        if (now.st_ino == next.st_ino && now.st_dev == next.st_dev) return true;
-        return is_in(old_.get(), name, old) && S_ISREG(old.st_mode) && S_ISREG(now.st_mode) &&
-               now.st_size == old.st_size && changed(now) == changed(old) && changed(now) <= changed(next);
-    }
-
-    const SetFolder& set_;
-    const int folder_, new_;
-    const Descriptor old_;
-};
+    if (!sync_folder(folder)) fail_write(set.folder, "sync it", errno);
+}
 
 }  // namespace
 
@@ -137,7 +119,7 @@ std::optional<SetFolder> lock_set_folder(const fs::path& folder, MissingSet miss
 void recover_set(const SetFolder& set) {
     const Descriptor new_files = open_subfolder(set.set_file.get(), "new");
     if (!new_files && errno != ENOENT) fail_write(set.path() / "new", "open", errno);
-    if (new_files) Recovery(set, new_files.get()).run();
+    if (new_files) complete_set(set, new_files.get());
     clear_set(set);
 }
 
@@ -152,7 +134,6 @@ void recover_folder(const fs::path& folder) {
     constexpr int attempts = 50;
     for (int i = 0; i < attempts; ++i) {
         const HeldSignals held;
-        const ReplacementInProgress in_progress;
         Lock lock = Lock::acquired;
         std::error_code error;
         if (!fs::is_directory(folder, error)) return;
@@ -171,11 +152,9 @@ void check_completely_replaced(const fs::path& file) {
     const fs::path found = fs::canonical(file, error), real = error ? file : found;
     const fs::path folder = real.has_parent_path() ? real.parent_path() : ".", set = folder / set_folder_name;
     const Descriptor lock(::open((set / "lock").c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-    while (lock && ::flock(lock.get(), LOCK_SH | LOCK_NB) != 0) {
-        if (errno == EWOULDBLOCK) return;  // the set is being replaced by another process
-        if (errno != EINTR) break;
-    }
-    if (names_in(set / "new", error).empty()) return;
+    if (lock && try_lock(lock.get(), LOCK_SH) == Lock::held)
+        return;  // the set is being replaced by another process
+    if (file_names(set / "new", error).empty()) return;
     if (fs::symlink_status(set / "old" / real.filename(), error).type() == fs::file_type::not_found) return;
     throw ReadError(file.string(), "",
                     "belongs to a set of files that an interrupted run replaced only in part; any faqem "
