@@ -24,46 +24,6 @@ std::optional<std::string> renamed_library(const fs::path& model, FileFinder& fi
     return all[0];
 }
 
-/// Reads the libraries of one model.
-class LibraryReader {
-public:
-    LibraryReader(const fs::path& model, FileFinder& finder, std::vector<std::string>& warnings,
-                  IgnoredStatements& ignored)
-        : model_(model), finder_(finder), warnings_(warnings), ignored_(ignored) {}
-
-    void read(const std::string& name) {
-        if (!names_.insert(name).second) return;
-        FoundFile found;
-        std::vector<std::uint8_t> text;
-        try {
-            found = find_library(name, model_, finder_);
-            if (!files_.insert(found.file).second) return;
-            text = read_file(found.file);
-        } catch (const InputError& error) {
-            warnings_.push_back(std::string("material library ignored: ") + error.what());
-            return;
-        }
-        if (!found.is_as_named)
-            warnings_.push_back("material library " + TextScanner::quoted(name) +
-                                " was not found; the file " + TextScanner::quoted(found.name) + " is read");
-        for (MtlMaterial& material : read_mtl(text, found.file.string(), warnings_, ignored_)) {
-            material.folder = fs::path(found.name).parent_path();
-            materials_[material.name] = std::move(material);
-        }
-    }
-
-    std::map<std::string, MtlMaterial> finish() { return std::move(materials_); }
-
-private:
-    const fs::path& model_;
-    FileFinder& finder_;
-    std::vector<std::string>& warnings_;
-    IgnoredStatements& ignored_;
-    std::set<std::string> names_;
-    std::set<fs::path> files_;
-    std::map<std::string, MtlMaterial> materials_;
-};
-
 }  // namespace
 
 std::vector<std::string> library_names(const std::string& statement, const fs::path& folder) {
@@ -96,10 +56,32 @@ std::map<std::string, MtlMaterial> read_libraries(const std::vector<std::string>
                                                   const fs::path& model, FileFinder& finder,
                                                   std::vector<std::string>& warnings,
                                                   IgnoredStatements& ignored) {
-    LibraryReader reader(model, finder, warnings, ignored);
+    std::map<std::string, MtlMaterial> materials;
+    std::set<std::string> known_names;
+    std::set<fs::path> known_files;
+    const auto read = [&](const std::string& name) {
+        FoundFile found;
+        std::vector<std::uint8_t> text;
+        try {
+            found = find_library(name, model, finder);
+            if (!known_files.insert(found.file).second) return;
+            text = read_file(found.file);
+        } catch (const InputError& error) {
+            warnings.push_back(std::string("material library ignored: ") + error.what());
+            return;
+        }
+        if (!found.is_as_named)
+            warnings.push_back("material library " + TextScanner::quoted(name) + " was not found; the file " +
+                               TextScanner::quoted(found.name) + " is read");
+        for (MtlMaterial& material : read_mtl(text, found.file.string(), warnings, ignored)) {
+            material.folder = fs::path(found.name).parent_path();
+            materials[material.name] = std::move(material);
+        }
+    };
     for (const std::string& statement : statements)
-        for (const std::string& name : library_names(statement, finder.folder())) reader.read(name);
-    return reader.finish();
+        for (const std::string& name : library_names(statement, finder.folder()))
+            if (known_names.insert(name).second) read(name);
+    return materials;
 }
 
 }  // namespace faqem::detail

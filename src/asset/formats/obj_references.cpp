@@ -31,32 +31,20 @@ void for_each_possible_name(const std::string& statement, const Visit& visit) {
     }
 }
 
-/// Returns the length of the lines that are complete: the last one does not continue after a backslash.
-std::size_t complete_lines_size(std::string_view text) {
-    constexpr std::string_view line_ends = "\r\n";
-    for (std::size_t end = text.find_last_of(line_ends); end != std::string_view::npos;) {
-        const std::size_t last = text.find_last_not_of(line_ends, end);
-        if (last == std::string_view::npos || text[last] != '\\') return end + 1;
-        end = text.find_last_of(line_ends, last);
-    }
-    return 0;
-}
-
 /// Calls visit(scanner) for each block of whole lines of a file, which may be larger than the memory.
 template <class Visit>
 void for_each_block(const fs::path& file, const Visit& visit) {
+    constexpr std::size_t block_size = std::size_t{1} << 20;
     std::ifstream in(file, std::ios::binary);
-    std::size_t block_size = std::size_t{1} << 20;
-    for (std::string text; in;) {
-        const std::size_t rest = text.size();
-        text.resize(rest + block_size);
-        in.read(text.data() + rest, static_cast<std::streamsize>(block_size));
-        text.resize(rest + static_cast<std::size_t>(in.gcount()));
-        const std::size_t size = in ? complete_lines_size(text) : text.size();
-        if (size == 0) block_size *= 2;
+    std::string text;
+    for (std::string line; std::getline(in, line);) {
+        text += line + '\n';
+        const bool is_last = in.peek() == std::ifstream::traits_type::eof();
+        const bool is_continued = line.ends_with('\\') || line.ends_with("\\\r");
+        if (!is_last && (is_continued || text.size() < block_size)) continue;
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-        visit(TextScanner({bytes, size}, file.string(), Continuation::yes));
-        text.erase(0, size);
+        visit(TextScanner({bytes, text.size()}, file.string(), Continuation::yes));
+        text.clear();
     }
 }
 
