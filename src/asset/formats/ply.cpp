@@ -20,44 +20,21 @@ namespace faqem::detail {
 namespace {
 
 // Meaning of a vertex property. Properties with other names are `skipped`.
-enum VertexProperty : std::size_t {
-    x,
-    y,
-    z,
-    nx,
-    ny,
-    nz,
-    red,
-    green,
-    blue,
-    alpha,
-    s,
-    t,
-    skipped,
-    vertex_property_count
-};
+enum VertexProperty { x, y, z, nx, ny, nz, red, green, blue, alpha, s, t, skipped };
 
 /// A value for each property.
-using PlyRow = std::array<double, vertex_property_count>;
+using PlyRow = std::array<double, skipped + 1>;
 
 VertexProperty vertex_property(const PlyProperty& property) {
-    static constexpr std::array<std::array<std::string_view, 3>, skipped> names = {
-        {{"x", "", ""},
-         {"y", "", ""},
-         {"z", "", ""},
-         {"nx", "", ""},
-         {"ny", "", ""},
-         {"nz", "", ""},
-         {"red", "r", "diffuse_red"},
-         {"green", "g", "diffuse_green"},
-         {"blue", "b", "diffuse_blue"},
-         {"alpha", "a", "diffuse_alpha"},
-         {"s", "u", "texture_u"},
-         {"t", "v", "texture_v"}}};
-    if (property.is_list) return skipped;
-    for (std::size_t slot = 0; slot < skipped; ++slot)
-        if (std::find(names[slot].begin(), names[slot].end(), property.name) != names[slot].end())
-            return static_cast<VertexProperty>(slot);
+    static constexpr std::array<std::array<std::string_view, 12>, 3> names = {
+        {{"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha", "s", "t"},
+         {"", "", "", "", "", "", "r", "g", "b", "a", "u", "v"},
+         {"", "", "", "", "", "", "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha",
+          "texture_u", "texture_v"}}};
+    for (const auto& row : names) {
+        const auto found = std::ranges::find(row, property.name);
+        if (found != row.end() && !property.is_list) return static_cast<VertexProperty>(found - row.begin());
+    }
     return skipped;
 }
 

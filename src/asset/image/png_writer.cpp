@@ -28,14 +28,8 @@ constexpr int deflate_level = 6;
 constexpr std::uint8_t palette_type = 3;
 constexpr std::size_t max_chunk_bytes = std::size_t{1} << 30;  // lengths have 31 bits
 
-enum PngFilter : std::uint8_t {
-    filter_none,
-    filter_sub,
-    filter_up,
-    filter_average,
-    filter_paeth,
-    filter_count
-};
+/// Numbers of the filters of rows.
+enum class PngFilter : std::uint8_t { none, sub, up, average, paeth };
 
 /// Which channels are stored: 1 (grey), 2 (grey and alpha), 3 (RGB) or 4 (RGBA).
 std::size_t needed_channels(const Pixels& pixels) {
@@ -107,13 +101,13 @@ std::uint32_t filter_row(PngFilter filter, const UnfilteredRow& row, int max_dif
                                   : apply_filter<false>(row, 0, to, predict);
     };
     switch (filter) {
-        case filter_sub:
+        case PngFilter::sub:
             return apply([](int left, int, int) { return left; });
-        case filter_up:
+        case PngFilter::up:
             return apply([](int, int up, int) { return up; });
-        case filter_average:
+        case PngFilter::average:
             return apply([](int left, int up, int) { return (left + up) / 2; });
-        case filter_paeth:
+        case PngFilter::paeth:
             return apply(paeth);
         default:
             return apply([](int, int, int) { return 0; });
@@ -131,10 +125,10 @@ PngBytes filtered_rows(const Pixels& pixels, std::size_t channels, int max_diffe
         pick_channels(&pixels.rgba[4 * y * pixels.width], pixels.width, channels, &original[channels]);
         std::uint8_t* const best = &rows[(bytes + 1) * y];
         std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
-        for (int filter = 0; filter < filter_count; ++filter) {
+        using enum PngFilter;
+        for (const PngFilter filter : {none, sub, up, average, paeth}) {
             row = original;
-            const std::uint32_t sum = filter_row(static_cast<PngFilter>(filter),
-                                                 {&row[channels], &above[channels], bytes, channels},
+            const std::uint32_t sum = filter_row(filter, {&row[channels], &above[channels], bytes, channels},
                                                  max_difference, filtered.data());
             if (sum >= least) continue;
             least = sum;
@@ -162,7 +156,7 @@ std::optional<PaletteRows> palette_rows(const Pixels& pixels) {
     Color last = {};
     std::uint8_t index = 0;
     for (std::size_t i = 0; i < pixels.rgba.size(); i += 4) {
-        if (i / 4 % pixels.width == 0) result.rows.push_back(filter_none);
+        if (i / 4 % pixels.width == 0) result.rows.push_back(0);  // no filter
         Color color;
         std::memcpy(color.data(), &pixels.rgba[i], 4);
         if (!pixels.has_alpha) color[3] = 255;
