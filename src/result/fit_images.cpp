@@ -40,7 +40,7 @@ ModelSize model_size(const Asset& asset, ModelFormat format) {
     const EncodedModel model = encode_model(asset, std::string(name_length, 'm').append(extension));
     ModelSize size{model.bytes() - model.image_bytes(), model.image_bytes(), 0};
     for (const ResultView& view : model.views)
-        if (view.content.find("animation") != std::string::npos) size.fixed += view.bytes;
+        if (is_animation(view)) size.fixed += view.bytes;
     return size;
 }
 

@@ -78,10 +78,8 @@ std::optional<LittleSaved> little_saved(const SimplifiedAsset& result, const det
     if (report.bytes_in == 0 || !is_most(report.bytes_out, report.bytes_in)) return std::nullopt;
     LittleSaved saved;
     saved.images = model.image_bytes();
-    for (const ResultView& view : report.buffer_views) {
-        const bool is_animation = view.content.find("animation") != std::string::npos;
-        (is_animation ? saved.animation : saved.geometry) += view.bytes;
-    }
+    for (const ResultView& view : report.buffer_views)
+        (detail::is_animation(view) ? saved.animation : saved.geometry) += view.bytes;
     const bool is_gltf = !report.buffer_views.empty();
     const std::uint64_t rest = report.bytes_out - saved.images - saved.animation - saved.geometry;
     (is_gltf ? saved.other : saved.geometry) += rest;

@@ -39,6 +39,11 @@ inline EncodedFile encoded_image(std::string name, const Image& image) {
     return file;
 }
 
+/// Whether a view of a result has values of animations.
+inline bool is_animation(const ResultView& view) {
+    return view.content.find("animation") != std::string::npos;
+}
+
 /// The files of a model, as save() writes them.
 struct EncodedModel {
     std::vector<EncodedFile> files;   ///< a file that refers to others comes after them
