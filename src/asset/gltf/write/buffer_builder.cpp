@@ -86,13 +86,14 @@ Index GltfBufferBuilder::add_extension_accessor(Json description) {
 }
 
 Index GltfBufferBuilder::add_extension_data(std::vector<std::uint8_t> bytes) {
-    extension_data_.push_back(std::move(bytes));
-    return static_cast<Index>(extension_data_.size() - 1);
+    const std::span<const std::uint8_t> span(bytes);  // stays valid when the vector is moved
+    views_.push_back({span, 4, std::move(bytes)});
+    return static_cast<Index>(views_.size() - 1);
 }
 
 Index GltfBufferBuilder::add_view(std::span<const std::uint8_t> bytes, std::uint64_t alignment) {
-    views_.push_back({bytes, alignment});
-    return static_cast<Index>(groups_.size() + extension_data_.size() + views_.size() - 1);
+    views_.push_back({bytes, alignment, {}});
+    return static_cast<Index>(groups_.size() + views_.size() - 1);
 }
 
 // A compressed view has its decompressed bytes in a buffer that exists only in the document.
@@ -124,7 +125,6 @@ void GltfBufferBuilder::append_view(const Group& group, std::vector<std::uint8_t
 std::vector<std::uint8_t> GltfBufferBuilder::finish(Json& document) {
     std::uint64_t total = 0, fallback_size = 0;
     for (const Group& group : groups_) total += group.bytes.size() + 3;
-    for (const auto& bytes : extension_data_) total += bytes.size() + 3;
     for (const SeparateView& view : views_) total += view.bytes.size() + view.alignment - 1;
     std::vector<std::uint8_t> buffer;
     buffer.reserve(total);
@@ -133,13 +133,11 @@ std::vector<std::uint8_t> GltfBufferBuilder::finish(Json& document) {
         append_view(group, buffer, fallback_size, views);
         std::vector<std::uint8_t>().swap(group.bytes);
     }
-    const auto append_bytes = [&](std::span<const std::uint8_t> bytes, std::uint64_t alignment) {
-        buffer.resize((buffer.size() + alignment - 1) / alignment * alignment);
-        views.push_back({{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}});
-        buffer.insert(buffer.end(), bytes.begin(), bytes.end());
-    };
-    for (const auto& bytes : extension_data_) append_bytes(bytes, 4);
-    for (const SeparateView& view : views_) append_bytes(view.bytes, view.alignment);
+    for (const SeparateView& view : views_) {
+        buffer.resize((buffer.size() + view.alignment - 1) / view.alignment * view.alignment);
+        views.push_back({{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", view.bytes.size()}});
+        buffer.insert(buffer.end(), view.bytes.begin(), view.bytes.end());
+    }
     for (StoredAccessor& stored : stored_) {
         if (stored.group != no_index) stored.description["bufferView"] = stored.group;
         if (stored.group != no_index && stored.offset != 0) stored.description["byteOffset"] = stored.offset;

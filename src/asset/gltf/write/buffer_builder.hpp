@@ -132,6 +132,7 @@ private:
     struct SeparateView {
         std::span<const std::uint8_t> bytes;
         std::uint64_t alignment;
+        std::vector<std::uint8_t> owned;  ///< `bytes`, unless they are borrowed
     };
 
     void append_view(const Group& group, std::vector<std::uint8_t>& buffer, std::uint64_t& fallback_size,
@@ -142,8 +143,7 @@ private:
     std::vector<StoredAccessor> stored_;
     std::map<std::size_t, std::vector<Index>> accessors_by_hash_;
     std::vector<Group> groups_;
-    std::vector<std::vector<std::uint8_t>> extension_data_;
-    std::vector<SeparateView> views_;
+    std::vector<SeparateView> views_;  ///< of extension data, then others
 };
 
 }  // namespace faqem::detail
