@@ -112,15 +112,9 @@ struct Beginning {
 };
 
 bool has_use(const FileFormat& format, FormatUse use) {
-    switch (use) {
-        case FormatUse::read:
-            return format.read != nullptr;
-        case FormatUse::write:
-            return format.encode != nullptr;
-        case FormatUse::write_levels:
-            break;
-    }
-    return format.encode_levels != nullptr;
+    return use == FormatUse::read    ? format.read != nullptr
+           : use == FormatUse::write ? format.encode != nullptr
+                                     : format.encode_levels != nullptr;
 }
 
 }  // namespace

@@ -94,35 +94,23 @@ std::vector<double> default_morph_weights(const Json& document, const Json& node
 
 bool is_skinned(const Part& part) { return !part.joints.empty() && !part.weights.empty(); }
 
-/// Reads the poses of nodes; the matrices of the nodes are computed once, when a skin needs them.
-class PoseReader {
-public:
-    explicit PoseReader(const SourceDocument& source) : source_(source) {}
-
-    /// The pose of the mesh at a node; null if nothing deforms it.
-    std::shared_ptr<const RestPose> read(const Json& node) {
-        RestPose pose;
-        pose.morph_weights = default_morph_weights(source_.document, node);
-        const Index skin = index_member(node, "skin");
-        const bool has_instances = member(node, "extensions").contains(instancing_name);
-        if (skin != no_index && !has_instances) pose.joints = joint_matrices(source_.document["skins"][skin]);
-        if (pose.joints.empty() && pose.morph_weights.empty()) return nullptr;
-        return std::make_shared<const RestPose>(std::move(pose));
+/// The pose of the mesh at a node; null if nothing deforms it.
+/// \param worlds  node_transforms(), which are computed once, when a skin needs them
+std::shared_ptr<const RestPose> pose_of(const SourceDocument& source, const Json& node,
+                                        std::vector<Matrix>& worlds) {
+    RestPose pose;
+    pose.morph_weights = default_morph_weights(source.document, node);
+    const Index skin = index_member(node, "skin");
+    if (skin != no_index && !member(node, "extensions").contains(instancing_name)) {
+        if (worlds.empty()) worlds = node_transforms(source.document);
+        const Json& json = source.document["skins"][skin];
+        pose.joints = inverse_binds(source, json).matrices;
+        for (std::size_t j = 0; j < pose.joints.size(); ++j)
+            pose.joints[j] = product(worlds[json["joints"][j].get<Index>()], pose.joints[j]);
     }
-
-private:
-    std::vector<std::array<double, 16>> joint_matrices(const Json& skin) {
-        if (worlds_.empty()) worlds_ = node_transforms(source_.document);
-        std::vector<std::array<double, 16>> matrices = inverse_binds(source_, skin).matrices;
-        const Json& joints = member(skin, "joints");
-        for (std::size_t j = 0; j < matrices.size(); ++j)
-            matrices[j] = product(worlds_[joints[j].get<Index>()], matrices[j]);
-        return matrices;
-    }
-
-    const SourceDocument& source_;
-    std::vector<std::array<double, 16>> worlds_;
-};
+    if (pose.joints.empty() && pose.morph_weights.empty()) return nullptr;
+    return std::make_shared<const RestPose>(std::move(pose));
+}
 
 }  // namespace
 
@@ -278,7 +266,7 @@ std::vector<PosedInstance> gltf_posed_instances(const Asset& asset) {
     const Json& document = asset.source->document;
     std::vector<Index> node_of;
     const std::vector<Instance> all = instances_at(asset, placed_nodes(document), &node_of);
-    PoseReader reader(*asset.source);
+    std::vector<Matrix> worlds;
     std::vector<PosedInstance> posed;
     posed.reserve(all.size());
     Index node = no_index;
@@ -288,7 +276,7 @@ std::vector<PosedInstance> gltf_posed_instances(const Asset& asset) {
         // The instances of a node follow each other.
         if (node_of[i] != node) {
             node = node_of[i];
-            pose = node == no_index ? nullptr : reader.read(document["nodes"][node]);
+            pose = node == no_index ? nullptr : pose_of(*asset.source, document["nodes"][node], worlds);
         }
         const bool is_posed = pose && ((!pose->joints.empty() && is_skinned(part)) ||
                                        (!pose->morph_weights.empty() && !part.morph_targets.empty()));

@@ -113,17 +113,12 @@ inline const CoreSlot* find_core_slot(std::string_view key) {
     return found == core_slots.end() ? nullptr : &*found;
 }
 
-/// Calls visit(texture) for the core textures of a material, in the order of core_slots, whether they are set or not.
+/// Calls visit(texture) for the textures of a material, whether they are set or not: in the order of core_slots, then
+/// those of extensions.
 /// \param material  Material or const Material
 template <class M, class Visit>
-void for_each_core_texture(M& material, const Visit& visit) {
-    for (const CoreSlot& slot : core_slots) visit(material.*slot.texture);
-}
-
-/// Calls visit(texture) as for_each_core_texture() does, then for the textures of extensions.
-template <class M, class Visit>
 void for_each_texture(M& material, const Visit& visit) {
-    for_each_core_texture(material, visit);
+    for (const CoreSlot& slot : core_slots) visit(material.*slot.texture);
     for (auto& extension : material.extension_textures) visit(extension.texture);
 }
 

@@ -170,17 +170,9 @@ constexpr std::uint32_t most_meshopt_uv_bits = 15;
 
 // Bits of the compressed texture coordinates of a part; 0: exact.
 std::uint32_t rounded_uv_bits(const Asset& asset, const Part& part) {
-    switch (asset.compression) {
-        case Compression::meshopt:
-            if (part.file_order != FileOrder::for_gpu) return 0;
-            return asset.uv_bits > 0 ? asset.uv_bits : most_meshopt_uv_bits;
-        case Compression::draco:
-            return asset.uv_bits;
-        case Compression::source:
-        case Compression::none:
-            break;
-    }
-    return 0;
+    if (asset.compression == Compression::draco) return asset.uv_bits;
+    if (asset.compression != Compression::meshopt || part.file_order != FileOrder::for_gpu) return 0;
+    return asset.uv_bits > 0 ? asset.uv_bits : most_meshopt_uv_bits;
 }
 
 template <class Number>
