@@ -6,10 +6,13 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 
+#include "asset/scene/affine.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/position_rounding.hpp"
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 
 namespace faqem::detail {
@@ -132,34 +135,26 @@ std::vector<VertexPair> boundary_edges(const std::vector<Triangle>& triangles,
     struct Side {
         Index end, opposite;
     };
-    const auto for_each_side = [&](auto&& use) {
+    Buckets<Side> sides(representative.size(), [&](auto&& put) {
         for (const Triangle& original : triangles) {
             const Triangle t = mapped(original, representative);
             if (has_equal_corners(t)) continue;
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto [a, b] = std::minmax(t[c], t[(c + 1) % 3]);
-                use(a, Side{b, t[(c + 2) % 3]});
+                put(a, Side{b, t[(c + 2) % 3]});
             }
         }
-    };
-    std::vector<std::size_t> offset(representative.size() + 1, 0);
-    for_each_side([&](Index a, const Side&) { ++offset[a + std::size_t{1}]; });
-    std::partial_sum(offset.begin(), offset.end(), offset.begin());
-    std::vector<Side> sides(offset.back());
-    for_each_side([&](Index a, const Side& side) { sides[offset[a]++] = side; });
+    });
     std::vector<VertexPair> found;
-    std::size_t begin = 0;
     for (Index a = 0; a < representative.size(); ++a) {
-        const std::size_t end = offset[a];  // has advanced to the beginning of the next vertex
-        std::sort(sides.begin() + static_cast<std::ptrdiff_t>(begin),
-                  sides.begin() + static_cast<std::ptrdiff_t>(end), [](const Side& s, const Side& t) {
-                      return std::pair(s.end, s.opposite) < std::pair(t.end, t.opposite);
-                  });
-        for (std::size_t i = begin, next; i < end; i = next) {
-            for (next = i + 1; next < end && sides[next].end == sides[i].end;) ++next;
-            if (sides[i].opposite == sides[next - 1].opposite) found.push_back({a, sides[i].end});
+        const std::span<Side> own = std::span(sides.items()).subspan(sides.begin()[a], sides[a].size());
+        std::ranges::sort(own, [](const Side& s, const Side& t) {
+            return std::pair(s.end, s.opposite) < std::pair(t.end, t.opposite);
+        });
+        for (std::size_t i = 0, next; i < own.size(); i = next) {
+            for (next = i + 1; next < own.size() && own[next].end == own[i].end;) ++next;
+            if (own[i].opposite == own[next - 1].opposite) found.push_back({a, own[i].end});
         }
-        begin = end;
     }
     return found;
 }
@@ -195,19 +190,16 @@ struct Tolerances {
         : weld(positions.size(), 0), near(positions.size(), 0) {
         const std::vector<double> length = edge_lengths(positions, triangles, representative);
         double most = 0;
-        Vec3 low = positions[edges.front().a], high = low;
+        PointBounds bounds;
         for (const Triangle& t : triangles) {
             for (const Index v : t) {
                 most = std::max(most, largest_coordinate(positions[v]));
-                for (std::size_t k = 0; k < 3; ++k) {
-                    low[k] = std::min(low[k], positions[v][k]);
-                    high[k] = std::max(high[k], positions[v][k]);
-                }
+                bounds.add(positions[v]);
             }
         }
         const double most_rounding = stored.tolerance(most);
-        const double float_rounding =
-            near_factor * double{std::numeric_limits<float>::epsilon()} * max_norm_distance(low, high);
+        const double float_rounding = near_factor * double{std::numeric_limits<float>::epsilon()} *
+                                      max_norm_distance(bounds.low, bounds.high);
         const auto add = [&](Index v) {
             if (weld[v] > 0) return;
             const double own = stored.tolerance(largest_coordinate(positions[v]));
@@ -230,13 +222,12 @@ public:
           representative_(representative),
           tolerance_(tolerance),
           welded_(positions.size()),
-          offset_(positions.size() + 1, 0) {
+          faces_(positions.size(), [&](auto&& put) {
+              for (Index f = 0; f < triangles.size(); ++f)
+                  for (const Index v : mapped(triangles[f], representative))
+                      if (tolerance[v] > 0) put(v, f);
+          }) {
         std::iota(welded_.begin(), welded_.end(), Index{0});
-        for_each_boundary_corner([&](Index v, std::size_t) { ++offset_[v + std::size_t{1}]; });
-        std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
-        faces_.resize(offset_.back());
-        std::vector<std::size_t> at(offset_.begin(), offset_.end() - 1);
-        for_each_boundary_corner([&](Index v, std::size_t f) { faces_[at[v]++] = static_cast<Index>(f); });
     }
 
     /// Returns, for every vertex that represents others, the one that it is welded to.
@@ -262,18 +253,10 @@ public:
     }
 
 private:
-    template <class Use>
-    void for_each_boundary_corner(Use&& use) const {
-        for (std::size_t f = 0; f < triangles_.size(); ++f) {
-            for (const Index v : mapped(triangles_[f], representative_))
-                if (tolerance_[v] > 0) use(v, f);
-        }
-    }
-
     // Whether a face of v has a corner that is w or was welded to it.
     bool is_in_face_with(Index v, Index w) const {
-        for (std::size_t i = offset_[v]; i < offset_[v + std::size_t{1}]; ++i)
-            for (const Index corner : mapped(triangles_[faces_[i]], representative_))
+        for (const Index f : faces_[v])
+            for (const Index corner : mapped(triangles_[f], representative_))
                 if (welded_[corner] == w) return true;
         return false;
     }
@@ -283,8 +266,7 @@ private:
     const std::vector<Index>& representative_;
     const std::vector<double>& tolerance_;
     std::vector<Index> welded_;
-    std::vector<std::size_t> offset_;  // into faces_, by vertex
-    std::vector<Index> faces_;         // of the vertices that have a tolerance
+    Buckets<Index> faces_;  // of the vertices that have a tolerance
 };
 
 /// Counts edges that have another edge nearby. Of edges that are near each other the middles are, too.
