@@ -1,9 +1,9 @@
 #include "scene/level_coverage.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "asset/scene/affine.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -11,13 +11,10 @@ namespace faqem::detail {
 namespace {
 
 double diagonal_of(const std::vector<Vec3>& points) {
-    double square = 0;
-    for (std::size_t i = 0; i < 3 && !points.empty(); ++i) {
-        const auto [low, high] = std::minmax_element(
-            points.begin(), points.end(), [i](const Vec3& a, const Vec3& b) { return a[i] < b[i]; });
-        square += ((*high)[i] - (*low)[i]) * ((*high)[i] - (*low)[i]);
-    }
-    return std::sqrt(square);
+    PointBounds bounds;
+    for (const Vec3& p : points) bounds.add(p);
+    const Vec3 extent = minus(bounds.high, bounds.low);
+    return points.empty() ? 0 : std::sqrt(dot(extent, extent));
 }
 
 }  // namespace

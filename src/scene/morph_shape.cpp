@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "asset/scene/affine.hpp"
 #include "faqem/detail/simplify/run.hpp"
 
 namespace faqem::detail {
@@ -74,15 +75,14 @@ std::vector<Vec3> bent_positions(const Part& part, const MeshView& mesh, const O
     const auto shaping = shaping_targets(part, mesh, own, quiet, faces);
     if (shaping.empty()) return {};
     std::vector<Vec3> shifts(part.positions.size(), Vec3{0, 0, 0});
-    double largest = 0, weight = 1;
+    double weight = 1;
     for (const auto& [t, curve] : shaping) {
         for (std::size_t v = 0; v < shifts.size(); ++v)
             for (std::size_t k = 0; k < 3; ++k)
                 shifts[v][k] += weight * part.morph_targets[t].positions[v][k];
         weight *= 0.9;  // so that targets which are opposite to each other do not cancel out
     }
-    for (const Vec3& shift : shifts)
-        for (const double x : shift) largest = std::max(largest, std::abs(x));
+    const double largest = largest_component(shifts);
     const double unit = bend * rest.diagonal / largest;
     if (!(largest > 0) || !std::isfinite(unit)) return {};
     std::vector<Vec3> positions = part.positions;

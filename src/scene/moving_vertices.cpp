@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asset/scene/affine.hpp"
 #include "asset/scene/source_traits.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 
@@ -11,15 +12,6 @@ namespace {
 
 // A vertex is compared with the last ones at its position that differ from each other: many of them are rare.
 constexpr std::size_t max_compared = 64;
-
-// Largest absolute value of the components.
-template <class Vectors>
-double largest(const Vectors& vectors) {
-    double most = 0;
-    for (const auto& vector : vectors)
-        for (const double x : vector) most = std::max(most, std::abs(x));
-    return most;
-}
 
 // The largest difference between the weights that two vertices have of any joint.
 double weight_difference(const Part& part, Index a, Index b) {
@@ -53,12 +45,12 @@ bool move_together(const Part& part, const MotionRounding& rounding, Index a, In
 MotionRounding motion_rounding(const Asset& asset, const Part& part) {
     MotionRounding rounding;
     // Displacements are differences of positions, and as inexact as these.
-    const double of_positions = 2.5e-7 * largest(part.positions);
+    const double of_positions = 2.5e-7 * largest_component(part.positions);
     const MotionSteps steps = motion_steps(asset, part);
     rounding.weight = std::max(rounding.weight, 1.01 * steps.weight);
     for (std::size_t t = 0; t < part.morph_targets.size(); ++t)
-        rounding.shift.push_back(
-            std::max(1e-6 * largest(part.morph_targets[t].positions) + of_positions, 1.01 * steps.shift[t]));
+        rounding.shift.push_back(std::max(
+            1e-6 * largest_component(part.morph_targets[t].positions) + of_positions, 1.01 * steps.shift[t]));
     return rounding;
 }
 

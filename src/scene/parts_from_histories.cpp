@@ -1,12 +1,12 @@
 #include "scene/parts_from_histories.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "asset/finest_level.hpp"
+#include "asset/scene/affine.hpp"
 #include "faqem/error.hpp"
 #include "faqem/truncate.hpp"
 #include "scene/part_reports.hpp"
@@ -17,9 +17,7 @@ namespace {
 
 bool matches(const Part& part, const CollapseHistory& history) {
     if (history.triangles.size() != part.triangles.size()) return false;
-    double extent = 0;
-    for (const Vec3& at : part.positions)
-        extent = std::max({extent, std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
+    const double extent = largest_component(part.positions);
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         for (std::size_t k = 0; k < 3 && history.triangles[f][0] != no_index; ++k) {
             const Vec3 &a = part.positions[part.triangles[f][k]],

@@ -58,6 +58,15 @@ struct PointBounds {
     }
 };
 
+/// The largest absolute value of a component; 0 if there are no vectors.
+template <class Vectors>
+double largest_component(const Vectors& vectors) {
+    double most = 0;
+    for (const auto& vector : vectors)
+        for (const double x : vector) most = std::max(most, std::abs(x));
+    return most;
+}
+
 // Arithmetic of vectors, since the readers and writers are compiled without Eigen.
 inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

@@ -91,10 +91,7 @@ Part posed_part(const Part& part, const PosedInstance& instance) {
 double posed_coordinate_bound(const Part& part, double largest, const PosedInstance& instance) {
     const RestPose& pose = *instance.pose;
     for (std::size_t m = 0; m < part.morph_targets.size() && m < pose.morph_weights.size(); ++m) {
-        double displacement = 0;
-        for (const Vec3f& d : part.morph_targets[m].positions)
-            for (const float x : d) displacement = std::max(displacement, static_cast<double>(std::abs(x)));
-        largest += std::abs(pose.morph_weights[m]) * displacement;
+        largest += std::abs(pose.morph_weights[m]) * largest_component(part.morph_targets[m].positions);
     }
     // Points between those of two joints are in the box of both.
     double bound = transformed_bound(instance.transform, largest);

@@ -50,22 +50,18 @@ void move_sources_to_extensions(SourceDocument& source, std::vector<std::string>
 /// Checks that all positions, in world space and in the pose at rest, are within the range of double, so that the scene
 /// can be flattened and measured.
 void check_world_positions(const Asset& asset, const std::string& file) {
-    std::vector<double> max_coordinate(asset.parts.size(), 0);  // largest absolute coordinate of each part
-    for (std::size_t p = 0; p < max_coordinate.size(); ++p)
-        for (const Vec3& position : asset.parts[p].positions)
-            for (const double x : position) max_coordinate[p] = std::max(max_coordinate[p], std::abs(x));
-    for (const Instance& instance : instances(asset)) {
-        const double largest = std::max(max_coordinate[instance.part], 1.0);
-        if (!std::isfinite(transformed_bound(instance.transform, largest)))
-            throw InputError(file, child_path("/meshes", asset.parts[instance.part].source),
-                             "a node transform moves it out of the range of double");
-    }
+    std::vector<double> largest;  // absolute coordinate of each part, at least 1
+    for (const Part& part : asset.parts) largest.push_back(std::max(largest_component(part.positions), 1.0));
+    const auto fail = [&](Index part, const char* why) {
+        throw InputError(file, child_path("/meshes", asset.parts[part].source), why);
+    };
+    for (const Instance& instance : instances(asset))
+        if (!std::isfinite(transformed_bound(instance.transform, largest[instance.part])))
+            fail(instance.part, "a node transform moves it out of the range of double");
     for (const PosedInstance& instance : posed_instances(asset)) {
         const Part& part = asset.parts[instance.part];
-        if (instance.pose && !std::isfinite(posed_coordinate_bound(
-                                 part, std::max(max_coordinate[instance.part], 1.0), instance)))
-            throw InputError(file, child_path("/meshes", part.source),
-                             "its joints or default morph weights move it out of the range of double");
+        if (instance.pose && !std::isfinite(posed_coordinate_bound(part, largest[instance.part], instance)))
+            fail(instance.part, "its joints or default morph weights move it out of the range of double");
     }
 }
 
