@@ -1,6 +1,5 @@
 #include "asset/formats/obj_tiles.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -2,7 +2,6 @@
 /// \file
 /// The image files that a model of a format other than glTF refers to, and images that are made of them.
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -10,7 +9,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "asset/io/file_finder.hpp"
 #include "faqem/asset.hpp"

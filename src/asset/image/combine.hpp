@@ -3,7 +3,6 @@
 /// Images of glTF materials, made of images that other formats keep apart: masks, heights, roughness and metal.
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "faqem/asset.hpp"

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
-#include <string>
 #include <string_view>
 
 #include "asset/io/locked_file.hpp"

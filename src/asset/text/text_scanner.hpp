@@ -2,7 +2,6 @@
 /// \file
 /// Single-pass scanner for words, numbers and lines of a text in memory. Independent of the locale.
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>

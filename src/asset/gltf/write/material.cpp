@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <utility>
 
 #include "asset/gltf/source_document.hpp"

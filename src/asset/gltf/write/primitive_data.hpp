@@ -4,7 +4,6 @@
 /// weights that sum to 1. Valid values are kept bit for bit.
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "faqem/asset.hpp"
