@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "asset/scene/affine.hpp"
-#include "faqem/detail/simplify/run.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -11,13 +11,9 @@
 #include <optional>
 #include <string_view>
 
-#include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
-#include "asset/io/file.hpp"
-#include "asset/scene/repair.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/detail/base/lower_case.hpp"
-#include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {

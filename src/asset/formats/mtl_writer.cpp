@@ -10,7 +10,6 @@
 #include "asset/image/srgb.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/material_textures.hpp"
-#include "asset/scene/repair.hpp"
 #include "asset/text/number_text.hpp"
 
 namespace faqem::detail {

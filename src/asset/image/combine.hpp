@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/export.hpp"
 
 namespace faqem::detail {
 

@@ -7,7 +7,6 @@
 #include "asset/gltf/read/compressed.hpp"
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
-#include "asset/image/image.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -3,7 +3,6 @@
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/read/checker.hpp"
 #include "asset/gltf/read/compressed.hpp"
-#include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 
 namespace faqem::detail {

@@ -5,7 +5,6 @@
 #include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
-#include "asset/scene/repair.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -16,7 +16,6 @@
 #include "asset/gltf/write/writer.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
-#include "asset/scene/repair.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -8,7 +8,6 @@
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/writer.hpp"
-#include "asset/scene/affine.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include "asset/gltf/accessor.hpp"
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
 #include "asset/gltf/write/feature_metadata.hpp"

@@ -13,7 +13,6 @@
 #include "asset/gltf/write/feature_metadata.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
-#include "asset/gltf/write/meshopt_encoder.hpp"
 #include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
