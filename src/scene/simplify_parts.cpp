@@ -29,9 +29,8 @@
 #include "scene/welded_source.hpp"
 
 namespace faqem {
+namespace detail {
 namespace {
-
-using detail::RunContext;
 
 // UVs and vertex colours of a part as corner attributes.
 CornerAttributes corner_attributes(const Part& part) {
@@ -50,10 +49,10 @@ CornerAttributes corner_attributes(const Part& part) {
 }
 
 // By face: the material group or, without groups, the material. Empty if all are equal.
-std::vector<Index> face_groups(const Part& part, const std::optional<detail::MaterialGroups>& groups) {
+std::vector<Index> face_groups(const Part& part, const std::optional<MaterialGroups>& groups) {
     std::vector<Index> result;
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
-        const Index material = detail::face_material(part, f);
+        const Index material = face_material(part, f);
         result.push_back(groups ? groups->group_of(material) : material);
     }
     const bool one = std::all_of(result.begin(), result.end(), [&](Index g) { return g == result.front(); });
@@ -70,15 +69,13 @@ struct PartInput {
     MeshView view;
 
     // Sets the weld of the options to none if the part is welded here.
-    PartInput(const Asset& source, const Part& part,
-              const std::optional<detail::MaterialGroups>& material_groups, bool keeps_uvs,
-              std::span<const float> weights, Options& own)
+    PartInput(const Asset& source, const Part& part, const std::optional<MaterialGroups>& material_groups,
+              bool keeps_uvs, std::span<const float> weights, Options& own)
         : groups(face_groups(part, material_groups)) {
-        if (material_groups) groups = detail::separate_coincident_faces(part, std::move(groups));
+        if (material_groups) groups = separate_coincident_faces(part, std::move(groups));
         if (keeps_uvs) attributes = corner_attributes(part);
         if (own.topology.weld != Weld::none)
-            welded = detail::welded_by_motion(part, detail::motion_rounding(source, part),
-                                              detail::settings(own).weld_distance);
+            welded = welded_by_motion(part, motion_rounding(source, part), settings(own).weld_distance);
         if (!welded.empty()) own.topology.weld = Weld::none;
         view = {part.positions,
                 welded.empty() ? part.triangles : welded,
@@ -94,18 +91,18 @@ struct PartInput {
 class PartsRun {
 public:
     PartsRun(const Asset& source, const Options& options, const RunContext& context,
-             std::span<const detail::LevelTarget> levels = {})
+             std::span<const LevelTarget> levels = {})
         : source_(source),
           options_(options),
           context_(context),
           levels_(levels),
-          precision_(detail::result_precision(source, options.format)) {
+          precision_(result_precision(source, options.format)) {
         const Bake kind = options.bake.kind;
         const bool merged = kind != Bake::keep && kind != Bake::none;
-        if (merged) groups_ = detail::group_materials(source, options.bake);
-        has_own_uvs_ = detail::parts_with_own_uvs(source, options.bake);
+        if (merged) groups_ = group_materials(source, options.bake);
+        has_own_uvs_ = parts_with_own_uvs(source, options.bake);
         if (options.topology.prune)
-            size_ = detail::scene_size(source);
+            size_ = scene_size(source);
         else
             size_.scales.resize(source.parts.size());
         for (const Part& part : source.parts) faces_ += static_cast<double>(part.triangles.size());
@@ -115,7 +112,7 @@ public:
         begin(targets.size());
         std::vector<SimplifiedParts> results = run(budgets(targets));
         for (std::size_t i = 0; i < shares_.size(); ++i)
-            detail::warn_of_small_shares(source_, shares_[i], results[i]);
+            warn_of_small_shares(source_, shares_[i], results[i]);
         return results;
     }
 
@@ -128,7 +125,7 @@ public:
     }
 
     /// Simplifies each part with a function. \return nothing if it returned nothing for a part
-    std::optional<SimplifiedParts> with(const detail::SimplifyPart& simplify) {
+    std::optional<SimplifiedParts> with(const SimplifyPart& simplify) {
         begin(1);
         bool is_complete = true;
         std::vector<SimplifiedParts> results = run_parts(
@@ -171,12 +168,11 @@ private:
                 round_result(results[i]);
                 results_[i].parts[p] = std::move(results[i]);
                 if (groups_) restore_face_groups(p, results_[i].parts[p]);
-                detail::add_part_report(results_[i].report, results_[i].parts[p].report,
-                                        detail::part_title(source_, p));
+                add_part_report(results_[i].report, results_[i].parts[p].report, part_title(source_, p));
             }
         });
         for (SimplifiedParts& level : results_) {
-            detail::report_removed_components(source_, level);
+            report_removed_components(source_, level);
             if (level.report.stop == StopReason::reached_time_limit)
                 level.report.warnings.push_back("max_seconds was over before the target was reached");
             level.report.seconds.total = level.report.seconds.simplify;
@@ -187,7 +183,7 @@ private:
     // Rounds the positions as the file will have them, so that this is what is measured.
     void round_result(SimplifyResult& result) const {
         const std::vector<Vec3> before = result.mesh.positions;
-        detail::round_positions(precision_, result.mesh.triangles, result.mesh.positions);
+        round_positions(precision_, result.mesh.triangles, result.mesh.positions);
         if (result.mesh.positions != before) result.history.final_positions = result.mesh.positions;
     }
 
@@ -196,19 +192,18 @@ private:
                                                      const std::vector<std::uint64_t>& targets,
                                                      const Options& own, const RunContext& context) {
         std::vector<Vec3> bent;
-        if (detail::has_displacements(part))
-            bent = detail::bent_positions(part, view, own, context, targets.front());
+        if (has_displacements(part)) bent = bent_positions(part, view, own, context, targets.front());
         if (!bent.empty()) view.positions = bent;
-        return detail::run_to_targets(view, targets, own, context);
+        return run_to_targets(view, targets, own, context);
     }
 
     void compute_visibility() {
-        const detail::Stopwatch watch;
+        const Stopwatch watch;
         context_.show(Phase::simplify, 0);
-        detail::VertexVisibility seen;
-        if (!context_.in_time([&] { seen = detail::vertex_visibility(source_, context_); })) return;
+        VertexVisibility seen;
+        if (!context_.in_time([&] { seen = vertex_visibility(source_, context_); })) return;
         weights_ = std::move(seen.weights);
-        const std::string warning = detail::visibility_warning(source_);
+        const std::string warning = visibility_warning(source_);
         for (SimplifiedParts& level : results_) {
             level.report.vertices_hidden = seen.hidden_vertices;
             if (!warning.empty()) level.report.warnings.push_back(warning);
@@ -218,7 +213,7 @@ private:
 
     // Face counts by part and target; in descending order for every part.
     std::vector<std::vector<std::uint64_t>> budgets(std::span<const std::uint64_t> targets) {
-        const detail::Stopwatch watch;
+        const Stopwatch watch;
         const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
                                           [](const Part& part) { return !part.triangles.empty(); });
         // Without a target below the number of faces there is nothing to distribute.
@@ -229,7 +224,7 @@ private:
         for (std::size_t i = 0; i < targets.size(); ++i) {
             const std::uint64_t target_faces = std::min(targets[i], static_cast<std::uint64_t>(faces_));
             const std::vector<std::uint64_t> share = by_cost ? budget_by_cost(target_faces, is_asked_for(i))
-                                                             : detail::budget_by_faces(source_, target_faces);
+                                                             : budget_by_faces(source_, target_faces);
             for (std::size_t p = 0; p < share.size(); ++p)
                 result[p].push_back(result[p].empty() ? share[p] : std::min(share[p], result[p].back()));
         }
@@ -242,12 +237,12 @@ private:
 
     std::vector<std::uint64_t> budget_by_cost(std::uint64_t target_faces, bool has_floors) {
         std::vector<double> shares;
-        if (has_floors) shares = detail::proportional_shares(source_, target_faces, weights_);
+        if (has_floors) shares = proportional_shares(source_, target_faces, weights_);
         std::vector<std::uint64_t> floors;
         for (const double share : shares)
-            floors.push_back(static_cast<std::uint64_t>(std::ceil(detail::min_share * share)));
+            floors.push_back(static_cast<std::uint64_t>(std::ceil(min_share * share)));
         shares_.push_back(std::move(shares));
-        return detail::distribute_face_budget(curves_, cost_weights_, target_faces, floors);
+        return distribute_face_budget(curves_, cost_weights_, target_faces, floors);
     }
 
     // Returns false if the time is over; then there are no curves.
@@ -257,16 +252,16 @@ private:
         for_each_part(
             [&](std::size_t p, const MeshView& view, const Options& own, const RunContext& of_part) {
                 const Part& part = source_.parts[p];
-                curves_[p] = detail::cost_curve(view, own, of_part);
-                if (detail::has_displacements(part)) {
+                curves_[p] = cost_curve(view, own, of_part);
+                if (has_displacements(part)) {
                     const double share =
                         static_cast<double>(part.triangles.size()) * static_cast<double>(target) / faces_;
-                    curves_[p] = detail::curve_in_motion(std::move(curves_[p]), part, view, own, of_part,
-                                                         static_cast<std::uint64_t>(share));
+                    curves_[p] = curve_in_motion(std::move(curves_[p]), part, view, own, of_part,
+                                                 static_cast<std::uint64_t>(share));
                 }
                 if (curves_[p].stop == StopReason::cancelled) throw engine::Cancelled{};
             });
-        cost_weights_ = detail::cost_weights(curves_.size(), detail::seen_instances(source_));
+        cost_weights_ = cost_weights(curves_.size(), seen_instances(source_));
         return !context_.is_late();
     }
 
@@ -289,7 +284,7 @@ private:
             const Part& part = source_.parts[p];
             if (part.triangles.empty()) continue;
             const double size = static_cast<double>(part.triangles.size());
-            Options own = detail::part_options(options_, size_, size_.scales[p]);
+            Options own = part_options(options_, size_, size_.scales[p]);
             // Materials that stay apart are not mixed on flat surfaces.
             GroupBoundaries& boundaries = own.topology.group_boundaries;
             if (boundaries == GroupBoundaries::free) boundaries = GroupBoundaries::preferred;
@@ -307,15 +302,15 @@ private:
     const Asset& source_;
     const Options& options_;
     const RunContext& context_;
-    std::optional<detail::MaterialGroups> groups_;
+    std::optional<MaterialGroups> groups_;
     std::vector<std::uint8_t> has_own_uvs_;  // by part
     std::vector<SimplifiedParts> results_;
-    std::span<const detail::LevelTarget> levels_;  // see simplify_parts_to_targets()
-    StoredPrecision precision_;                    // to which results are rounded
-    std::vector<std::vector<double>> shares_;      // by target: of proportional_shares(), or empty
-    std::vector<detail::CostCurve> curves_;
+    std::span<const LevelTarget> levels_;      // see simplify_parts_to_targets()
+    StoredPrecision precision_;                // to which results are rounded
+    std::vector<std::vector<double>> shares_;  // by target: of proportional_shares(), or empty
+    std::vector<CostCurve> curves_;
     std::vector<double> cost_weights_;  // by part
-    detail::SceneSize size_;
+    SceneSize size_;
     std::vector<std::vector<float>> weights_;  // by part and vertex; empty: equal weights
     double faces_ = 0;                         // of all parts
     double done_ = 0;                          // faces of the parts that are finished, in all passes
@@ -324,11 +319,10 @@ private:
 
 }  // namespace
 
-std::vector<SimplifiedParts> detail::simplify_parts_to_targets(const Asset& source,
-                                                               std::span<const std::uint64_t> targets,
-                                                               const Options& options,
-                                                               const RunContext& context,
-                                                               std::span<const LevelTarget> levels) {
+std::vector<SimplifiedParts> simplify_parts_to_targets(const Asset& source,
+                                                       std::span<const std::uint64_t> targets,
+                                                       const Options& options, const RunContext& context,
+                                                       std::span<const LevelTarget> levels) {
     return PartsRun(source, options, context, levels)(targets);
 }
 
@@ -336,8 +330,7 @@ namespace {
 
 // Whether a new atlas could have images: for textures, vertex colours, or several materials on one page.
 bool has_appearance(const Asset& source) {
-    return !source.images.empty() || source.materials.size() > 1 ||
-           detail::some_part_has(source, &Part::colors);
+    return !source.images.empty() || source.materials.size() > 1 || some_part_has(source, &Part::colors);
 }
 
 // Simplifies all parts again, with UVs, to the face counts that they have.
@@ -354,33 +347,30 @@ void add_parts_with_uvs(const Asset& source, Options own, const RunContext& cont
 
 }  // namespace
 
-SimplifiedParts detail::simplify_welded_parts(const Asset& source, const Options& options,
-                                              const RunContext& context,
-                                              std::span<const LevelTarget> levels) {
+SimplifiedParts simplify_welded_parts(const Asset& source, const Options& options, const RunContext& context,
+                                      std::span<const LevelTarget> levels) {
     std::uint64_t faces = 0;
     for (const Part& part : source.parts) faces += part.triangles.size();
-    const std::uint64_t target = detail::target_face_count(options.target, static_cast<double>(faces));
+    const std::uint64_t target = target_face_count(options.target, static_cast<double>(faces));
     // Plain materials are kept anyway.
-    const bool tries_uvs = detail::may_keep_uvs(options) && has_appearance(source) &&
-                           !detail::has_plain_materials(source, options.bake) && target < faces;
+    const bool tries_uvs = may_keep_uvs(options) && has_appearance(source) &&
+                           !has_plain_materials(source, options.bake) && target < faces;
     const RunContext step = context.step(Phase::simplify, 0, tries_uvs ? 0.5 : 1);
     SimplifiedParts result =
-        std::move(detail::simplify_parts_to_targets(source, {&target, 1}, options, step, levels).front());
+        std::move(simplify_parts_to_targets(source, {&target, 1}, options, step, levels).front());
     if (tries_uvs && !context.is_late())
         add_parts_with_uvs(source, options, context.step(Phase::simplify, 0.5, 1), result);
     return result;
 }
 
-std::optional<SimplifiedParts> detail::simplify_each_part(const Asset& source, const Options& options,
-                                                          const RunContext& context,
-                                                          const SimplifyPart& simplify) {
+std::optional<SimplifiedParts> simplify_each_part(const Asset& source, const Options& options,
+                                                  const RunContext& context, const SimplifyPart& simplify) {
     return PartsRun(source, options, context).with(simplify);
 }
 
-std::vector<SimplifiedParts> detail::simplify_parts_in_steps(const Asset& source,
-                                                             std::span<const std::uint64_t> targets,
-                                                             const Options& requested,
-                                                             const RunContext& context) {
+std::vector<SimplifiedParts> simplify_parts_in_steps(const Asset& source,
+                                                     std::span<const std::uint64_t> targets,
+                                                     const Options& requested, const RunContext& context) {
     validate(requested);
     check_asset(source);
     const Options options = resolved_options(source, requested);
@@ -391,8 +381,7 @@ std::vector<SimplifiedParts> detail::simplify_parts_in_steps(const Asset& source
     return results;
 }
 
-SimplifiedParts detail::simplify_parts(const Asset& source, const Options& requested,
-                                       const RunContext& context) {
+SimplifiedParts simplify_parts(const Asset& source, const Options& requested, const RunContext& context) {
     validate(requested);
     check_asset(source);
     const Options options = resolved_options(source, requested);
@@ -403,8 +392,10 @@ SimplifiedParts detail::simplify_parts(const Asset& source, const Options& reque
     return result;
 }
 
+}  // namespace detail
+
 SimplifiedParts simplify_parts(const Asset& source, const Options& options) try {
-    return detail::simplify_parts(source, options, RunContext(options));
+    return detail::simplify_parts(source, options, detail::RunContext(options));
 } catch (const engine::Cancelled&) {
     auto nothing = detail::cancelled_result<SimplifiedParts>();
     nothing.parts.resize(source.parts.size());
