@@ -102,7 +102,7 @@ public:
         number_nodes();
         if (!keeps_numbers_) remove_skins(skins);
         filter_channels(document_, [&](const Json&, Json& channel) { return update_channel(channel); });
-        update_scenes();
+        for (Json& scene : elements(document_, "scenes")) update_list(scene, "nodes");
         update_nodes();
         return meshes;
     }
@@ -196,11 +196,6 @@ private:
         return true;
     }
 
-    void update_scenes() {
-        if (!document_.contains("scenes")) return;
-        for (Json& scene : document_["scenes"]) update_list(scene, "nodes");
-    }
-
     void update_nodes() {
         Json nodes = Json::array();
         for (Index n = 0; n < removed_.size(); ++n) {
@@ -268,8 +263,7 @@ void remove_materials(const Marks& removed_sources, Asset& asset) {
 }
 
 void erase_material_levels(SourceDocument& source, std::vector<Material>& materials) {
-    if (source.document.contains("materials"))
-        for (Json& material : source.document["materials"]) erase_levels(material);
+    for (Json& material : elements(source.document, "materials")) erase_levels(material);
     for (std::vector<Material>* all : {&source.materials, &materials})
         for (Material& material : *all) std::erase(material.extensions, lod_name);
 }

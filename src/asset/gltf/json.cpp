@@ -46,6 +46,12 @@ std::uint64_t array_size(const Json& object, const char* key) {
     return array.is_array() ? array.size() : 0;
 }
 
+std::span<Json> elements(Json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_array()) return {};
+    return found->get_ref<Json::array_t&>();
+}
+
 Index index_member(const Json& object, const char* key) {
     const Json& value = member(object, key);
     return value.is_number_integer() ? value.get<Index>() : no_index;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -57,6 +58,9 @@ const Json& member(const Json& object, const char* key, Keys... keys) {
 
 /// Number of elements of the array object[key]; 0 if there is none.
 std::uint64_t array_size(const Json& object, const char* key);
+
+/// The elements of the array object[key], to be changed; none if there is no array.
+std::span<Json> elements(Json& object, const char* key);
 
 /// The index stored under `key`, or no_index if absent. \pre the document was validated
 Index index_member(const Json& object, const char* key);

@@ -28,9 +28,8 @@ std::uint64_t total_buffer_size(const SourceDocument& source) {
 }
 
 void decompress_views(SourceDocument& source, const std::string& file) {
-    if (!source.document.contains("bufferViews")) return;
     [[maybe_unused]] DecompressionLimit limit{max_meshopt_ratio * total_buffer_size(source), file};
-    Json& views = source.document["bufferViews"];
+    const std::span<Json> views = elements(source.document, "bufferViews");
     for (std::uint64_t i = 0; i < views.size(); ++i) {
 #ifdef FAQEM_WITH_MESHOPT
         const Json& compressed = meshopt_extension(source.document, views[i]);
@@ -111,13 +110,11 @@ void decompress_primitive(SourceDocument& source, const Json& primitive, const s
 #endif
 
 void decompress_primitives(SourceDocument& source, const std::string& file) {
-    if (!source.document.contains("meshes")) return;
     [[maybe_unused]] DecompressionLimit limit{
         draco_base_element_limit + max_draco_elements_per_byte * total_buffer_size(source), file};
-    Json& meshes = source.document["meshes"];
+    const std::span<Json> meshes = elements(source.document, "meshes");
     for (std::uint64_t m = 0; m < meshes.size(); ++m) {
-        if (!meshes[m].contains("primitives")) continue;
-        Json& primitives = meshes[m]["primitives"];
+        const std::span<Json> primitives = elements(meshes[m], "primitives");
         for (std::uint64_t p = 0; p < primitives.size(); ++p) {
 #ifdef FAQEM_WITH_DRACO
             if (needs_draco(source.document, primitives[p])) {

@@ -22,8 +22,7 @@ bool needs_child_node(const Json& node, bool is_animated) {
 
 /// Lets the animations of the morph weights of a node move another node, too.
 void copy_weight_channels(Json& document, Index from, Index to) {
-    if (!document.contains("animations")) return;
-    for (Json& animation : document["animations"]) {
+    for (Json& animation : elements(document, "animations")) {
         Json& channels = animation["channels"];
         const std::size_t count = channels.size();
         for (std::size_t c = 0; c < count; ++c) {

@@ -79,8 +79,7 @@ void copy_attributes(GltfWriter& writer, Json& attributes) {
 Json copy_primitive(GltfWriter& writer, const Json& source, const std::string& mesh) {
     Json primitive = source;
     copy_attributes(writer, primitive["attributes"]);
-    if (primitive.contains("targets"))
-        for (Json& target : primitive["targets"]) copy_attributes(writer, target);
+    for (Json& target : elements(primitive, "targets")) copy_attributes(writer, target);
     if (primitive.contains("indices"))
         primitive["indices"] =
             copy_accessor(writer, index_member(primitive, "indices"), AccessorUse::indices);

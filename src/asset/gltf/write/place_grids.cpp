@@ -34,8 +34,7 @@ bool is_grid_node(const GltfWriter& writer, const Json& node) {
 std::string pointer_to(Index node) { return "/nodes/" + std::to_string(node) + "/"; }
 
 void retarget_weight_channels(Json& document, Index from, Index to) {
-    if (!document.contains("animations")) return;
-    for (Json& animation : document["animations"])
+    for (Json& animation : elements(document, "animations"))
         for (Json& channel : animation["channels"]) {
             Json& target = channel["target"];
             if (index_member(target, "node") == from && string_member(target, "path") == "weights")
@@ -123,10 +122,9 @@ void write_bind_matrices(GltfWriter& writer, Json& skin, const MeshGrid& grid) {
 
 /// Gives each skin the inverse bind matrices for the grid of its meshes. A skin of meshes with several grids is copied.
 void place_skins(GltfWriter& writer) {
-    if (!writer.out.contains("skins")) return;
-    const std::size_t skins = writer.out["skins"].size();
+    const std::size_t skins = array_size(writer.out, "skins");
     std::vector<std::vector<std::pair<MeshGrid, Index>>> copies(skins);  // by skin: grids, and skins for them
-    for (Json& node : writer.out["nodes"]) {
+    for (Json& node : elements(writer.out, "nodes")) {
         const Index skin = index_member(node, "skin"), mesh = index_member(node, "mesh");
         if (skin == no_index || mesh == no_index) continue;
         MeshGrid grid = writer.grids[mesh];

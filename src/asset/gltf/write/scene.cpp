@@ -123,8 +123,7 @@ void update_animations(GltfWriter& writer) {
                                       "': a channel was left out because its target was removed");
         return is_kept;
     });
-    if (!writer.out.contains("animations")) return;
-    for (Json& animation : writer.out["animations"])
+    for (Json& animation : elements(writer.out, "animations"))
         for (Json& sampler : animation["samplers"])
             for (const char* key : {"input", "output"})
                 sampler[key] = copy_accessor(writer, index_member(sampler, key), AccessorUse::other);
@@ -134,9 +133,8 @@ void remap_image_lights(GltfWriter& writer) {
     const char* name = "EXT_lights_image_based";
     if (!member(writer.out, "extensions", name).contains("lights")) return;
     for (Json& light : writer.out["extensions"][name]["lights"])
-        if (light.contains("specularImages"))
-            for (Json& mip : light["specularImages"])
-                for (Json& image : mip) image = copy_image(writer, image.get<Index>());
+        for (Json& mip : elements(light, "specularImages"))
+            for (Json& image : mip) image = copy_image(writer, image.get<Index>());
 }
 
 bool contains_number(const Json& value) {
@@ -180,11 +178,10 @@ Index morph_target_count(const GltfWriter& writer, Index mesh) {
 }
 
 void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes) {
-    if (writer.out.contains("nodes"))
-        for (Json& node : writer.out["nodes"]) update_node(writer, node);
+    for (Json& node : elements(writer.out, "nodes")) update_node(writer, node);
     add_nodes(writer, new_meshes);
-    if (writer.out.contains("skins") && !any_needs_transform(writer))
-        for (Json& skin : writer.out["skins"])
+    if (!any_needs_transform(writer))
+        for (Json& skin : elements(writer.out, "skins"))
             if (skin.contains("inverseBindMatrices"))
                 skin["inverseBindMatrices"] =
                     copy_accessor(writer, index_member(skin, "inverseBindMatrices"), AccessorUse::matrices);

@@ -57,10 +57,10 @@ std::string json_text(const Json& document, int indent) {
 
 /// Replaces the numbers of Draco data by the indices of its views.
 void number_draco_views(GltfWriter& writer) {
-    if (writer.asset.compression != Compression::draco || !writer.out.contains("meshes")) return;
+    if (writer.asset.compression != Compression::draco) return;
     const Index first = writer.binary.first_data_view();
-    for (Json& mesh : writer.out["meshes"])
-        for (Json& primitive : mesh["primitives"])
+    for (Json& mesh : elements(writer.out, "meshes"))
+        for (Json& primitive : elements(mesh, "primitives"))
             if (member(primitive, "extensions", draco_name).contains("bufferView"))
                 primitive["extensions"][draco_name]["bufferView"] =
                     first + primitive["extensions"][draco_name]["bufferView"].get<Index>();
