@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -22,23 +21,47 @@ inline Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p) {
 }
 
 /// The larger of two values, or NaN if one of them is NaN.
-double max_or_nan(double a, double b);
+inline double max_or_nan(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
 
 /// A bound of the absolute coordinates of transformed points; NaN or infinity if they may be outside the range of double.
 /// \param largest  largest absolute coordinate of the points
-double transformed_bound(const std::array<double, 16>& m, double largest);
+inline double transformed_bound(const std::array<double, 16>& m, double largest) {
+    double bound = 0;
+    for (std::size_t r = 0; r < 3; ++r) {
+        const double row =
+            (std::abs(m[r]) + std::abs(m[4 + r]) + std::abs(m[8 + r])) * largest + std::abs(m[12 + r]);
+        bound = max_or_nan(bound, row);
+    }
+    return bound;
+}
 
 /// Transforms normals by the inverse transpose of the linear part, and normalises them. Those of mirroring transforms
 /// point to the same side as the face normals of faces whose winding is reversed. Defined for singular transforms too.
-class FAQEM_EXPORT NormalTransform {
+class NormalTransform {
 public:
-    explicit NormalTransform(const std::array<double, 16>& m);
+    explicit NormalTransform(const std::array<double, 16>& m) {
+        const auto at = [&](std::size_t r, std::size_t col) { return m[4 * (col % 3) + r % 3]; };
+        for (std::size_t r = 0; r < 3; ++r)
+            for (std::size_t k = 0; k < 3; ++k)
+                cofactors_[r][k] = at(r + 1, k + 1) * at(r + 2, k + 2) - at(r + 1, k + 2) * at(r + 2, k + 1);
+        const double determinant =
+            m[0] * cofactors_[0][0] + m[1] * cofactors_[1][0] + m[2] * cofactors_[2][0];
+        sign_ = determinant < 0 ? -1 : 1;
+    }
 
     /// Whether the transform mirrors.
     bool is_mirrored() const { return sign_ < 0; }
 
     /// The unit normal; zero if it is zero or not finite.
-    Vec3f operator()(const Vec3f& n) const;
+    Vec3f operator()(const Vec3f& n) const {
+        Vec3 q;
+        for (std::size_t r = 0; r < 3; ++r)
+            q[r] = sign_ * (cofactors_[r][0] * n[0] + cofactors_[r][1] * n[1] + cofactors_[r][2] * n[2]);
+        const double length = std::hypot(q[0], q[1], q[2]);
+        if (!(length > 0 && std::isfinite(length))) return {0, 0, 0};
+        return {static_cast<float>(q[0] / length), static_cast<float>(q[1] / length),
+                static_cast<float>(q[2] / length)};
+    }
 
 private:
     std::array<Vec3, 3>
