@@ -42,55 +42,49 @@ bool is_supported(std::string_view extension) {
            extension == center_name || names_by_number(extension);
 }
 
-void check_version(const GltfChecker& checker) {
-    const Json& asset = checker.object(checker.document, "", "asset");
-    if (asset.is_null()) checker.fail("/asset", "is missing");
-    const std::string version = string_member(asset, "version");
+void check_version(const CheckedJson& document) {
+    const CheckedJson asset = document.object("asset");
+    if (asset.json.is_null()) asset.fail("is missing");
+    const std::string version = string_member(asset.json, "version");
     if (!version.starts_with("2."))
-        checker.fail_unsupported("/asset/version", "'" + version + "' is not supported, only 2.0 is");
-    const std::string minimum = string_member(asset, "minVersion");
+        asset.member("version").fail_unsupported("'" + version + "' is not supported, only 2.0 is");
+    const std::string minimum = string_member(asset.json, "minVersion");
     if (!minimum.empty() && minimum != "2.0")
-        checker.fail_unsupported("/asset/minVersion", "'" + minimum + "' is not supported, only 2.0 is");
+        asset.member("minVersion").fail_unsupported("'" + minimum + "' is not supported, only 2.0 is");
 }
 
-void check_extension_list(const GltfChecker& checker, const char* key) {
-    for (const Json& name : checker.array(checker.document, "", key))
-        if (!name.is_string()) checker.fail(child_path("", key), "contains an element that is not a string");
+void check_extension_list(const CheckedJson& document, const char* key) {
+    const CheckedJson names = document.array(key);
+    for (const Json& name : names.json)
+        if (!name.is_string()) names.fail("contains an element that is not a string");
 }
 
-void check_required_extensions(const GltfChecker& checker) {
-    checker.for_each(checker.document, "", "extensionsRequired", [&](const Json& value, const auto& where) {
-        const auto name = value.get<std::string>();
-        if (name == draco_name || name == meshopt_name) {
-            if (!has_codec(name)) checker.fail_unsupported(where, missing_decoder_message(name));
-        } else if (!is_supported(name)) {
-            checker.fail_unsupported(where, "the extension " + name + " is not supported");
-        }
-    });
+void check_required_extension(const CheckedJson& extension) {
+    const auto name = extension.json.get<std::string>();
+    if (name == draco_name || name == meshopt_name) {
+        if (!has_codec(name)) extension.fail_unsupported(missing_decoder_message(name));
+    } else if (!is_supported(name)) {
+        extension.fail_unsupported("the extension " + name + " is not supported");
+    }
 }
 
 /// Checks that every `extensions` outside of extras is an object of objects, which the writer relies on. The
 /// recursion depth is limited by max_json_depth.
-void check_extensions(const GltfChecker& checker, const Json& value, const std::string& where) {
-    if (value.is_array())
-        for (std::uint64_t i = 0; i < value.size(); ++i)
-            check_extensions(checker, value[i], child_path(where, i));
-    if (!value.is_object()) return;
-    for (const auto& [name, extension] : checker.object(value, where, "extensions").items())
-        if (!extension.is_object()) checker.fail(where + "/extensions/" + name, "is not an object");
-    for (const auto& [key, child] : value.items())
-        if (key != "extras") check_extensions(checker, child, child_path(where, key));
+void check_extensions(const CheckedJson& value) {
+    if (value.json.is_array()) value.elements(check_extensions);
+    if (!value.json.is_object()) return;
+    value.object("extensions").members([](const std::string&, const CheckedJson& extension) {
+        if (!extension.json.is_object()) extension.fail("is not an object");
+    });
+    value.members([](const std::string& key, const CheckedJson& child) {
+        if (key != "extras") check_extensions(child);
+    });
 }
 
-void check_image_lights(const GltfChecker& checker) {
-    const std::string where = "/extensions/EXT_lights_image_based";
-    const Json& extension = member(checker.document, "extensions", "EXT_lights_image_based");
-    checker.for_each(extension, where, "lights", [&](const Json& light, const std::string& at) {
-        for (const Json& mip : checker.array(light, at, "specularImages")) {
-            if (!mip.is_array())
-                checker.fail(at + "/specularImages", "contains an element that is not an array");
-            for (const Json& image : mip) checker.checked_index(image, at + "/specularImages", "images");
-        }
+void check_image_light(const CheckedJson& light) {
+    light.for_each("specularImages", [](const CheckedJson& mip) {
+        if (!mip.json.is_array()) mip.fail("is not an array");
+        mip.elements([](const CheckedJson& image) { image.index("images"); });
     });
 }
 
@@ -104,20 +98,20 @@ std::vector<std::string> unknown_extensions(const Json& document) {
     return {names.begin(), names.end()};
 }
 
-void check_document(const GltfChecker& checker) {
-    if (!checker.document.is_object()) checker.fail("", "is neither a GLB nor a JSON object");
-    check_version(checker);
-    check_extension_list(checker, "extensionsUsed");
-    check_extension_list(checker, "extensionsRequired");
-    check_required_extensions(checker);
+void check_document(const CheckedJson& document) {
+    if (!document.json.is_object()) document.fail("is neither a GLB nor a JSON object");
+    check_version(document);
+    check_extension_list(document, "extensionsUsed");
+    check_extension_list(document, "extensionsRequired");
+    document.for_each("extensionsRequired", check_required_extension);
     for (const char* key : top_level_arrays)
-        checker.for_each(checker.document, "", key, [&](const Json& value, const std::string& where) {
-            if (!value.is_object()) checker.fail(where, "is not an object");
+        document.for_each(key, [](const CheckedJson& value) {
+            if (!value.json.is_object()) value.fail("is not an object");
         });
-    check_extensions(checker, checker.document, "");
-    check_image_lights(checker);
-    const Json& tile = member(checker.document, "extensions", center_name);
-    checker.check_number_array(tile, child_path("/extensions", center_name), "center", 3);
+    check_extensions(document);
+    const CheckedJson extensions = document.member("extensions");
+    extensions.member("EXT_lights_image_based").for_each("lights", check_image_light);
+    extensions.member(center_name).check_number_array("center", 3);
 }
 
 }  // namespace faqem::detail

@@ -10,8 +10,7 @@ namespace faqem::detail {
 namespace {
 
 /// Checks the type of an attribute that places instances: three floats, or for rotations also four normalised integers.
-void check_instance_attribute(const GltfChecker& checker, const std::string& name, const Json& accessor,
-                              const std::string& where) {
+void check_instance_attribute(const CheckedJson& attribute, const std::string& name, const Json& accessor) {
     const bool is_rotation = name == "ROTATION";
     if (!is_rotation && name != "TRANSLATION" && name != "SCALE") return;
     const NumberType type = component_type(accessor);
@@ -19,64 +18,59 @@ void check_instance_attribute(const GltfChecker& checker, const std::string& nam
                                (type == NumberType::i8 || type == NumberType::i16);
     if (string_member(accessor, "type") != (is_rotation ? "VEC4" : "VEC3") ||
         !(type == NumberType::f32 || is_normalized))
-        checker.fail(where, is_rotation ? "is not a VEC4 of floats or of normalised signed bytes or shorts"
-                                        : "is not a VEC3 of floats");
+        attribute.fail(is_rotation ? "is not a VEC4 of floats or of normalised signed bytes or shorts"
+                                   : "is not a VEC3 of floats");
 }
 
 /// Returns the number of instances of the node's mesh, 1 without the extension.
-std::uint64_t checked_instance_count(const GltfChecker& checker, const Json& node, const std::string& where) {
-    const std::string at = where + "/extensions/" + instancing_name;
-    const Json& instancing = member(node, "extensions", instancing_name);
+std::uint64_t checked_instance_count(const CheckedJson& node) {
     std::uint64_t count = 0;
-    for (const auto& [name, reference] : checker.object(instancing, at, "attributes").items()) {
-        const std::string path = at + "/attributes/" + name;
-        const std::uint64_t index = checker.checked_index(reference, path, "accessors");
-        const Json& accessor = member(checker.document, "accessors")[index];
+    const CheckedJson attributes = node.member("extensions").member(instancing_name).object("attributes");
+    attributes.members([&](const std::string& name, const CheckedJson& attribute) {
+        const Json& accessor = attribute.element("accessors", attribute.index("accessors"));
         const std::uint64_t own = unsigned_member(accessor, "count", 0);
         if (count != 0 && own != count)
-            checker.fail(path, "has " + pluralized(own, "element") + ", another attribute has " +
-                                   std::to_string(count));
+            attribute.fail("has " + pluralized(own, "element") + ", another attribute has " +
+                           std::to_string(count));
         count = own;
-        check_instance_attribute(checker, name, accessor, path);
-    }
+        check_instance_attribute(attribute, name, accessor);
+    });
     return std::max<std::uint64_t>(count, 1);
 }
 
-void check_node(const GltfChecker& checker, const Json& node, const std::string& where) {
-    checker.reference(node, where, "mesh", "meshes");
-    checker.reference(node, where, "skin", "skins");
-    checker.reference(node, where, "camera", "cameras");
-    checker.check_number_array(node, where, "matrix", 16);
-    checker.check_number_array(node, where, "translation", 3);
-    checker.check_number_array(node, where, "rotation", 4);
-    checker.check_number_array(node, where, "scale", 3);
-    checker.array(node, where, "weights");
-    checker.object(node, where, "extensions");
-    checker.check_levels(node, where, "nodes");
+void check_node(const CheckedJson& node) {
+    node.reference("mesh", "meshes");
+    node.reference("skin", "skins");
+    node.reference("camera", "cameras");
+    node.check_number_array("matrix", 16);
+    node.check_number_array("translation", 3);
+    node.check_number_array("rotation", 4);
+    node.check_number_array("scale", 3);
+    node.array("weights");
+    node.check_levels("nodes");
 }
 
-void check_instance_counts(const GltfChecker& checker) {
+void check_instance_counts(const CheckedJson& document) {
     std::uint64_t instances = 0;
-    checker.for_each(checker.document, "", "nodes", [&](const Json& node, const std::string& where) {
-        const std::uint64_t own = checked_instance_count(checker, node, where);
+    document.for_each("nodes", [&](const CheckedJson& node) {
+        const std::uint64_t own = checked_instance_count(node);
         if (own > 1 && own > max_instances - std::min(instances, max_instances))
-            checker.fail_unsupported(
-                where, "the file has more than " + std::to_string(max_instances) + " instances");
+            node.fail_unsupported("the file has more than " + std::to_string(max_instances) + " instances");
         instances += own;
     });
 }
 
 /// Parent of each node; the number of nodes if it has none.
-std::vector<std::uint64_t> checked_parents(const GltfChecker& checker, const Json& nodes) {
-    const std::uint64_t count = nodes.size();
+std::vector<std::uint64_t> checked_parents(const CheckedJson& nodes) {
+    const std::uint64_t count = nodes.json.size();
     std::vector<std::uint64_t> parents(count, count);
     for (std::uint64_t i = 0; i < count; ++i) {
-        const std::string where = child_path("/nodes", i);
-        checker.for_each(nodes[i], where, "children", [&](const Json& value, const std::string& at) {
-            const std::uint64_t child = checker.checked_index(value, at, "nodes");
+        const CheckedJson node = nodes.at(i);
+        node.for_each("children", [&](const CheckedJson& value) {
+            const std::uint64_t child = value.index("nodes");
             if (parents[child] != count)
-                checker.fail(child_path("/nodes", child),
-                             "has two parents: /nodes/" + std::to_string(parents[child]) + " and " + where);
+                nodes.at(child).fail("has two parents: " + nodes.at(parents[child]).where + " and " +
+                                     node.where);
             parents[child] = i;
         });
     }
@@ -85,7 +79,7 @@ std::vector<std::uint64_t> checked_parents(const GltfChecker& checker, const Jso
 
 /// Checks that there are no cycles. Since each node has at most one parent, the path from a node to its
 /// ancestors ends at a root or returns to a visited node. O(nodes)
-void check_no_cycle(const GltfChecker& checker, const std::vector<std::uint64_t>& parents) {
+void check_no_cycle(const CheckedJson& nodes, const std::vector<std::uint64_t>& parents) {
     const std::uint64_t count = parents.size();
     constexpr std::uint64_t unvisited = 0;
     std::vector<std::uint64_t> visited_by(count, unvisited);
@@ -95,63 +89,58 @@ void check_no_cycle(const GltfChecker& checker, const std::vector<std::uint64_t>
              node = parents[node]) {
             visited_by[node] = visit_mark;
             if (parents[node] != count && visited_by[parents[node]] == visit_mark)
-                checker.fail(child_path("/nodes", parents[node]), "is its own ancestor");
+                nodes.at(parents[node]).fail("is its own ancestor");
         }
     }
 }
 
-void check_scenes(const GltfChecker& checker, const std::vector<std::uint64_t>& parents) {
-    const Json& scenes = member(checker.document, "scenes");
-    std::vector<std::uint64_t> listed_in(parents.size(), scenes.size());
-    checker.reference(checker.document, "", "scene", "scenes");
-    for (std::uint64_t i = 0; i < scenes.size(); ++i) {
-        const std::string where = child_path("/scenes", i);
-        checker.for_each(scenes[i], where, "nodes", [&](const Json& value, const std::string& at) {
-            const std::uint64_t node = checker.checked_index(value, at, "nodes");
+void check_scenes(const CheckedJson& document, const std::vector<std::uint64_t>& parents) {
+    const CheckedJson scenes = document.member("scenes");
+    std::vector<std::uint64_t> listed_in(parents.size(), scenes.json.size());
+    document.reference("scene", "scenes");
+    for (std::uint64_t i = 0; i < scenes.json.size(); ++i) {
+        scenes.at(i).for_each("nodes", [&](const CheckedJson& value) {
+            const std::uint64_t node = value.index("nodes");
             if (parents[node] != parents.size())
-                checker.fail(at, "refers to /nodes/" + std::to_string(node) + ", which has a parent");
+                value.fail("refers to /nodes/" + std::to_string(node) + ", which has a parent");
             if (listed_in[node] == i)
-                checker.fail(at, "refers to /nodes/" + std::to_string(node) + " a second time");
+                value.fail("refers to /nodes/" + std::to_string(node) + " a second time");
             listed_in[node] = i;
         });
     }
 }
 
-void check_skin(const GltfChecker& checker, const Json& skin, const std::string& where) {
-    checker.reference(skin, where, "skeleton", "nodes");
-    checker.reference(skin, where, "inverseBindMatrices", "accessors");
-    checker.for_each(skin, where, "joints", [&](const Json& joint, const std::string& at) {
-        checker.checked_index(joint, at, "nodes");
-    });
+void check_skin(const CheckedJson& skin) {
+    skin.reference("skeleton", "nodes");
+    skin.reference("inverseBindMatrices", "accessors");
+    skin.for_each("joints", [](const CheckedJson& joint) { joint.index("nodes"); });
 }
 
-void check_animation(const GltfChecker& checker, const Json& animation, const std::string& where) {
-    const Json& samplers = member(animation, "samplers");
-    checker.for_each(animation, where, "samplers", [&](const Json& sampler, const std::string& at) {
-        checker.required_reference(sampler, at, "input", "accessors");
-        checker.required_reference(sampler, at, "output", "accessors");
+void check_animation(const CheckedJson& animation) {
+    animation.for_each("samplers", [](const CheckedJson& sampler) {
+        sampler.required_reference("input", "accessors");
+        sampler.required_reference("output", "accessors");
     });
-    checker.for_each(animation, where, "channels", [&](const Json& channel, const std::string& at) {
-        if (checker.required_number(channel, at, "sampler") >= samplers.size())
-            checker.fail(child_path(at, "sampler"), "is out of range: the animation has " +
-                                                        std::to_string(samplers.size()) + " samplers");
-        const Json& target = checker.object(channel, at, "target");
-        if (target.is_null()) checker.fail(at, "has no target");
-        checker.reference(target, child_path(at, "target"), "node", "nodes");
+    const std::uint64_t samplers = array_size(animation.json, "samplers");
+    animation.for_each("channels", [&](const CheckedJson& channel) {
+        if (channel.required_number("sampler") >= samplers)
+            channel.fail_at("sampler",
+                            "is out of range: the animation has " + std::to_string(samplers) + " samplers");
+        channel.required_object("target").reference("node", "nodes");
     });
 }
 
 }  // namespace
 
-void check_scene(const GltfChecker& checker) {
-    const Json& nodes = member(checker.document, "nodes");
-    checker.for_each_object("nodes", check_node);
-    check_instance_counts(checker);
-    const std::vector<std::uint64_t> parents = checked_parents(checker, nodes);
-    check_no_cycle(checker, parents);
-    check_scenes(checker, parents);
-    checker.for_each_object("skins", check_skin);
-    checker.for_each_object("animations", check_animation);
+void check_scene(const CheckedJson& document) {
+    const CheckedJson nodes = document.member("nodes");
+    document.for_each("nodes", check_node);
+    check_instance_counts(document);
+    const std::vector<std::uint64_t> parents = checked_parents(nodes);
+    check_no_cycle(nodes, parents);
+    check_scenes(document, parents);
+    document.for_each("skins", check_skin);
+    document.for_each("animations", check_animation);
 }
 
 }  // namespace faqem::detail

@@ -9,6 +9,8 @@
 #include <meshoptimizer.h>
 #endif
 
+#include "asset/scene/messages.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -173,45 +175,48 @@ const Json& meshopt_extension(const Json& document, const Json& view) {
     return has_fallback_buffer(document, view) ? member(view, "extensions", meshopt_name) : none;
 }
 
-void check_meshopt(const GltfChecker& checker, const Json& view, const std::string& view_where) {
-    const std::string where = view_where + "/extensions/" + meshopt_name;
-    const Json& compressed = member(view, "extensions", meshopt_name);
-    if (compressed.is_null()) checker.fail(view_where, "refers to a buffer without data");
-    if (!has_codec(meshopt_name)) checker.fail_unsupported(view_where, missing_decoder_message(meshopt_name));
-    const std::uint64_t buffer = checker.required_reference(compressed, where, "buffer", "buffers");
-    const Json& from = member(checker.document, "buffers")[buffer];
-    if (is_fallback_buffer(from)) checker.fail(child_path(where, "buffer"), "is a buffer without data");
-    const std::uint64_t size = from["byteLength"].get<std::uint64_t>();
-    const std::uint64_t offset = checker.number(compressed, where, "byteOffset").value_or(0);
-    const std::uint64_t length = checker.required_number(compressed, where, "byteLength");
+const Json& checked_buffer(const CheckedJson& view) {
+    const std::uint64_t buffer = view.required_reference("buffer", "buffers");
+    const Json& json = view.element("buffers", buffer);
+    const auto size = json["byteLength"].get<std::uint64_t>();
+    const std::uint64_t offset = view.number("byteOffset").value_or(0);
+    const std::uint64_t length = view.required_number("byteLength");
     if (offset > size || length > size - offset)
-        checker.fail(where, "needs " + std::to_string(length) + " bytes from byte " + std::to_string(offset) +
-                                ", buffer " + std::to_string(buffer) + " has " + std::to_string(size));
+        view.fail("needs " + bytes_text(length) + " at offset " + std::to_string(offset) + ", buffer " +
+                  std::to_string(buffer) + " has " + std::to_string(size));
+    return json;
+}
 
-    const std::uint64_t stride = checker.required_number(compressed, where, "byteStride");
-    const std::uint64_t count = checker.required_number(compressed, where, "count");
-    const std::string mode = string_member(compressed, "mode"), filter = string_member(compressed, "filter");
+void check_meshopt(const CheckedJson& view) {
+    const CheckedJson compressed = view.member("extensions").member(meshopt_name);
+    if (compressed.json.is_null()) view.fail("refers to a buffer without data");
+    if (!has_codec(meshopt_name)) view.fail_unsupported(missing_decoder_message(meshopt_name));
+    if (is_fallback_buffer(checked_buffer(compressed)))
+        compressed.fail_at("buffer", "is a buffer without data");
+    const std::uint64_t length = compressed.required_number("byteLength");
+    const std::uint64_t stride = compressed.required_number("byteStride");
+    const std::uint64_t count = compressed.required_number("count");
+    const std::string mode = string_member(compressed.json, "mode"),
+                      filter = string_member(compressed.json, "filter");
     const bool vertices = mode == "ATTRIBUTES", triangles = mode == "TRIANGLES";
     if (!vertices && !triangles && mode != "INDICES")
-        checker.fail(child_path(where, "mode"), "must be ATTRIBUTES, TRIANGLES or INDICES");
+        compressed.fail_at("mode", "must be ATTRIBUTES, TRIANGLES or INDICES");
     const bool good_stride =
         vertices ? stride >= 4 && stride <= 256 && stride % 4 == 0 : stride == 2 || stride == 4;
-    if (!good_stride)
-        checker.fail(child_path(where, "byteStride"), "is invalid for the mode: " + std::to_string(stride));
-    if (triangles && count % 3 != 0) checker.fail(child_path(where, "count"), "is not a multiple of 3");
+    if (!good_stride) compressed.fail_at("byteStride", "is invalid for the mode: " + std::to_string(stride));
+    if (triangles && count % 3 != 0) compressed.fail_at("count", "is not a multiple of 3");
     const bool good_filter = filter.empty() || filter == "NONE" ||
                              (vertices && filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) ||
                              (vertices && filter == "QUATERNION" && stride == 8) ||
                              (vertices && filter == "EXPONENTIAL");
-    if (!good_filter)
-        checker.fail(child_path(where, "filter"), "is unknown or does not match the mode and stride");
-    const std::uint64_t wanted = unsigned_member(view, "byteLength", 0);
+    if (!good_filter) compressed.fail_at("filter", "is unknown or does not match the mode and stride");
+    const std::uint64_t wanted = unsigned_member(view.json, "byteLength", 0);
     if (count > wanted || count * stride != wanted)
-        checker.fail(where, "decodes to " + std::to_string(count) + " times " + std::to_string(stride) +
-                                " bytes, the bufferView has " + std::to_string(wanted));
+        compressed.fail("decodes to " + std::to_string(count) + " times " + std::to_string(stride) +
+                        " bytes, the bufferView has " + std::to_string(wanted));
     if (wanted / max_meshopt_ratio > length)
-        checker.fail(
-            where, "is damaged: " + std::to_string(length) + " bytes cannot hold " + std::to_string(wanted));
+        compressed.fail("is damaged: " + std::to_string(length) + " bytes cannot hold " +
+                        std::to_string(wanted));
 }
 
 bool needs_draco(const Json& document, const Json& primitive) {
@@ -226,27 +231,22 @@ bool needs_draco(const Json& document, const Json& primitive) {
            has_no_buffer_view(index_member(primitive, "indices"));
 }
 
-void check_draco(const GltfChecker& checker, const Json& primitive, const std::string& primitive_where) {
-    const std::string where = primitive_where + "/extensions/" + draco_name;
-    if (!has_codec(draco_name))
-        checker.fail_unsupported(primitive_where, missing_decoder_message(draco_name));
-    const Json& compressed = primitive["extensions"][draco_name];
-    const std::uint64_t view = checker.required_reference(compressed, where, "bufferView", "bufferViews");
-    const Json& buffer_view = member(checker.document, "bufferViews")[view];
-    if (has_fallback_buffer(checker.document, buffer_view))
-        checker.fail(child_path(where, "bufferView"), "refers to a buffer without data");
-    if (primitive_mode(primitive) != triangle_list)
-        checker.fail_unsupported(child_path(primitive_where, "mode"),
-                                 "triangle strips in Draco data are not supported");
-    if (!primitive.contains("indices")) checker.fail(primitive_where, "has Draco data but no indices");
-    const Json& attributes = checker.object(compressed, where, "attributes");
-    if (attributes.is_null() || attributes.empty()) checker.fail(where, "has no attributes");
-    for (const auto& [name, id] : attributes.items()) {
-        const std::string at = where + "/attributes/" + name;
-        if (!id.is_number_unsigned() || id.get<std::uint64_t>() > UINT32_MAX)
-            checker.fail(at, "is not an unsigned 32-bit integer");
-        if (!primitive["attributes"].contains(name)) checker.fail(at, "is not an attribute of the primitive");
-    }
+void check_draco(const CheckedJson& primitive) {
+    if (!has_codec(draco_name)) primitive.fail_unsupported(missing_decoder_message(draco_name));
+    const CheckedJson compressed = primitive.member("extensions").member(draco_name);
+    const std::uint64_t view = compressed.required_reference("bufferView", "bufferViews");
+    if (has_fallback_buffer(primitive.document, primitive.element("bufferViews", view)))
+        compressed.fail_at("bufferView", "refers to a buffer without data");
+    if (primitive_mode(primitive.json) != triangle_list)
+        primitive.member("mode").fail_unsupported("triangle strips in Draco data are not supported");
+    if (!primitive.json.contains("indices")) primitive.fail("has Draco data but no indices");
+    const CheckedJson attributes = compressed.object("attributes");
+    if (attributes.json.empty()) compressed.fail("has no attributes");
+    attributes.members([&](const std::string& name, const CheckedJson& id) {
+        if (!id.json.is_number_unsigned() || id.json.get<std::uint64_t>() > UINT32_MAX)
+            id.fail("is not an unsigned 32-bit integer");
+        if (!primitive.json["attributes"].contains(name)) id.fail("is not an attribute of the primitive");
+    });
 }
 
 std::vector<char> draco_accessor_flags(const Json& document) {

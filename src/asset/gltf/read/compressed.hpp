@@ -30,20 +30,23 @@ bool has_fallback_buffer(const Json& document, const Json& view);
 /// The meshopt extension of a view that must be decompressed; null if the view has uncompressed data.
 const Json& meshopt_extension(const Json& document, const Json& view);
 
+/// Checks that the range of a view, or of its compressed data, is in its buffer, which has been checked.
+/// \return the buffer
+/// \throws InputError  it is not
+const Json& checked_buffer(const CheckedJson& view);
+
 /// Validates the EXT_meshopt_compression of a view against the buffers and the view, including the
 /// compression ratio.
-/// \param where  JSON pointer of the view
 /// \throws InputError, UnsupportedError  if it is invalid or cannot be decoded
-void check_meshopt(const GltfChecker& checker, const Json& view, const std::string& where);
+void check_meshopt(const CheckedJson& view);
 
 /// Whether an accessor of the primitive has only the data of KHR_draco_mesh_compression.
 bool needs_draco(const Json& document, const Json& primitive);
 
 /// Validates the Draco extension of a primitive.
-/// \param where  JSON pointer of the primitive
 /// \pre needs_draco()
 /// \throws InputError, UnsupportedError  if it is invalid or cannot be decoded
-void check_draco(const GltfChecker& checker, const Json& primitive, const std::string& where);
+void check_draco(const CheckedJson& primitive);
 
 /// For each accessor, nonzero if a primitive with Draco data uses it, so that it may have no buffer view. The
 /// meshes need not be validated.
