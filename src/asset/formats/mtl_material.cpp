@@ -68,13 +68,7 @@ private:
     void set_base_color(Material& to, const MtlMaterial& from) {
         ReferencedImage* color = read(from, from.color);
         ReferencedImage* alpha = read(from, from.alpha);
-        if (alpha) {
-            try {
-                set_alpha(to, from, color, *alpha);
-            } catch (const InputError& error) {
-                warn(from, std::string("map_d left out: ") + error.what());
-            }
-        }
+        if (alpha) attempt(from, "map_d", [&] { set_alpha(to, from, color, *alpha); });
         if (color && !to.base_color_texture) to.base_color_texture = placed(from.color, images_.use(*color));
     }
 
@@ -113,13 +107,8 @@ private:
                 warn(from, "bump left out beside norm");
             return;
         }
-        ReferencedImage* image = read(from, from.bump);
-        if (!image) return;
-        try {
-            set_bump(to, from, *image);
-        } catch (const InputError& error) {
-            warn(from, std::string("bump left out: ") + error.what());
-        }
+        if (ReferencedImage* image = read(from, from.bump))
+            attempt(from, "bump", [&] { set_bump(to, from, *image); });
     }
 
     void set_bump(Material& to, const MtlMaterial& from, ReferencedImage& image) {
@@ -155,7 +144,7 @@ private:
         };
         const bool is_packed = has_channels(ScalarChannel::green, ScalarChannel::blue);  // as in glTF
         const bool may_be_packed = has_channels(ScalarChannel::automatic, ScalarChannel::automatic);
-        try {
+        attempt(from, "map_Pr and map_Pm", [&] {
             const std::string key =
                 "metal|" + value_key(roughness, from.roughness) + "|" + value_key(metallic, from.metallic);
             Index image = images_.derive(key, (roughness ? roughness : metallic)->image.name, [&] {
@@ -170,14 +159,22 @@ private:
             to.metallic_roughness_texture = placed(texture, image);
             if (roughness) to.roughness = 1;
             if (metallic) to.metallic = 1;
-        } catch (const InputError& error) {
-            warn(from, std::string("map_Pr and map_Pm left out: ") + error.what());
-        }
+        });
     }
 
     ReferencedImage* read(const MtlMaterial& material, const MtlTexture& texture) {
         if (texture.file.empty()) return nullptr;
         return images_.read("material '" + material.name + "'", texture.file, material.folder);
+    }
+
+    /// Sets textures, or warns that images of them are damaged.
+    template <class Set>
+    void attempt(const MtlMaterial& material, const std::string& textures, const Set& set) {
+        try {
+            set();
+        } catch (const InputError& error) {
+            warn(material, textures + " left out: " + error.what());
+        }
     }
 
     void warn(const MtlMaterial& material, const std::string& what) {

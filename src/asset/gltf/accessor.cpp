@@ -86,7 +86,7 @@ std::uint32_t component_count(const std::string& type) {
 std::size_t element_size(const Json& accessor) {
     const std::string type = string_member(accessor, "type");
     const std::size_t component = number_size(component_type(accessor));
-    if (type.compare(0, 3, "MAT") != 0) return component * component_count(type);
+    if (!type.starts_with("MAT")) return component * component_count(type);
     const std::size_t columns = type == "MAT2" ? 2 : type == "MAT3" ? 3 : 4;
     return columns * ((columns * component + 3) / 4 * 4);
 }

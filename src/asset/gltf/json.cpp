@@ -144,10 +144,7 @@ double shortest_decimal(float value) {
 }
 
 bool is_texture_info(const std::string& key, const Json& value) {
-    constexpr std::string_view suffix = "Texture";
-    return key.size() >= suffix.size() &&
-           key.compare(key.size() - suffix.size(), suffix.size(), suffix) == 0 && value.is_object() &&
-           value.contains("index");
+    return key.ends_with("Texture") && value.is_object() && value.contains("index");
 }
 
 }  // namespace faqem::detail

@@ -10,7 +10,6 @@
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
 #include "asset/scene/affine.hpp"
-#include "asset/scene/flatten.hpp"
 #include "asset/scene/repair.hpp"
 #include "faqem/error.hpp"
 
@@ -31,15 +30,6 @@ std::vector<std::array<T, N>> attribute_values(const SourceDocument& source, con
     const Index accessor = index_member(attributes, name);
     if (accessor == no_index) return std::vector<std::array<T, N>>(count, neutral);
     return read_vectors<T, N>(source, accessor);
-}
-
-template <class T, std::size_t N>
-void check_finite(const SourceDocument& source, Index accessor, const std::string& file,
-                  const std::string& where) {
-    const std::vector<std::array<T, N>> values = read_vectors<T, N>(source, accessor);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (!std::all_of(values[i].begin(), values[i].end(), [](T x) { return std::isfinite(x); }))
-            throw InputError(file, where, "instance " + std::to_string(i) + " is not finite");
 }
 
 std::vector<Index> nodes_without_parent(const Json& document) {
@@ -116,30 +106,22 @@ std::shared_ptr<const RestPose> pose_of(const SourceDocument& source, const Json
 
 std::array<double, 16> transform_matrix(const std::array<double, 3>& t, const std::array<double, 4>& rotation,
                                         const std::array<double, 3>& s) {
-    auto [x, y, z, w] = rotation;
-    const double length = std::sqrt(x * x + y * y + z * z + w * w);
-    if (length > 0) {
-        x /= length;
-        y /= length;
-        z /= length;
-        w /= length;
-    }
-    return {(1 - 2 * (y * y + z * z)) * s[0],
-            2 * (x * y + z * w) * s[0],
-            2 * (x * z - y * w) * s[0],
-            0,
-            2 * (x * y - z * w) * s[1],
-            (1 - 2 * (x * x + z * z)) * s[1],
-            2 * (y * z + x * w) * s[1],
-            0,
-            2 * (x * z + y * w) * s[2],
-            2 * (y * z - x * w) * s[2],
-            (1 - 2 * (x * x + y * y)) * s[2],
-            0,
-            t[0],
-            t[1],
-            t[2],
-            1};
+    const double length = std::sqrt(rotation[0] * rotation[0] + rotation[1] * rotation[1] +
+                                    rotation[2] * rotation[2] + rotation[3] * rotation[3]);
+    std::array<double, 4> q = rotation;
+    if (length > 0)
+        for (double& component : q) component /= length;
+    const auto& [x, y, z, w] = q;
+    const std::array<Vec3, 3> columns = {
+        {{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+         {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+         {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}}};
+    Matrix matrix = {};
+    for (std::size_t column = 0; column < 3; ++column)
+        for (std::size_t row = 0; row < 3; ++row) matrix[4 * column + row] = columns[column][row] * s[column];
+    std::ranges::copy(t, matrix.begin() + 12);
+    matrix[15] = 1;
+    return matrix;
 }
 
 std::vector<std::array<double, 16>> instance_matrices(const SourceDocument& source, const Json& node) {
@@ -167,7 +149,12 @@ void check_instances(const SourceDocument& source, const std::string& file) {
         const std::string where = child_path("/nodes", i) + "/extensions/" + instancing_name + "/attributes/";
         for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"}) {
             const Index accessor = index_member(attributes, name);
-            if (accessor != no_index) check_finite<float, 4>(source, accessor, file, where + name);
+            if (accessor == no_index) continue;
+            const std::vector<Vec4f> values = read_vectors<float, 4>(source, accessor);
+            const auto found = std::ranges::find_if_not(values, is_finite<float, 4>);
+            if (found != values.end())
+                throw InputError(file, where + name,
+                                 "instance " + std::to_string(found - values.begin()) + " is not finite");
         }
     }
 }

@@ -29,7 +29,7 @@ struct FileContext {
     FileFinder finder{file.parent_path()};
 };
 
-bool is_data_uri(const std::string& uri) { return uri.compare(0, 5, "data:") == 0; }
+bool is_data_uri(const std::string& uri) { return uri.starts_with("data:"); }
 
 /// Decodes base64 (RFC 4648) up to the first other character, such as the padding.
 std::vector<std::uint8_t> decode_base64(std::string_view text) {

@@ -47,7 +47,7 @@ std::vector<CustomAttribute> custom_attributes(const Json& mesh, const Json& acc
             const Json& accessor = accessors[index.get<Index>()];
             CustomAttribute own{name, {}};
             const std::string type = string_member(accessor, "type");
-            own.components = type.compare(0, 3, "MAT") == 0 ? 0 : component_count(type);
+            own.components = type.starts_with("MAT") ? 0 : component_count(type);
             own.component_type = static_cast<std::uint32_t>(unsigned_member(accessor, "componentType", 0));
             own.normalized = member(accessor, "normalized") == true;
             const CustomAttribute& first = found.try_emplace(name, own).first->second;
@@ -298,7 +298,7 @@ void read_vertex_bits(const LoadedGltf& loaded, Asset& asset) {
             for (const auto& [name, accessor] : primitive["attributes"].items()) {
                 if (integer_step(accessors[accessor.get<Index>()]) == 0) continue;
                 if (name == "NORMAL" || name == "TANGENT") asset.normal_bits = standard.normal_bits;
-                if (name.compare(0, 9, "TEXCOORD_") == 0) asset.uv_bits = standard.uv_bits;
+                if (name.starts_with("TEXCOORD_")) asset.uv_bits = standard.uv_bits;
             }
         }
     }

@@ -41,8 +41,8 @@ namespace {
 draco::GeometryAttribute::Type attribute_type(const std::string& name) {
     if (name == "POSITION") return draco::GeometryAttribute::POSITION;
     if (name == "NORMAL") return draco::GeometryAttribute::NORMAL;
-    if (name.compare(0, 9, "TEXCOORD_") == 0) return draco::GeometryAttribute::TEX_COORD;
-    if (name.compare(0, 6, "COLOR_") == 0) return draco::GeometryAttribute::COLOR;
+    if (name.starts_with("TEXCOORD_")) return draco::GeometryAttribute::TEX_COORD;
+    if (name.starts_with("COLOR_")) return draco::GeometryAttribute::COLOR;
     return draco::GeometryAttribute::GENERIC;
 }
 

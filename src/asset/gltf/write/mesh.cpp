@@ -64,7 +64,7 @@ bool is_quantized(const std::string& attribute, const Json& accessor) {
     if (attribute == "POSITION" || attribute == "NORMAL" || attribute == "TANGENT") return true;
     const bool is_unsigned_normalized =
         member(accessor, "normalized") == true && (type == NumberType::u8 || type == NumberType::u16);
-    return attribute.compare(0, 9, "TEXCOORD_") == 0 && !is_unsigned_normalized;
+    return attribute.starts_with("TEXCOORD_") && !is_unsigned_normalized;
 }
 
 void copy_attributes(GltfWriter& writer, Json& attributes) {

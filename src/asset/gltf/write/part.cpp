@@ -241,7 +241,7 @@ std::optional<DracoRounding> draco_rounding(const Asset& asset, const Part& part
         return DracoRounding{asset.normal_bits, true, {}, 0};
     if (values.name == "TANGENT" && asset.normal_bits > 0)
         return DracoRounding{std::max(asset.normal_bits, min_tangent_bits), false, {-1, -1, -1, -1}, 2};
-    if (values.name.compare(0, 9, "TEXCOORD_") == 0 && asset.uv_bits > 0)
+    if (values.name.starts_with("TEXCOORD_") && asset.uv_bits > 0)
         return rounding_to_steps(floats_of(values), 2, std::ldexp(1.0, -static_cast<int>(asset.uv_bits)));
     return std::nullopt;
 }

@@ -40,7 +40,7 @@ void retarget_weight_channels(Json& document, Index from, Index to) {
             if (index_member(target, "node") == from && string_member(target, "path") == "weights")
                 target["node"] = to;
             const std::string pointer = animated_pointer(channel), weights = pointer_to(from) + "weights";
-            if (pointer == weights || pointer.compare(0, weights.size() + 1, weights + "/") == 0)
+            if (pointer == weights || pointer.starts_with(weights + "/"))
                 target["extensions"]["KHR_animation_pointer"]["pointer"] =
                     pointer_to(to) + pointer.substr(pointer_to(from).size());
         }

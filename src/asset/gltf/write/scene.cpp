@@ -79,8 +79,8 @@ void add_nodes(GltfWriter& writer, const std::vector<Index>& new_meshes) {
 /// Replaces the index in a JSON pointer such as /materials/3/emissiveFactor. Returns false if the object was
 /// not written.
 bool remap_pointer(GltfWriter& writer, std::string& pointer) {
-    const bool is_material = pointer.compare(0, 11, "/materials/") == 0;
-    const bool is_mesh = pointer.compare(0, 8, "/meshes/") == 0;
+    const bool is_material = pointer.starts_with("/materials/");
+    const bool is_mesh = pointer.starts_with("/meshes/");
     if (!is_material && !is_mesh) return true;
     const std::size_t begin = is_material ? 11 : 8;
     const std::size_t end = std::min(pointer.find('/', begin), pointer.size());
@@ -154,7 +154,7 @@ bool keeps_numbers(const GltfWriter& writer) {
 void warn_about_unknown_extensions(GltfWriter& writer) {
     std::set<std::string> unknown;
     for_each_extension(writer.out, [&](const std::string& name, const Json& value) {
-        if (name.compare(0, 4, "KHR_") != 0 && name != center_name &&
+        if (!name.starts_with("KHR_") && name != center_name &&
             !(names_by_number(name) && keeps_numbers(writer)) &&
             std::ranges::find(remapped_extensions, name) == remapped_extensions.end() &&
             contains_number(value))
