@@ -44,7 +44,7 @@ std::vector<Triangle> canonical_corners(const Part& part) {
     for (const Triangle& t : part.triangles) {
         Triangle& p =
             result.emplace_back(Triangle{representative[t[0]], representative[t[1]], representative[t[2]]});
-        std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
+        std::rotate(p.begin(), std::ranges::min_element(p), p.end());
     }
     return result;
 }
@@ -59,7 +59,7 @@ std::vector<Index> separate_coincident_faces(const Part& part, std::vector<Index
     const auto group = [&](Index f) { return groups.empty() ? Index{0} : groups[f]; };
     std::vector<Index> order(corners.size());
     std::iota(order.begin(), order.end(), Index{0});
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    std::ranges::sort(order, [&](Index a, Index b) {
         return std::tuple(corners[a], group(a), a) < std::tuple(corners[b], group(b), b);
     });
     std::vector<Index> separated;
@@ -72,7 +72,7 @@ std::vector<Index> separate_coincident_faces(const Part& part, std::vector<Index
     }
     if (separated.empty()) return groups;
     if (groups.empty()) groups.assign(corners.size(), 0);
-    const Index next = *std::max_element(groups.begin(), groups.end()) + 1;
+    const Index next = *std::ranges::max_element(groups) + 1;
     for (const Index f : separated) {
         const auto [material, reversed] = appearances[f];
         groups[f] = next + 2 * (material == no_index ? 0 : 1 + material) + (reversed ? 1 : 0);

@@ -56,15 +56,15 @@ std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t tar
     const auto min_ratio = [&](std::size_t p) {
         return static_cast<double>(share[p]) / static_cast<double>(faces_of(asset, p));
     };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return min_ratio(a) > min_ratio(b); });
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return min_ratio(a) > min_ratio(b); });
     auto first = order.begin();
     for (; first != order.end() && min_ratio(*first) * rest > left; ++first) {
         rest -= static_cast<double>(faces_of(asset, *first));
         left -= static_cast<double>(share[*first]);
     }
     order.erase(order.begin(), first);
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     const double ratio = order.empty() ? 0 : left / rest;
     std::vector<double> remainder(parts, 0);
     for (const std::size_t p : order) {
@@ -73,8 +73,8 @@ std::vector<std::uint64_t> budget_by_faces(const Asset& asset, std::uint64_t tar
         remainder[p] = exact - static_cast<double>(share[p]);
         left -= static_cast<double>(share[p]);
     }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
+    std::ranges::stable_sort(order,
+                             [&](std::size_t a, std::size_t b) { return remainder[a] > remainder[b]; });
     for (std::size_t i = 0; i < order.size() && left >= 1; ++i, --left) ++share[order[i]];
     for (const std::size_t p : order) share[p] = std::min<std::uint64_t>(share[p], faces_of(asset, p));
     return share;
@@ -88,8 +88,8 @@ std::vector<double> proportional_shares(const Asset& asset, std::uint64_t target
     for (std::size_t p = 0; p < asset.parts.size(); ++p) {
         double share = faces > 0 ? static_cast<double>(faces_of(asset, p)) / faces : 0;
         if (!visibility.empty() && !visibility[p].empty()) {
-            const auto hidden = std::count_if(visibility[p].begin(), visibility[p].end(),
-                                              [](float seen) { return !(seen > min_visibility); });
+            const auto hidden =
+                std::ranges::count_if(visibility[p], [](float seen) { return !(seen > min_visibility); });
             share *= 1 - static_cast<double>(hidden) / static_cast<double>(visibility[p].size());
         }
         shares.push_back(share * static_cast<double>(target_faces));

@@ -50,10 +50,8 @@ std::vector<std::pair<std::size_t, CostCurve>> shaping_targets(const Part& part,
 }  // namespace
 
 bool has_displacements(const Part& part) {
-    return std::any_of(part.morph_targets.begin(), part.morph_targets.end(), [](const MorphTarget& target) {
-        return std::any_of(target.positions.begin(), target.positions.end(), [](const Vec3f& shift) {
-            return shift != Vec3f{0, 0, 0};
-        });
+    return std::ranges::any_of(part.morph_targets, [](const MorphTarget& target) {
+        return largest_component(target.positions) > 0;
     });
 }
 

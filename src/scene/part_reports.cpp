@@ -50,8 +50,7 @@ Report report_with_uvs(const Asset& source, const SimplifiedParts& simplified, s
         const std::string title = part_title(source, p);
         for_each_count(sum, without, [](std::uint64_t& total, std::uint64_t own) { total -= own; });
         for (const std::string& warning : without.warnings) {
-            const auto found =
-                std::find(sum.warnings.begin(), sum.warnings.end(), part_warning(title, warning));
+            const auto found = std::ranges::find(sum.warnings, part_warning(title, warning));
             if (found != sum.warnings.end()) sum.warnings.erase(found);
         }
         add_part_report(sum, simplified.with_uvs[p].report, title);

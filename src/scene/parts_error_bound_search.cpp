@@ -72,9 +72,7 @@ MeasuredDistance ReferenceParts::operator()(const SimplifiedParts& simplified, d
 RunWithin<SimplifiedParts> parts_within(const Asset& source, const ReferenceParts& measured,
                                         const Options& options, Simplified what) {
     // A part that is flat at rest is simplified in another shape than it is measured in.
-    if (!refuses_collapses(options) ||
-        std::any_of(source.parts.begin(), source.parts.end(), has_displacements))
-        return {};
+    if (!refuses_collapses(options) || std::ranges::any_of(source.parts, has_displacements)) return {};
     return [&, what](double allowed, const Options& own, const RunContext& context) {
         return simplify_each_part(source, own, context,
                                   [&](std::size_t p, const MeshView& view, const Options& of_part_options,

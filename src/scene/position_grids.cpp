@@ -55,9 +55,9 @@ Compression result_compression(const Asset& source, const Options& options) {
 PositionGrids position_grids(const Asset& source, const Options& options) {
     PositionGrids grids;
     const bool is_new = uses_new_grid(source, options);
-    const bool has_grids = options.quantize.kind == Quantize::source &&
-                           std::any_of(source.parts.begin(), source.parts.end(),
-                                       [](const Part& part) { return part.position_spacing > 0; });
+    const bool has_grids =
+        options.quantize.kind == Quantize::source &&
+        std::ranges::any_of(source.parts, [](const Part& part) { return part.position_spacing > 0; });
     if (!is_new && !has_grids) return grids;
     const SceneSize size = scene_size(source);
     const std::uint32_t bits = options.quantize.position_bits.value_or(usual_position_bits);

@@ -17,11 +17,11 @@ namespace {
 bool has_color_classes(const Part& part) {
     if (part.colors.empty()) return false;
     const auto faces = static_cast<double>(part.triangles.size());
-    const auto plain = std::count_if(part.triangles.begin(), part.triangles.end(), [&](const Triangle& t) {
+    const auto plain = std::ranges::count_if(part.triangles, [&](const Triangle& t) {
         return part.colors[t[0]] == part.colors[t[1]] && part.colors[t[0]] == part.colors[t[2]];
     });
-    const bool has_colors = std::any_of(part.colors.begin(), part.colors.end(),
-                                        [&](const auto& color) { return color != part.colors.front(); });
+    const bool has_colors =
+        std::ranges::any_of(part.colors, [&](const auto& color) { return color != part.colors.front(); });
     return has_colors && static_cast<double>(plain) >= 0.95 * faces &&
            static_cast<double>(part.positions.size()) <= 0.75 * faces;
 }
@@ -43,7 +43,7 @@ void resolve_bake(const Asset& source, const FileFormat& format, BakeOptions& ba
     const bool keeps_uvs = format.keeps_plain_parts && some_part_has(source, &Part::uvs);
     bake.kind = !is_bare ? format.bake : keeps_uvs ? Bake::keep : format.bare_bake;
     if (bake.kind == Bake::vertex && source.images.empty() &&
-        std::any_of(source.parts.begin(), source.parts.end(), has_color_classes))
+        std::ranges::any_of(source.parts, has_color_classes))
         bake.kind = Bake::keep;
     if (format.is_gltf && names_objects_by_number(source)) bake.kind = Bake::keep;
     if (bake.untouched != UntouchedParts::automatic || !format.keeps_plain_parts) return;
@@ -67,8 +67,7 @@ Options resolved_options(const Asset& source, Options options) {
     resolve_normals(source, format, bake);
     if (bake.kind == Bake::automatic) resolve_bake(source, format, bake);
     const bool needs_pixels = makes_atlas(bake.kind) || bake.kind == Bake::vertex;
-    if (needs_pixels && std::any_of(source.images.begin(), source.images.end(), is_passed_through))
-        bake.kind = Bake::keep;
+    if (needs_pixels && std::ranges::any_of(source.images, is_passed_through)) bake.kind = Bake::keep;
     return options;
 }
 

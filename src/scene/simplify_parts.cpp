@@ -55,7 +55,7 @@ std::vector<Index> face_groups(const Part& part, const std::optional<MaterialGro
         const Index material = face_material(part, f);
         result.push_back(groups ? groups->group_of(material) : material);
     }
-    const bool one = std::all_of(result.begin(), result.end(), [&](Index g) { return g == result.front(); });
+    const bool one = std::ranges::all_of(result, [&](Index g) { return g == result.front(); });
     return one ? std::vector<Index>{} : result;
 }
 
@@ -214,8 +214,8 @@ private:
     // Face counts by part and target; in descending order for every part.
     std::vector<std::vector<std::uint64_t>> budgets(std::span<const std::uint64_t> targets) {
         const Stopwatch watch;
-        const auto filled = std::count_if(source_.parts.begin(), source_.parts.end(),
-                                          [](const Part& part) { return !part.triangles.empty(); });
+        const auto filled =
+            std::ranges::count_if(source_.parts, [](const Part& part) { return !part.triangles.empty(); });
         // Without a target below the number of faces there is nothing to distribute.
         bool by_cost =
             options_.budget == Budget::scene && filled >= 2 && static_cast<double>(targets.back()) < faces_;

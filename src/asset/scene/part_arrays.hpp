@@ -31,8 +31,7 @@ inline constexpr std::array face_arrays = {material_array, object_array, group_a
 /// Whether an array is not empty in some part.
 template <class T>
 bool some_part_has(const Asset& asset, std::vector<T> Part::*values) {
-    return std::any_of(asset.parts.begin(), asset.parts.end(),
-                       [&](const Part& part) { return !(part.*values).empty(); });
+    return std::ranges::any_of(asset.parts, [&](const Part& part) { return !(part.*values).empty(); });
 }
 
 /// What an array of vertices is.
