@@ -46,9 +46,6 @@ public:
     std::vector<std::filesystem::path> finish() { return std::move(files_); }
 
 private:
-    void add_named(const std::string& reference, ReferenceSyntax syntax, Readable readable,
-                   const std::filesystem::path& subfolder);
-
     std::filesystem::path folder_;
     FileFinder finder_;
     References which_;
