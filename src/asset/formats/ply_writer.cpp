@@ -28,9 +28,9 @@ std::uint8_t quantized(double value) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
 }
 
-/// Properties of a vertex row.
+/// What a vertex row has beside the arrays of the part.
 struct PlyVertexLayout {
-    bool doubles = false, normals = false, colors = false, alpha = false, uvs = false;
+    bool doubles, alpha;
 };
 
 std::string header(const Part& part, const PlyVertexLayout& layout) {
@@ -40,10 +40,10 @@ std::string header(const Part& part, const PlyVertexLayout& layout) {
         for (const char* name : names) text += std::string("\nproperty ") + type + " " + name;
     };
     properties(layout.doubles ? "double" : "float", {"x", "y", "z"});
-    if (layout.normals) properties("float", {"nx", "ny", "nz"});
-    if (layout.colors) properties("uchar", {"red", "green", "blue"});
+    if (!part.normals.empty()) properties("float", {"nx", "ny", "nz"});
+    if (!part.colors.empty()) properties("uchar", {"red", "green", "blue"});
     if (layout.alpha) properties("uchar", {"alpha"});
-    if (layout.uvs) properties("float", {"s", "t"});
+    if (!part.uvs.empty()) properties("float", {"s", "t"});
     const bool fits_int = part.positions.size() <= std::size_t{std::numeric_limits<std::int32_t>::max()};
     return text + "\nelement face " + std::to_string(part.triangles.size()) + "\nproperty list uchar " +
            (fits_int ? "int" : "uint") + " vertex_indices\nend_header\n";
@@ -57,12 +57,12 @@ void put_vertex(std::vector<std::uint8_t>& bytes, const Part& part, const PlyVer
         else
             put(bytes, static_cast<float>(x));
     }
-    if (layout.normals)
+    if (!part.normals.empty())
         for (const float x : part.normals[v]) put(bytes, x);
-    for (std::size_t k = 0; k < 3 && layout.colors; ++k)
+    for (std::size_t k = 0; k < 3 && !part.colors.empty(); ++k)
         bytes.push_back(quantized(srgb_from_linear(part.colors[v][k])));
     if (layout.alpha) bytes.push_back(quantized(part.colors[v][3]));
-    if (layout.uvs) {
+    if (!part.uvs.empty()) {
         put(bytes, part.uvs[0][v][0]);
         put(bytes, 1 - part.uvs[0][v][1]);
     }
@@ -83,17 +83,13 @@ EncodedModel encode_ply(const Asset& asset, const std::filesystem::path& file) {
         losses.push_back("PLY cannot hold materials and textures");
     if (flat.uvs.size() > 1) losses.push_back("PLY cannot hold more than one set of texture coordinates");
 
-    PlyVertexLayout layout;
-    layout.doubles =
-        asset.precision.type == StoredPrecision::Type::float64 || !is_float_representable(flat.positions);
-    layout.normals = !flat.normals.empty();
-    layout.colors = !flat.colors.empty();
-    layout.alpha = std::ranges::any_of(flat.colors, [](const Vec4f& c) { return quantized(c[3]) != 255; });
-    layout.uvs = !flat.uvs.empty();
+    const PlyVertexLayout layout = {
+        asset.precision.type == StoredPrecision::Type::float64 || !is_float_representable(flat.positions),
+        std::ranges::any_of(flat.colors, [](const Vec4f& c) { return quantized(c[3]) != 255; })};
     const std::string text = header(flat, layout);
     std::vector<std::uint8_t> bytes(text.begin(), text.end());
-    const std::size_t row = (layout.doubles ? 24 : 12) + (layout.normals ? 12 : 0) + (layout.colors ? 4 : 0) +
-                            (layout.uvs ? 8 : 0);
+    const std::size_t row = (layout.doubles ? 24 : 12) + (flat.normals.empty() ? 0 : 12) +
+                            (flat.colors.empty() ? 0 : 4) + (flat.uvs.empty() ? 0 : 8);
     bytes.reserve(bytes.size() + row * flat.positions.size() + 13 * flat.triangles.size());
     for (std::size_t v = 0; v < flat.positions.size(); ++v) put_vertex(bytes, flat, layout, v);
     for (const Triangle& t : flat.triangles) {

@@ -17,10 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string reason(int error) { return std::generic_category().message(error); }
-
 [[noreturn]] void fail_read(const fs::path& file, int error) {
-    throw ReadError(file.string(), "", "cannot read: " + reason(error));
+    throw ReadError(file.string(), "", "cannot read: " + std::generic_category().message(error));
 }
 
 /// The name in a reference, with slashes as separators.

@@ -80,6 +80,18 @@ bool are_floats(const std::vector<Vec3>& positions) {
     return true;
 }
 
+// Whether floats resolve positions: their steps at the largest coordinate are at most a millionth of the bounding box,
+// and, if the positions were text, they are what programs print for floats. Complexity: O(n)
+bool suits_floats(const std::vector<Vec3>& positions, const StoredPrecision& stored) {
+    if (positions.empty()) return true;
+    PointBounds bounds;
+    for (const Vec3& p : positions) bounds.add(p);
+    const double largest = largest_component(std::array{bounds.low, bounds.high});
+    const double size = largest_component(std::array<Vec3, 1>{minus(bounds.high, bounds.low)});
+    if (!(largest * double{std::numeric_limits<float>::epsilon()} <= 1e-6 * size)) return false;
+    return stored.type != Type::decimal || are_floats(positions);
+}
+
 // Rounds a number, and moves it by so many steps of the rounding.
 using Rounding = std::function<double(double x, int steps)>;
 
@@ -194,20 +206,6 @@ double CoordinateRounding::tolerance(double magnitude) const {
     const double rounding = relative_ * magnitude;
     if (!text_) return rounding;
     return std::max(rounding, decimals_of_rounding * decimal_unit(magnitude, text_->digits, text_->decimals));
-}
-
-bool suits_floats(const std::vector<Vec3>& positions, const StoredPrecision& stored) {
-    if (positions.empty()) return true;
-    PointBounds bounds;
-    for (const Vec3& p : positions) bounds.add(p);
-    const auto& [low, high] = bounds;
-    double size = 0, largest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        size = std::max(size, high[k] - low[k]);
-        largest = std::max({largest, -low[k], high[k]});
-    }
-    if (!(largest * double{std::numeric_limits<float>::epsilon()} <= 1e-6 * size)) return false;
-    return stored.type != Type::decimal || are_floats(positions);
 }
 
 StoredPrecision result_precision(const Asset& source, ModelFormat format) {

@@ -28,10 +28,6 @@ private:
     std::optional<StoredPrecision> text_;
 };
 
-/// Whether floats resolve positions: their steps at the largest coordinate are at most a millionth of the bounding box,
-/// and, if the positions were text, they are what programs print for floats. Complexity: O(n)
-bool suits_floats(const std::vector<Vec3>& positions, const StoredPrecision& stored);
-
 /// The precision in which a file of the format stores the positions of a result, in units of its parts.
 /// \param format  of the result, known
 /// \return `unknown` if the positions are not rounded: for glTF, which has other rules; for doubles; if the file has them
