@@ -98,27 +98,6 @@ std::string read_json_text(const std::filesystem::path& file) {
     return text;
 }
 
-void check_json_depth(std::string_view json, const std::string& file) {
-    int depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            if (c == '"') in_string = false;
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '[' || c == '{') {
-            if (++depth > max_json_depth)
-                throw InputError(
-                    file, "JSON byte " + std::to_string(i),
-                    "arrays and objects are nested deeper than " + std::to_string(max_json_depth));
-        } else if (c == ']' || c == '}') {
-            --depth;
-        }
-    }
-}
-
 std::vector<std::uint8_t> join_glb(std::string_view json, std::span<const std::uint8_t> bin,
                                    const std::string& file) {
     const std::uint64_t json_size = (json.size() + 3) / 4 * 4;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// GLB header and chunks, and the nesting depth of the JSON text. Both are checked before a parser is called.
+/// GLB header and chunks.
 
 #include <cstdint>
 #include <filesystem>
@@ -20,9 +20,6 @@ struct GltfContainer {
     bool has_bin = false;    ///< the GLB has a BIN chunk, which may be empty
 };
 
-/// Maximum nesting depth of JSON arrays and objects.
-inline constexpr int max_json_depth = 64;
-
 /// Splits a file into JSON and binary data. A file that does not start with the GLB magic is taken as JSON.
 /// \param bytes     the whole file, borrowed; the result refers to it
 /// \param file      path for messages
@@ -38,11 +35,6 @@ std::uint64_t open_json(const std::filesystem::path& file, std::ifstream& in);
 /// Reads the JSON text of a file alone, without checks.
 /// \return empty if the file cannot be read, or if the text has 4 GiB or more, which load() does not support
 std::string read_json_text(const std::filesystem::path& file);
-
-/// Checks the nesting depth of a JSON text without recursion. Brackets inside strings are not counted.
-/// \param file  path for messages
-/// \throws InputError  if the depth exceeds max_json_depth
-void check_json_depth(std::string_view json, const std::string& file);
 
 /// Builds a GLB.
 /// \param bin   content of the BIN chunk; empty: no BIN chunk

@@ -17,6 +17,9 @@ namespace faqem::detail {
 
 using Json = nlohmann::json;
 
+/// Maximum nesting depth of arrays and objects, which limits recursion.
+inline constexpr int max_json_depth = 64;
+
 /// Names of the extensions that compress geometry.
 inline constexpr const char* meshopt_name = "EXT_meshopt_compression";
 inline constexpr const char* draco_name = "KHR_draco_mesh_compression";

@@ -153,7 +153,7 @@ void load_resources(FileContext context, SourceDocument& source) {
 }
 
 /// Removes members that are null, except in extras: the checks take them for absent, and so must all that follows, which
-/// may ask whether there is a member. The recursion is limited by check_json_depth().
+/// may ask whether there is a member. The recursion is limited by max_json_depth.
 void remove_null_members(Json& value) {
     if (value.is_array())
         for (Json& element : value) remove_null_members(element);
@@ -173,10 +173,17 @@ void remove_null_members(Json& value) {
 Json parse_gltf(std::string_view json, const std::string& file) {
     if (json.size() > std::numeric_limits<unsigned>::max())
         throw UnsupportedError(file, "", "JSON of 4 GiB or more is not supported");
-    check_json_depth(json, file);
+    const auto check_depth = [&](int depth, Json::parse_event_t event, const Json&) {
+        const bool is_start =
+            event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+        if (is_start && depth >= max_json_depth)
+            throw InputError(file, "JSON",
+                             "arrays and objects are nested deeper than " + std::to_string(max_json_depth));
+        return true;
+    };
     Json document;
     try {
-        document = Json::parse(json.begin(), json.end());
+        document = Json::parse(json.begin(), json.end(), check_depth);
     } catch (const Json::exception& error) {
         throw InputError(file, "JSON", error.what());
     }
