@@ -72,6 +72,7 @@ TexelProjector::TexelProjector(const PageRequest& page, Index triangle)
       frame_(placement_),
       right_angle_corner_(right_angle_corner(placement_)),
       part_(page.parts[face_.part]),
+      history_(part_.map->of_history()),
       triangle_(page.mesh.triangles[triangle]),
       texel_length_(texel_length()),
       spacing_(texel_length_ / page.samples),
@@ -224,8 +225,8 @@ TexelProjector::Ball TexelProjector::ball_around(const Box2& box, const TexelSam
 void TexelProjector::prepare(LocalMap& map, const Box2& box, const TexelSample& at, const SurfacePoint& near,
                              const LocalMap* larger) const {
     const Ball ball = ball_around(box, at);
-    if (larger && map.prepare_from(*part_.map, at.face, ball.centre, ball.radius, *larger)) return;
-    map.prepare(*part_.map, at.face, ball.centre, ball.radius, near);
+    if (larger && map.prepare_from(*history_, at.face, ball.centre, ball.radius, *larger)) return;
+    map.prepare(*history_, at.face, ball.centre, ball.radius, near);
 }
 
 // The map of the large block around a sample; null if there is none.
@@ -237,10 +238,10 @@ LocalMap* TexelProjector::large_map(const TexelSample& at, const SurfacePoint& n
 }
 
 SurfacePoint TexelProjector::map_near(const TexelSample& at, const SurfacePoint& near) {
-    if (is_single_texel()) return part_.map->map_near(at.face, at.weights, near);
+    if (is_single_texel()) return history_->map_near(at.face, at.weights, near);
     const auto map_by = [&](LocalMap* map) {
         last_.map = map;
-        return map->map_near(*part_.map, at.face, at.weights, near);
+        return map->map_near(*history_, at.face, at.weights, near);
     };
     BlockGrid& grid = blocks_[at.cache_index];
     Block& block = grid.at(at.on_triangle);
@@ -248,19 +249,20 @@ SurfacePoint TexelProjector::map_near(const TexelSample& at, const SurfacePoint&
         LocalMap* const large = large_map(at, near);
         if (large && large->size() <= short_list) return map_by(large);
         if (++block.samples < single_samples)
-            return large ? map_by(large) : part_.map->map_near(at.face, at.weights, near);
+            return large ? map_by(large) : history_->map_near(at.face, at.weights, near);
         prepare(block.map, grid.box_of(block), at, near, large);
     }
     return map_by(&block.map);
 }
 
 SurfacePoint TexelProjector::project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y) {
+    if (!history_) return part_.map->map(at.face, at.weights);
     WarmStartCache& cache = warm_starts_[at.cache_index];
     const SurfacePoint* near = cache.start_near(x, y);
     const auto find = [&] {
         if (near && last_.map && last_.cache_index == at.cache_index) {
             // Most samples have the same face of the source as the one before.
-            const auto same = last_.map->map_to_same(*part_.map, at.face, at.weights, near->step);
+            const auto same = last_.map->map_to_same(*history_, at.face, at.weights, near->step);
             if (same) return *same;
         }
         last_ = {nullptr, at.cache_index};

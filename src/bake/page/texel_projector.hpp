@@ -169,6 +169,7 @@ private:
     const BarycentricFrame frame_;
     const std::size_t right_angle_corner_;
     const BakePart& part_;
+    const SurfaceMap* const history_;  // null if the map of the part is another one
     const PageTriangle& triangle_;
     const double texel_length_;
     const double spacing_;

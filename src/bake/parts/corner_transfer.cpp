@@ -178,7 +178,7 @@ private:
 
     const Part& source_;
     const TriangleMesh& mesh_;
-    const SurfaceMap& map_;
+    const PointMap& map_;
     TransferredCorners& to_;
     std::size_t width_ = 0;
 };

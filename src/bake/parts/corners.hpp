@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "bake/parts/point_map.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/buckets.hpp"
 #include "faqem/simplify.hpp"
-#include "faqem/surface_map.hpp"
 
 namespace faqem::detail {
 
@@ -30,7 +30,7 @@ struct BakePart {
     const Part* source = nullptr;
     const SimplifyResult* simplified = nullptr;
     /// Null if the simplified mesh has no faces, if the part is kept, or if at most normals are transferred from the source.
-    std::unique_ptr<const SurfaceMap> map;
+    std::unique_ptr<const PointMap> map;
     CornerNormals normals = {};  ///< empty without faces, if it is kept, and if no normals are needed
     /// Whether the result has the normals; otherwise only a part with a normal map has them.
     bool writes_normals = true;

@@ -46,7 +46,7 @@ std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyRes
         BakePart& part = parts[p];
         if (part.faces() == 0 || part.is_kept) return;
         if (needs_map(source, part, bake)) {
-            part.map = std::make_unique<const SurfaceMap>(
+            part.map = std::make_unique<const HistoryMap>(
                 make_surface_map(part.simplified->history, part.source->triangles, block_context));
         }
         if (writes_normals || makes_atlas(bake.kind)) part.normals = make_normals(part, bake, block_context);

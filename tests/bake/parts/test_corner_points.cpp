@@ -26,7 +26,7 @@ struct Simplified {
 
     detail::CornerNormals normals(bool with_map, std::uint32_t threads = 1) const {
         detail::BakePart bake_part{0, &part, &result, nullptr};
-        if (with_map) bake_part.map = std::make_unique<const SurfaceMap>(result.history);
+        if (with_map) bake_part.map = std::make_unique<const detail::HistoryMap>(SurfaceMap(result.history));
         return detail::make_normals(bake_part, {}, threads);
     }
 
