@@ -22,6 +22,7 @@
 #include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/bake_levels.hpp"
+#include "faqem/bake_onto.hpp"
 #include "faqem/compare_colors.hpp"
 #include "faqem/report_json.hpp"
 #include "faqem/save_levels.hpp"

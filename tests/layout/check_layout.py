@@ -49,6 +49,7 @@ ORDER = [
     ["src/bake/texture"],
     ["src/bake/keep"],
     ["src/bake/scene"],
+    ["src/bake/onto"],
     ["src/result"],
     ["src/capi"],
     ["src/python/native"],

@@ -27,6 +27,15 @@ FAQEM_EXPORT Part flatten(const Asset& asset);
 /// Same as above, for the given instances instead of those of the scene of the asset.
 Part flatten(const Asset& asset, const std::vector<PosedInstance>& all);
 
+/// The scene as a single part, with its materials and images.
+inline Asset flatten_scene(const Asset& asset) {
+    Asset result;
+    result.parts = {flatten(asset)};
+    result.materials = asset.materials;
+    result.images = asset.images;
+    return result;
+}
+
 /// Lists what flatten() leaves out of the asset, one sentence each.
 /// \param format  name of the output format, used in the sentences
 std::vector<std::string> flattening_losses(const Asset& asset, const std::string& format);

@@ -51,11 +51,12 @@ void sample_layers(const PageRequest& page, const TexelProjector& projector, con
     }
 }
 
-// The source at a sample in texel (x, y).
-void take_sample(const PageRequest& page, TexelProjector& projector, std::uint32_t x, std::uint32_t y,
+// The source at a sample in texel (x, y). \return false if the source has nothing there
+bool take_sample(const PageRequest& page, TexelProjector& projector, std::uint32_t x, std::uint32_t y,
                  const TexelSample& at, SampleValues& to) {
     const Index part = projector.part();
     const SurfacePoint point = projector.project_to_source(at, x, y);
+    if (point.face == no_index) return false;
     to.origin = {part, point};
     const double dx = at.x - x - 0.5, dy = at.y - y - 0.5;
     to.squared_distance = dx * dx + dy * dy;
@@ -65,6 +66,7 @@ void take_sample(const PageRequest& page, TexelProjector& projector, std::uint32
             at, page.sampler.normal(part, point, projector.spacing(), projector.face_normal(at)));
     }
     sample_layers(page, projector, at, to);
+    return true;
 }
 
 // Bakes texel (x, y). Its other samples are taken only if the first ones differ, and not in the gutter, which is read
@@ -81,12 +83,12 @@ void bake_texel(const PageRequest& page, const SampleOrder& order, std::uint32_t
         TexelProjector& projector = projector_of(place);
         SampleValues& values = sum.samples == 0 ? first : next;
         const TexelSample at = projector.point(x, y, place.s, place.t);
-        take_sample(page, projector, x, y, at, values);
+        if (!take_sample(page, projector, x, y, at, values)) continue;
         shows_triangle = shows_triangle || at.on_own_triangle;
         varies = varies || (sum.samples > 0 && differ_visibly(page.channels, page.layers, first, values));
         sum.add(values);
     }
-    canvas.write(x, y, sum);
+    if (sum.samples > 0) canvas.write(x, y, sum);
 }
 
 // Bakes a cell. Between two triangles that are not partners a texel belongs to one of them. On the shared hypotenuse

@@ -163,6 +163,8 @@ void PageCanvas::count_samples() {
 PageImages PageCanvas::finish(const RunContext& context) && {
     keep_colors_of_hidden_materials();
     run_last_steps(context);
+    for (std::size_t i = 0; i < is_covered_.size(); ++i)
+        images_.missing_texels += images_.known[i] && !is_covered_[i];
     images_.known_layers = std::move(has_layer_samples_);
     for (std::size_t i = 0; i < images_.known_layers.size(); ++i)
         images_.known_layers[i] = images_.known_layers[i] && images_.known[i];

@@ -45,6 +45,7 @@ struct PageImages {
     std::vector<Pixels> layers;                     ///< by PageRequest::layers
     std::array<std::uint64_t, 3> samples = {};      ///< number of samples by MapStep
     std::uint64_t uncertain_texels = 0;             ///< texels with a sample not found by MapStep::history
+    std::uint64_t missing_texels = 0;               ///< known texels without any point of the source
     std::uint64_t texels = 0;                       ///< texels that show a triangle
     std::vector<std::uint8_t> known;  ///< by texel: nonzero if a triangle shows it, see shown_texels()
     /// By texel: nonzero if `layers` are known. Empty without layers.

@@ -256,10 +256,10 @@ SurfacePoint TexelProjector::map_near(const TexelSample& at, const SurfacePoint&
 }
 
 SurfacePoint TexelProjector::project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y) {
-    if (!history_) return part_.map->map(at.face, at.weights);
     WarmStartCache& cache = warm_starts_[at.cache_index];
     const SurfacePoint* near = cache.start_near(x, y);
     const auto find = [&] {
+        if (!history_) return part_.map->find(at.face, at.weights, near);
         if (near && last_.map && last_.cache_index == at.cache_index) {
             // Most samples have the same face of the source as the one before.
             const auto same = last_.map->map_to_same(*history_, at.face, at.weights, near->step);
@@ -269,7 +269,7 @@ SurfacePoint TexelProjector::project_to_source(const TexelSample& at, std::uint3
         return near ? map_near(at, *near) : part_.map->map(at.face, at.weights);
     };
     const SurfacePoint point = find();
-    cache.add(point, x, y);
+    if (point.face != no_index) cache.add(point, x, y);
     return point;
 }
 

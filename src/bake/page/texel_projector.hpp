@@ -76,7 +76,7 @@ public:
     /// gutter) on its neighbour, unfolded into the triangle's plane.
     TexelSample point(std::uint32_t x, std::uint32_t y, double s, double t) const;
 
-    /// The point of the source that corresponds to a sample in texel (x, y). Samples must be passed row by row from
+    /// PointMap::find() for a sample in texel (x, y). Samples must be passed row by row from
     /// the top, each row from the left.
     SurfacePoint project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y);
 

@@ -22,15 +22,6 @@ using engine::Vector3;
 constexpr std::size_t block = 4096;
 constexpr double outlier_threshold = 0.25;
 
-/// The scene as a single part, with its materials and images.
-Asset flattened(const Asset& asset) {
-    Asset result;
-    result.parts = {detail::flatten(asset)};
-    result.materials = asset.materials;
-    result.images = asset.images;
-    return result;
-}
-
 /// A scene, prepared for closest-point queries and colour lookup.
 struct Model {
     Asset asset;
@@ -40,7 +31,7 @@ struct Model {
     detail::SourceSampler colors;
 
     Model(const Asset& source, const char* name)
-        : asset(flattened(source)),
+        : asset(detail::flatten_scene(source)),
           surface(detail::extract_nonempty_surface({part().positions, part().triangles}, name)),
           face_normals(surface.normals),
           tree(surface.positions, surface.triangles),

@@ -209,6 +209,8 @@ void bake_images(const BakeJob& job, const SourceSampler& sampler, const Materia
                                        page.channels, group.material.alpha_mode, page.layers,
                                        group.materials.front(), job.options.samples, records_origins},
                                       share(before), share(done), job.context);
+        out.missing_texels += images.missing_texels;
+        out.shown_texels += static_cast<std::uint64_t>(std::ranges::count(images.known, 1));
         report_page(job, page, group.materials.front(), images, out.asset.report);
         if (records_origins) {
             const Atlas& atlas = page.layout->atlas;

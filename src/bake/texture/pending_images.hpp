@@ -45,6 +45,8 @@ struct PendingImage {
 struct UnencodedResult {
     SimplifiedAsset asset;  ///< its pending images are empty until encode_images()
     std::vector<PendingImage> pending;
+    /// Texels of new pages that show a triangle, and those of them without any point of the source.
+    std::uint64_t shown_texels = 0, missing_texels = 0;
 };
 
 /// PendingImage::tries_webp for the images of a result: glTF needs an extension for WebP, which the source has then.

@@ -1,0 +1,169 @@
+#include "faqem/bake_onto.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asset/finest_level.hpp"
+#include "asset/scene/flatten.hpp"
+#include "asset/scene/messages.hpp"
+#include "bake/onto/onto_map.hpp"
+#include "bake/onto/onto_target.hpp"
+#include "bake/scene/unencoded_result.hpp"
+#include "bake/texture/bake_job.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/error.hpp"
+#include "scene/check_asset.hpp"
+#include "scene/position_grids.hpp"
+#include "scene/scene_size.hpp"
+
+namespace faqem {
+namespace {
+
+using detail::RunContext;
+
+constexpr double usual_max_distance = 0.05;  // share of the diagonal
+constexpr double max_silent_share = 0.01;    // of missing texels
+
+void check_options(const Options& options, const OntoOptions& onto) {
+    validate(options);
+    if (!makes_atlas(options.bake.kind))
+        throw OptionError("bake_onto: an atlas is required, so bake must not be vertex, keep or none");
+    if (options.bake.correspondence == Recording::on || options.max_bytes)
+        throw OptionError("bake_onto: correspondence and max_bytes must be unset");
+    if (onto.max_distance && !(onto.max_distance->value > 0 && std::isfinite(onto.max_distance->value)))
+        throw OptionError("bake_onto: max_distance must be finite and above 0");
+}
+
+const Asset& finest(const Asset& asset, std::optional<detail::FinestLevel>& storage, Report& report) {
+    detail::check_asset(asset);
+    report.warnings.insert(report.warnings.end(), asset.warnings.begin(), asset.warnings.end());
+    storage = detail::finest_level(asset);
+    if (!storage) return asset;
+    report.warnings.push_back(storage->warning);
+    return storage->asset;
+}
+
+/// The source as one part. What of its materials is in its own file, where the result cannot refer to it, is left out.
+Asset flat_source(const Asset& source, Report& report) {
+    Asset flat = detail::flatten_scene(source);
+    if (flat.parts[0].triangles.empty()) throw InputError("", "source", "its scene has no faces");
+    for (Index m = 0; m < flat.materials.size(); ++m) {
+        Material& material = flat.materials[m];
+        for (const std::string& extension : material.extensions)
+            report.warnings.push_back(detail::material_title(source, m) + ": " + extension + " was left out");
+        material.extensions.clear();
+        material.extension_textures.clear();
+        material.source = no_index;
+    }
+    return flat;
+}
+
+/// Bakes the pages, and puts the result together.
+void bake_parts(const Asset& source, const Asset& target, const Options& options, double max_distance,
+                const RunContext& context, BakedOnto& result) {
+    detail::FlatTarget flat = detail::flat_target(target);
+    if (flat.flat.triangles.empty()) throw InputError("", "target", "its scene has no faces");
+    const auto mesh = detail::target_mesh(flat.flat, options.bake, context);
+    auto own_map = std::make_unique<const detail::OntoMap>(source, mesh->part, max_distance, context);
+    const detail::OntoMap& map = *own_map;
+    // For baking the source is the original of the mesh.
+    mesh->part.source = &source.parts[0];
+    mesh->part.map = std::move(own_map);
+    std::vector<Index>& source_faces = mesh->mesh.history.remaining_faces;
+    source_faces.resize(mesh->part.faces());
+    detail::parallel_each(source_faces.size(), 256, context, [&](std::size_t f) {
+        source_faces[f] = map.map(static_cast<Index>(f), detail::quarter_points[0]).face;
+    });
+    detail::UnencodedResult out;
+    out.asset.report = std::move(result.report);
+    if (!detail::bake_pages({source, options.bake, {&mesh->part, 1}, context}, {}, out))
+        throw InputError("", "target", "has more charts than a page of texture_size has texels");
+    const auto is_matched = [&](Index begin, Index end) {
+        while (begin < end && !map.is_matched(begin)) ++begin;
+        return begin < end;
+    };
+    Asset textured = target;
+    for (Part& part : textured.parts) part.face_material.assign(part.triangles.size(), no_index);
+    const Part baked = std::move(out.asset.asset.parts[0]);
+    for (const detail::FlatTarget::Piece& piece : flat.pieces) {
+        const Part& part = target.parts[piece.part];
+        const auto faces = static_cast<Index>(part.triangles.size());
+        if (!is_matched(piece.first_face, piece.first_face + faces))
+            result.unmatched_parts.push_back(detail::part_title(target, piece.part));
+        textured.parts[piece.part] =
+            detail::textured_part(part, flat, piece, baked, out.asset.asset.materials, options.bake, context);
+    }
+    if (result.unmatched_parts.size() == flat.pieces.size())
+        throw InputError("", "target",
+                         "no point of it is near the source, on the side that the source shows");
+    textured.materials = std::move(out.asset.asset.materials);
+    textured.images = std::move(out.asset.asset.images);
+    textured.format = options.format;
+    textured.smoothing = Smoothing::unknown;
+    out.asset.asset = std::move(textured);
+    detail::set_quantization(target, options, out.asset.asset, out.asset.report);
+    detail::encode_images(out, options, context);
+    result.largest_distance = map.largest_distance();
+    if (out.shown_texels > 0)
+        result.missing_texels =
+            static_cast<double>(out.missing_texels) / static_cast<double>(out.shown_texels);
+    static_cast<SimplifiedAsset&>(result) = std::move(out.asset);
+}
+
+void warn(const Asset& target, BakedOnto& result) {
+    std::vector<std::string>& warnings = result.report.warnings;
+    for (const std::string& part : result.unmatched_parts)
+        warnings.push_back(part + ": no point of the source is near it");
+    if (result.missing_texels > max_silent_share)
+        warnings.push_back(std::to_string(std::lround(100 * result.missing_texels)) +
+                           "% of the texels have no point of the source, and the colours of those around");
+    for (std::size_t p = 0; p < target.parts.size(); ++p)
+        if (!target.parts[p].colors.empty())
+            warnings.push_back(detail::part_title(target, p) + ": its vertex colours were left out");
+}
+
+}  // namespace
+
+BakedOnto bake_onto(const Asset& given_source, const Asset& given_target, const Options& requested,
+                    const OntoOptions& onto) {
+    check_options(requested, onto);
+    const detail::Stopwatch watch;
+    const RunContext context(requested);
+    BakedOnto result;
+    try {
+        std::optional<detail::FinestLevel> source_level, target_level;
+        const Asset &source = finest(given_source, source_level, result.report),
+                    &target = finest(given_target, target_level, result.report);
+        Options options = requested;
+        if (options.format == ModelFormat::automatic) options.format = target.format;
+        const Asset flat = flat_source(source, result.report);
+        const double max_distance =
+            detail::scene_size(source)(onto.max_distance.value_or(of_diagonal(usual_max_distance)));
+        bake_parts(flat, target, options, max_distance, context, result);
+        warn(target, result);
+        for (const Part& part : target.parts) {
+            result.report.faces_in += part.triangles.size();
+            result.report.vertices_in += part.positions.size();
+        }
+        for (const Part& part : result.asset.parts) {
+            result.report.faces_out += part.triangles.size();
+            result.report.vertices_out += part.positions.size();
+        }
+        result.report.bytes_in = target.file_bytes;
+    } catch (const engine::Cancelled& stopped) {
+        if (stopped.reason != StopReason::cancelled)
+            throw TimeLimitError("max_seconds was over before the textures were complete");
+        result = {};
+        result.report.stop = stopped.reason;
+    }
+    result.report.seconds.total = watch.seconds();
+    return result;
+}
+
+}  // namespace faqem

@@ -1,0 +1,106 @@
+#include "bake/onto/onto_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/parts/corner_normals.hpp"
+#include "bake/source/source_normals.hpp"
+#include "scene/material_groups.hpp"
+#include "scene/vector_conversion.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::to_eigen;
+using engine::Vector3;
+
+// Minimum cosine between the normals of a point of the mesh and of a face of the source on the same side; as for
+// SuccessiveProjection.
+constexpr double min_facing_cosine = 0.17;
+
+Vector3 point_on(const TriangleMesh& mesh, Index face, const Vec3& w) {
+    Vector3 p = Vector3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) p += w[i] * to_eigen(mesh.positions[mesh.triangles[face][i]]);
+    return p;
+}
+
+// The shading normal of a mesh without its normal map; zero on a degenerate face.
+Vector3 normal_at(const BakePart& part, Index face, const Vec3& w) {
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += w[i] * to_vector(part.normals.normals[std::size_t{3} * face + i]);
+    const Vector3 of_face = oriented_face_normal(part, face), normal = unit_or_zero(sum);
+    return of_face.isZero(0) || normal.isZero(0) ? of_face : normal;
+}
+
+void raise(std::atomic<double>& to, double value) {
+    double before = to;
+    while (before < value && !to.compare_exchange_weak(before, value)) {
+    }
+}
+
+}  // namespace
+
+OntoMap::OntoMap(const Asset& source, const BakePart& target, double max_distance,
+                 const engine::RunContext& context)
+    : source_(source.parts[0]),
+      target_(target),
+      max_distance_squared_(max_distance * max_distance),
+      normals_(source_.triangles.size()),
+      tree_(source_.positions, source_.triangles, context),
+      is_matched_(target.faces()) {
+    for (Index f = 0; f < normals_.size(); ++f) {
+        Vector3 sum = Vector3::Zero();
+        for (std::size_t c = 0; c < 3; ++c) sum += corner_normal(source_, f, c);
+        normals_[f] = winding_normal(source_.positions, source_.triangles[f]);
+        if (sum.dot(normals_[f]) < 0) normals_[f] = -normals_[f];
+        if (!material_or_default(source, face_material(source_, f)).double_sided) continue;
+        is_double_sided_.resize(normals_.size(), 0);
+        is_double_sided_[f] = 1;
+    }
+}
+
+Vector3 OntoMap::corner(Index face, std::size_t i) const {
+    return to_eigen(source_.positions[source_.triangles[face][i]]);
+}
+
+Bvh::Hit OntoMap::closest_facing(const Vector3& p, const Vector3& normal, bool from_behind,
+                                 const SurfacePoint* near) const {
+    const auto faces_point = [&](Index f) {
+        if (normal.isZero(0)) return true;
+        return from_behind ? is_double_sided_[f] && normals_[f].dot(normal) <= -min_facing_cosine
+                           : normals_[f].dot(normal) >= min_facing_cosine;
+    };
+    Bvh::Hit known;
+    if (near && faces_point(near->face)) {
+        const ClosestPoint at =
+            closest_point_on_triangle(p, corner(near->face, 0), corner(near->face, 1), corner(near->face, 2));
+        if (at.distance_squared <= max_distance_squared_)
+            known = {near->face, engine::to_array(at.barycentric), engine::to_array(at.point),
+                     at.distance_squared};
+    }
+    const Bvh::Hit hit = tree_.closest_if(engine::to_array(p), faces_point,
+                                          std::min(max_distance_squared_, known.distance_squared));
+    return hit.face != no_index ? hit : known;
+}
+
+SurfacePoint OntoMap::find(Index face, const Vec3& barycentric, const SurfacePoint* near) const {
+    const Vector3 p = point_on(target_.simplified->mesh, face, barycentric),
+                  normal = normal_at(target_, face, barycentric);
+    Bvh::Hit hit = closest_facing(p, normal, false, near);
+    if (hit.face == no_index && !is_double_sided_.empty()) hit = closest_facing(p, normal, true, near);
+    if (hit.face == no_index) return {};
+    is_matched_[face].store(1, std::memory_order_relaxed);
+    raise(largest_distance_, std::sqrt(hit.distance_squared));
+    return {hit.face, hit.barycentric, MapStep::closest};
+}
+
+SurfacePoint OntoMap::map(Index face, const Vec3& barycentric) const {
+    const SurfacePoint found = find(face, barycentric, nullptr);
+    if (found.face != no_index) return found;
+    const Bvh::Hit hit =
+        tree_.closest(engine::to_array(point_on(target_.simplified->mesh, face, barycentric)));
+    return {hit.face, hit.barycentric, MapStep::closest};
+}
+
+}  // namespace faqem::detail
