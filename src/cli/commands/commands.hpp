@@ -9,6 +9,7 @@ namespace faqem::cli {
 CommandInfo simplify_command();
 CommandInfo lod_command();
 CommandInfo truncate_command();
+CommandInfo bake_command();
 CommandInfo batch_command();
 CommandInfo list_command();
 CommandInfo info_command();

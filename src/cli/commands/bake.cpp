@@ -1,0 +1,111 @@
+#include "faqem/bake_onto.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asset/file_format.hpp"
+#include "asset/io/set_folder.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/files/protected_files.hpp"
+#include "cli/options/bound_options.hpp"
+#include "cli/options/simplify_options.hpp"
+#include "cli/process/exit_code.hpp"
+#include "cli/process/interrupt.hpp"
+#include "cli/process/progress_bar.hpp"
+#include "cli/process/rejection.hpp"
+#include "cli/process/shown_text.hpp"
+
+namespace faqem::cli {
+
+namespace {
+
+struct BakeArguments : SimplifyArguments {
+    std::string target, out, source, max_distance;
+    bool force = false, quiet = false;
+};
+
+int run(const BakeArguments& arguments) {
+    Options options = make_options(arguments.options);
+    options.format = format_of_output(arguments.out);
+    OntoOptions onto;
+    if (!arguments.max_distance.empty()) {
+        const detail::OptionValue length = detail::parse_option_number(
+            arguments.max_distance, detail::OptionKind::length, above_zero, {}, "--max-distance");
+        onto.max_distance = {*length.number, length.unit};
+    }
+    check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
+    protect_input(arguments.target);
+    protect_input(arguments.source);
+    const Overwrite overwrite = check_outputs({arguments.out}, arguments.force);
+    install_signal_handlers();
+    BakedOnto baked;
+    {
+        ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
+        options.progress = [&bar](Phase phase, double fraction) {
+            bar.show(phase, fraction);
+            return is_interrupted() ? Continue::cancel : Continue::yes;
+        };
+        bar.show(Phase::load, 0);
+        std::optional<ExitOnInterrupt> exit_on_interrupt(std::in_place);  // load() cannot be cancelled
+        const Asset source = load_model(arguments.source, arguments.strictness()),
+                    target = load_model(arguments.target, arguments.strictness());
+        exit_on_interrupt.reset();
+        baked = bake_onto(source, target, options, onto);
+    }
+    if (is_interrupted() || baked.report.stop == StopReason::cancelled) {
+        std::cerr << "faqem: cancelled\n";
+        return exit_cancelled;
+    }
+    const ExitOnInterrupt exit_on_interrupt;
+    detail::FileSet set;
+    {
+        const detail::CollectWrites collect(set);
+        for (std::string& loss : save(baked.asset, arguments.out, overwrite))
+            baked.report.warnings.push_back(std::move(loss));
+    }
+    commit_outputs(set);
+    if (arguments.quiet) return exit_ok;
+    std::cout << arguments.source << " onto " << arguments.target << " -> " << arguments.out << "\n"
+              << "largest distance: " << baked.largest_distance
+              << "; texels without a source: " << shown_percent(baked.missing_texels) << "\n"
+              << warnings_text(baked.report.warnings);
+    return exit_ok;
+}
+
+}  // namespace
+
+CommandInfo bake_command() {
+    const auto arguments = std::make_shared<BakeArguments>();
+    CommandInfo command{"bake",
+                        "Bake the appearance of a model onto another mesh",
+                        {"faqem bake remeshed.glb textured.glb --source original.glb"}};
+    command.positionals = {positional("TARGET", arguments->target, "The mesh that gets new textures")};
+    add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write));
+    OptionInfo source = text_option("--source", "FILE", arguments->source, "The model that is shown");
+    source.is_required = true;
+    add_options(
+        command.options,
+        {source, text_option("--max-distance", "LENGTH", arguments->max_distance,
+                             "Texels farther from the source show the texels around them: scene units, "
+                             "or % of its diagonal (default 5%)")});
+    // Those of truncate about the appearance, except for what the target determines.
+    std::vector<OptionInfo> baking = table_options(detail::in_truncate, arguments->options);
+    std::erase_if(baking, [](const OptionInfo& option) {
+        constexpr std::array none = {"--allow-larger", "--max-bytes", "--normals"};
+        return std::ranges::find(none, option.names.back()) != none.end();
+    });
+    add_options(command.options, std::move(baking));
+    add_options(command.options, {strict_option(arguments->strict), force_option(arguments->force),
+                                  quiet_option(arguments->quiet)});
+    command.run = [arguments] { return run(*arguments); };
+    return command;
+}
+
+}  // namespace faqem::cli
