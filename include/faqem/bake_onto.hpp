@@ -13,11 +13,19 @@
 
 namespace faqem {
 
+/// Which UVs a target gets.
+enum class OntoUvs {
+    automatic,  ///< as `keep` if that is possible, otherwise as `created`
+    keep,       ///< those of its first set, which must lie in [0, 1] and must not overlap
+    created,
+};
+
 /// What bake_onto() has beside Options.
 struct OntoOptions {
     /// Largest distance between a point of the target and the point of the source that it shows, > 0; shares are of the
     /// diagonal of the source. Unset: 5% of it.
     std::optional<Length> max_distance = {};
+    OntoUvs uvs = OntoUvs::automatic;
 };
 
 /// Result of bake_onto(): the target with new textures, with the report of the run.
@@ -28,11 +36,11 @@ struct BakedOnto : SimplifiedAsset {
     std::vector<std::string> unmatched_parts;  ///< parts of the target without any point of the source
 };
 
-/// Bakes the appearance of one asset onto the surface of another one, which need not be made from it: new UVs, textures,
-/// vertex normals where a normal map needs them, and materials. Both are compared in scene space, in their poses at rest;
+/// Bakes the appearance of one asset onto the surface of another one, which need not be made from it: textures,
+/// materials, UVs as OntoOptions::uvs says, and vertex normals where a normal map needs them. Both are compared in scene space, in their poses at rest;
 /// a part with several instances gets the appearance at its first one. A point of the target shows the closest point of
 /// the source on a face that is turned to the same side, or on a double-sided one if there is none.
-/// The target keeps its nodes, names, skins, morph targets and animations; its materials, UVs and vertex colours are
+/// The target keeps its nodes, names, skins, morph targets and animations; its materials and vertex colours are
 /// replaced. Extensions of materials of the source, except for unlit ones, are left out, with a warning.
 /// \param source   the appearance
 /// \param target   the mesh
@@ -41,7 +49,7 @@ struct BakedOnto : SimplifiedAsset {
 /// \return the result; if the progress callback cancels, report.stop is StopReason::cancelled and the asset is empty
 /// \throws OptionError  an option is out of range
 /// \throws InputError  arrays or indices of an asset are inconsistent, an image is damaged, an asset has no faces in its
-///     scene, a page has fewer texels than charts, or no point of the target is near the source
+///     scene, a page has fewer texels than charts, OntoUvs::keep is not possible, or no point of the target is near the source
 /// \throws UnsupportedError  an image has a format that decode() does not support
 /// \throws TimeLimitError  max_seconds was over before the result was complete
 /// Complexity: O(n log n) in the faces of both, and O(log n) per texel typically.

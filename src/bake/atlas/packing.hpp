@@ -22,6 +22,8 @@ struct AtlasChart {
     std::vector<std::uint8_t> blocks = {1};  ///< row by row: nonzero for blocks that belong to the chart
     std::vector<Index> triangles;            ///< ascending
     bool is_single_texel = false;            ///< the whole chart is one texel
+    /// It has all triangles of a page whose UVs are given: they may be mirrored, and neighbours be far from each other.
+    bool is_given = false;
 
     /// Whether a texel inside the rectangle of blocks belongs to the chart.
     bool owns(std::uint32_t texel_x, std::uint32_t texel_y) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace faqem::detail {
 namespace {
@@ -19,6 +20,7 @@ public:
     SampleOwners(const Atlas& atlas, const AtlasChart& chart, const ChartTile& tile, std::uint32_t samples)
         : atlas_(atlas),
           tile_(tile),
+          may_be_mirrored_(chart.is_given),
           samples_(samples),
           columns_(tile.width * samples),
           rows_(tile.height * samples) {
@@ -33,7 +35,8 @@ public:
 
     // Assigns samples inside a triangle to it, unless they are inside one that was visited before.
     void assign_covered(Index triangle) {
-        const Triangle2& uv = atlas_.placements[triangle].uv;
+        Triangle2 uv = atlas_.placements[triangle].uv;
+        if (may_be_mirrored_ && twice_signed_area(uv[0], uv[1], uv[2]) > 0) std::swap(uv[1], uv[2]);
         const Range range = range_of(bounding_box(uv));
         for (std::uint32_t j = range.y0; j < range.y1; ++j) {
             std::uint32_t begin = range.x0, end = range.x1;
@@ -169,11 +172,18 @@ private:
 
     const Atlas& atlas_;
     const ChartTile& tile_;
+    bool may_be_mirrored_;
     std::uint32_t samples_, columns_, rows_;
     std::vector<std::uint8_t> owned_;       // by texel
     std::vector<Index> owner_;              // by sample
     std::vector<double> squared_distance_;  // by sample, to its triangle; 0 inside
 };
+
+// Whether the neighbour across the edge opposite corner c of a triangle is there on the page, too.
+bool is_beside(const Atlas& atlas, Index triangle, std::size_t c, const AdjacentTriangle& other) {
+    const Triangle2 &own = atlas.placements[triangle].uv, &its = atlas.placements[other.triangle].uv;
+    return own[(c + 1) % 3] == its[(other.corner + 2) % 3] && own[(c + 2) % 3] == its[(other.corner + 1) % 3];
+}
 
 }  // namespace
 
@@ -218,8 +228,10 @@ TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart, std::span<co
     const double reach = 2 * chart.block_size;
     for (Index t : chart.triangles) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const Index other = triangles[t].adjacent[c].triangle;
-            const bool within = other != no_index && std::ranges::binary_search(chart.triangles, other);
+            const AdjacentTriangle& other = triangles[t].adjacent[c];
+            const bool within = other.triangle != no_index &&
+                                std::ranges::binary_search(chart.triangles, other.triangle) &&
+                                (!chart.is_given || is_beside(atlas, t, c, other));
             if (!within) owners.assign_nearest(t, c, reach);
         }
     }

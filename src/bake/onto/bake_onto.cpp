@@ -65,8 +65,8 @@ Asset flat_source(const Asset& source, Report& report) {
 }
 
 /// Bakes the pages, and puts the result together.
-void bake_parts(const Asset& source, const Asset& target, const Options& options, double max_distance,
-                const RunContext& context, BakedOnto& result) {
+void bake_parts(const Asset& source, const Asset& target, const Options& options, const OntoOptions& onto,
+                double max_distance, const RunContext& context, BakedOnto& result) {
     detail::FlatTarget flat = detail::flat_target(target);
     if (flat.flat.triangles.empty()) throw InputError("", "target", "its scene has no faces");
     const auto mesh = detail::target_mesh(flat.flat, options.bake, context);
@@ -75,6 +75,11 @@ void bake_parts(const Asset& source, const Asset& target, const Options& options
     // For baking the source is the original of the mesh.
     mesh->part.source = &source.parts[0];
     mesh->part.map = std::move(own_map);
+    if (onto.uvs != OntoUvs::created) mesh->part.given_uvs = detail::usable_uvs(target, flat);
+    if (onto.uvs == OntoUvs::keep && mesh->part.given_uvs.empty())
+        throw InputError("", "target",
+                         "its UVs cannot be kept: they are missing, outside of [0, 1], or overlap");
+    const bool keeps_uvs = !mesh->part.given_uvs.empty();
     std::vector<Index>& source_faces = mesh->mesh.history.remaining_faces;
     source_faces.resize(mesh->part.faces());
     detail::parallel_each(source_faces.size(), 256, context, [&](std::size_t f) {
@@ -96,8 +101,8 @@ void bake_parts(const Asset& source, const Asset& target, const Options& options
         const auto faces = static_cast<Index>(part.triangles.size());
         if (!is_matched(piece.first_face, piece.first_face + faces))
             result.unmatched_parts.push_back(detail::part_title(target, piece.part));
-        textured.parts[piece.part] =
-            detail::textured_part(part, flat, piece, baked, out.asset.asset.materials, options.bake, context);
+        textured.parts[piece.part] = detail::textured_part(part, flat, piece, baked, keeps_uvs,
+                                                           out.asset.asset.materials, options.bake, context);
     }
     if (result.unmatched_parts.size() == flat.pieces.size())
         throw InputError("", "target",
@@ -145,7 +150,7 @@ BakedOnto bake_onto(const Asset& given_source, const Asset& given_target, const 
         const Asset flat = flat_source(source, result.report);
         const double max_distance =
             detail::scene_size(source)(onto.max_distance.value_or(of_diagonal(usual_max_distance)));
-        bake_parts(flat, target, options, max_distance, context, result);
+        bake_parts(flat, target, options, onto, max_distance, context, result);
         warn(target, result);
         for (const Part& part : target.parts) {
             result.report.faces_in += part.triangles.size();

@@ -6,9 +6,9 @@
 
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/part_arrays.hpp"
+#include "bake/atlas/triangle_overlap.hpp"
 #include "bake/page/normal_map.hpp"
 #include "bake/parts/corner_normals.hpp"
-#include "bake/source/extension_layers.hpp"
 #include "bake/source/source_normals.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 #include "scene/material_groups.hpp"
@@ -79,9 +79,30 @@ FlatTarget flat_target(const Asset& target) {
     return result;
 }
 
+std::vector<Vec2f> usable_uvs(const Asset& target, const FlatTarget& flat) {
+    for (const FlatTarget::Piece& piece : flat.pieces)
+        if (target.parts[piece.part].uvs.empty()) return {};
+    std::vector<Vec2f> result;
+    std::vector<Triangle2> triangles;  // counter-clockwise
+    for (const Triangle& t : flat.flat.triangles) {
+        Triangle2 triangle;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Vec2f& uv = flat.flat.uvs[0][t[c]];
+            if (!(uv[0] >= 0 && uv[0] <= 1 && uv[1] >= 0 && uv[1] <= 1)) return {};
+            result.push_back(uv);
+            triangle[c] = {uv[0], uv[1]};
+        }
+        const double area = twice_signed_area(triangle[0], triangle[1], triangle[2]);
+        if (area < 0) std::swap(triangle[1], triangle[2]);
+        if (area != 0) triangles.push_back(triangle);
+    }
+    std::uint64_t work = 1000000 + 1000 * triangles.size();
+    return !triangles.empty() && have_disjoint_interiors(triangles, work) ? result : std::vector<Vec2f>();
+}
+
 Part textured_part(const Part& part, const FlatTarget& target, const FlatTarget::Piece& piece,
-                   const Part& baked, const std::vector<Material>& materials, const BakeOptions& bake,
-                   const RunContext& context) {
+                   const Part& baked, bool keeps_uvs, const std::vector<Material>& materials,
+                   const BakeOptions& bake, const RunContext& context) {
     CornerValues values;
     values.uvs.resize(baked.uvs.size());
     std::vector<Index> with_tangents;  // faces
@@ -118,7 +139,7 @@ Part textured_part(const Part& part, const FlatTarget& target, const FlatTarget:
     to = whole;
     select_vertices(whole, vertices, to);
     to.triangles = std::move(welded.part.triangles);
-    to.uvs = std::move(welded.part.uvs);
+    if (!keeps_uvs) to.uvs = std::move(welded.part.uvs);
     to.tangents = std::move(welded.part.tangents);
     if (!welded.part.normals.empty()) to.normals = std::move(welded.part.normals);
     return to;

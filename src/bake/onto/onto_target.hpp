@@ -35,13 +35,18 @@ struct FlatTarget {
 
 FlatTarget flat_target(const Asset& target);
 
+/// By corner of the flat part: the UVs of the first set of the target. Empty if a part has none, if any is outside of
+/// [0, 1], or if faces overlap on the page.
+std::vector<Vec2f> usable_uvs(const Asset& target, const FlatTarget& flat);
+
 /// A part of the target with its part of the result.
 /// \param part   of the target
 /// \param piece  that of the part
-/// \param baked  has the faces of the flat part, with new UVs and materials
+/// \param baked  has the faces of the flat part, with UVs and materials
+/// \param keeps_uvs  whether the UVs are those of the part
 /// \param materials  of the result
 Part textured_part(const Part& part, const FlatTarget& target, const FlatTarget::Piece& piece,
-                   const Part& baked, const std::vector<Material>& materials, const BakeOptions& bake,
-                   const RunContext& context);
+                   const Part& baked, bool keeps_uvs, const std::vector<Material>& materials,
+                   const BakeOptions& bake, const RunContext& context);
 
 }  // namespace faqem::detail

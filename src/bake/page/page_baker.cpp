@@ -132,7 +132,11 @@ void bake_piece(const PageRequest& page, const SampleOrder& order, const ChartTi
         context.count(row * page.samples);
         for (std::uint32_t x = 0; x < tile.width; ++x) {
             const std::uint32_t* const owners = &owned.owners[(y * row + x) * page.samples];
-            if (*owners == TileOwners::none) continue;
+            bool is_owned = true;
+            for (std::uint32_t j = 0; j < page.samples; ++j)
+                is_owned = is_owned && std::find(owners + j * row, owners + j * row + page.samples,
+                                                 TileOwners::none) == owners + j * row + page.samples;
+            if (!is_owned) continue;
             const auto projector_of = [&](const SamplePlace& place) -> TexelProjector& {
                 return projectors[owners[place.row * row + place.column]];
             };

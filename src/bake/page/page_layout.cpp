@@ -1,6 +1,7 @@
 #include "bake/page/page_layout.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -75,6 +76,35 @@ std::optional<PageLayout> layout_charts(const PageMesh& mesh, const Charts& char
     return result;
 }
 
+// One chart of all triangles that cover texels. Samples between them belong to the closest one within two blocks.
+PageLayout layout_given(const PageMesh& mesh, std::span<const Triangle2> given, std::uint32_t texture_size) {
+    constexpr std::uint32_t least_side = 64, block = 4;
+    double area = 0, texels = 0;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        area += std::abs(twice_signed_area(given[i][0], given[i][1], given[i][2])) / 2;
+        const double wanted = wanted_texels(mesh.triangles[i]);
+        if (std::isfinite(wanted)) texels += wanted;
+    }
+    std::uint32_t side = least_side;
+    while (side < texture_size && side * side * area < texels) side *= 2;
+    PageLayout result;
+    result.atlas.width = result.atlas.height = side;
+    AtlasChart& chart = result.charts.emplace_back();
+    chart.block_size = block;
+    chart.columns = chart.rows = side / block;
+    chart.blocks.assign(std::size_t{chart.columns} * chart.rows, 1);
+    chart.is_given = true;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        const Triangle2& uv = given[i];
+        result.atlas.placements.push_back({{uv[0] * side, uv[1] * side, uv[2] * side}, {}});
+        if (twice_signed_area(uv[0], uv[1], uv[2]) != 0) chart.triangles.push_back(static_cast<Index>(i));
+    }
+    result.tiles = split_into_tiles(result.charts);
+    result.summary.kind = Bake::atlas;
+    result.summary.charts = 1;
+    return result;
+}
+
 std::optional<PageLayout> layout_by_kind(const PageMesh& mesh, Bake kind, std::uint32_t texture_size,
                                          const RunContext& context) {
     if (kind == Bake::per_triangle) return layout_triangles(mesh, texture_size, context);
@@ -86,9 +116,10 @@ std::optional<PageLayout> layout_by_kind(const PageMesh& mesh, Bake kind, std::u
 
 }  // namespace
 
-std::optional<PageLayout> layout_page(const PageMesh& mesh, Bake kind, std::uint32_t texture_size,
-                                      const RunContext& context) {
-    std::optional<PageLayout> result = layout_by_kind(mesh, kind, texture_size, context);
+std::optional<PageLayout> layout_page(const PageMesh& mesh, std::span<const Triangle2> given, Bake kind,
+                                      std::uint32_t texture_size, const RunContext& context) {
+    std::optional<PageLayout> result = given.empty() ? layout_by_kind(mesh, kind, texture_size, context)
+                                                     : layout_given(mesh, given, texture_size);
     if (!result) return std::nullopt;
     result->summary.width = result->atlas.width;
     result->summary.height = result->atlas.height;

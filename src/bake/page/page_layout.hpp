@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bake/atlas/packing.hpp"
@@ -31,10 +32,12 @@ struct PageLayout {
 /// \param kind          Bake::atlas, Bake::per_triangle or Bake::automatic: charts, unless they have fewer than 3
 ///                      triangles on average
 /// \param texture_size  largest width and height of the page in texels, a power of two
+/// \param given         by triangle: its UVs, in [0, 1]; empty: new ones. The page has the smallest size with the wanted
+///                      density
 /// \return nothing if there are more charts than texels or, for an atlas by triangle, more triangles
 /// \throws whatever `context` throws
 /// Complexity: that of make_charts() and pack_charts(), or of pack_triangles().
-std::optional<PageLayout> layout_page(const PageMesh& mesh, Bake kind, std::uint32_t texture_size,
-                                      const RunContext& context);
+std::optional<PageLayout> layout_page(const PageMesh& mesh, std::span<const Triangle2> given, Bake kind,
+                                      std::uint32_t texture_size, const RunContext& context);
 
 }  // namespace faqem::detail

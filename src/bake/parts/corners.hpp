@@ -34,6 +34,8 @@ struct BakePart {
     CornerNormals normals = {};  ///< empty without faces, if it is kept, and if no normals are needed
     /// Whether the result has the normals; otherwise only a part with a normal map has them.
     bool writes_normals = true;
+    /// By corner: the UVs of new textures, in [0, 1]; empty: they get new ones.
+    std::vector<Vec2f> given_uvs = {};
     /// Whether baking leaves it empty in the result, because it is added later with its own vertices or UVs.
     bool is_kept = false;
 

@@ -92,6 +92,21 @@ std::vector<Page> plan_pages(const BakeJob& job, const MaterialGroups& groups) {
     return pages;
 }
 
+// By triangle of a page: BakePart::given_uvs, if all have them.
+std::vector<Triangle2> given_uvs(std::span<const BakePart> parts, std::span<const PageFace> faces) {
+    std::vector<Triangle2> result;
+    for (const PageFace& at : faces) {
+        const std::vector<Vec2f>& uvs = parts[at.part].given_uvs;
+        if (uvs.empty()) return {};
+        Triangle2& triangle = result.emplace_back();
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Vec2f& uv = uvs[std::size_t{3} * at.face + c];
+            triangle[c] = {uv[0], uv[1]};
+        }
+    }
+    return result;
+}
+
 // Lays out the pages that need an image, several at a time: the steps of a single page do not keep all threads busy.
 // \return false as bake_pages()
 bool layout_pages(const BakeJob& job, const SourceSampler& sampler, std::vector<Page>& pages) {
@@ -104,7 +119,8 @@ bool layout_pages(const BakeJob& job, const SourceSampler& sampler, std::vector<
             if (!needs_layout(page)) return;
             page.mesh =
                 make_page_mesh(job.parts, std::move(page.mesh.faces), sampler, job.options, block_context);
-            page.layout = layout_page(page.mesh, job.options.kind, job.options.texture_size, block_context);
+            page.layout = layout_page(page.mesh, given_uvs(job.parts, page.mesh.faces), job.options.kind,
+                                      job.options.texture_size, block_context);
         });
     return std::ranges::all_of(pages, [&](const Page& page) { return page.layout || !needs_layout(page); });
 }

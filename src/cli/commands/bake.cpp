@@ -27,7 +27,7 @@ namespace faqem::cli {
 namespace {
 
 struct BakeArguments : SimplifyArguments {
-    std::string target, out, source, max_distance;
+    std::string target, out, source, max_distance, uvs = "auto";
     bool force = false, quiet = false;
 };
 
@@ -35,6 +35,7 @@ int run(const BakeArguments& arguments) {
     Options options = make_options(arguments.options);
     options.format = format_of_output(arguments.out);
     OntoOptions onto;
+    if (arguments.uvs != "auto") onto.uvs = arguments.uvs == "keep" ? OntoUvs::keep : OntoUvs::created;
     if (!arguments.max_distance.empty()) {
         const detail::OptionValue length = detail::parse_option_number(
             arguments.max_distance, detail::OptionKind::length, above_zero, {}, "--max-distance");
@@ -90,11 +91,14 @@ CommandInfo bake_command() {
     add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write));
     OptionInfo source = text_option("--source", "FILE", arguments->source, "The model that is shown");
     source.is_required = true;
-    add_options(
-        command.options,
-        {source, text_option("--max-distance", "LENGTH", arguments->max_distance,
-                             "Texels farther from the source show the texels around them: scene units, "
-                             "or % of its diagonal (default 5%)")});
+    const OptionInfo max_distance =
+        text_option("--max-distance", "LENGTH", arguments->max_distance,
+                    "Texels farther from the source show the texels around them: scene units, or % of its "
+                    "diagonal (default 5%)");
+    const OptionInfo uvs = text_option("--uvs", "auto|keep|new", arguments->uvs,
+                                       "UVs of the result; auto (keep if they are in [0, 1] and do not "
+                                       "overlap), keep, new");
+    add_options(command.options, {source, uvs, max_distance});
     // Those of truncate about the appearance, except for what the target determines.
     std::vector<OptionInfo> baking = table_options(detail::in_truncate, arguments->options);
     std::erase_if(baking, [](const OptionInfo& option) {

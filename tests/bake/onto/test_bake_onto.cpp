@@ -223,6 +223,30 @@ TEST_CASE("a flat target gets the relief of its source as a normal map") {
     }
 }
 
+TEST_CASE("a target keeps UVs on which every texel has one place") {
+    const Asset source = textured_square(ramp(256));
+    Asset target = textured_square(ramp(4));
+    Part& part = target.parts[0];
+    // Two islands: the second one is mirrored, and apart from the first.
+    part.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    part.triangles = {{0, 1, 2}, {3, 4, 5}};
+    part.uvs = {{{0, 0.4f}, {0.4f, 0.4f}, {0.4f, 0}, {0.9f, 0.9f}, {0.5f, 0.5f}, {0.9f, 0.5f}}};
+    Options options = lossless();
+    options.bake.texel_density = 2;
+    const BakedOnto baked = bake_onto(source, target, options, {.uvs = OntoUvs::keep});
+    CHECK(baked.asset.parts[0].uvs == part.uvs);
+    CHECK(baked.asset.parts[0].triangles == part.triangles);
+    CHECK(worst(baked.asset, [](std::size_t, const Vec3& p) { return ramp_at(p); }) <= 2);
+    CHECK(bake_onto(source, target, options).asset.parts[0].uvs == part.uvs);
+
+    part.uvs[0][3] = {0.3f, 0.1f};  // the second island covers a part of the first one
+    CHECK(testing::message_of([&] { bake_onto(source, target, options, {.uvs = OntoUvs::keep}); }) ==
+          "target: its UVs cannot be kept: they are missing, outside of [0, 1], or overlap");
+    const BakedOnto other = bake_onto(source, target, options);
+    CHECK(other.asset.parts[0].uvs != part.uvs);
+    CHECK(worst(other.asset, [](std::size_t, const Vec3& p) { return ramp_at(p); }) <= 2);
+}
+
 TEST_CASE("an atlas onto another mesh does not depend on the number of threads") {
     const Asset source = painted(icosphere(4), [](const Vec3& p) {
         return Vec4f{float(0.5 + p[0] / 2), float(0.5 + p[1] / 2), 0.5f, 1};
