@@ -1,6 +1,6 @@
 #!/bin/sh
-# Builds the Blender extension of a wheel and validates it by Blender's command for extensions, of the package bpy that
-# pip downloads (370 MB). Needs Python 3.11 or 3.13, and a build of the preset `test`, whose
+# Builds the Blender extension of a wheel, validates it by Blender's command for extensions, and tries it with Blender as
+# a Python module, which pip downloads (370 MB). Needs Python 3.11 or 3.13, and a build of the preset `test`, whose
 # libraries make the wheel, or another wheel.
 # Usage: tests/run.sh --suite blender [--wheel FILE]
 set -eu
@@ -36,3 +36,6 @@ fi
 extension=$(python3 -B "$source/src/blender/build_extension.py" "$wheel" "$work")
 "$work/env/bin/python" -B "$work"/env/lib/python3*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py \
     validate "$extension"
+export BLENDER_USER_RESOURCES="$work/settings"
+mkdir "$work/results" "$work/settings"
+timeout 240 "$work/env/bin/python" -B "$here/test_extension.py" "$extension" "$work/results" "$source/data/textured_quad.glb"
