@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "asset/io/file_finder.hpp"
+#include "faqem/error.hpp"
 
 namespace faqem::detail {
 
@@ -28,7 +30,7 @@ enum class Readable { no, yes };
 class ReferenceList {
 public:
     ReferenceList(const std::filesystem::path& model, References which)
-        : folder_(model.parent_path()), finder_(folder_), which_(which) {}
+        : finder_(model.parent_path()), which_(which) {}
 
     /// Finds files that references of the model mean.
     FileFinder& finder() { return finder_; }
@@ -37,16 +39,30 @@ public:
     /// read, the one that FileFinder finds.
     /// \param subfolder  of the file with the reference, relative to the folder of the model
     void add(const std::string& reference, ReferenceSyntax syntax, Readable readable,
-             const std::filesystem::path& subfolder = {});
+             const std::filesystem::path& subfolder = {}) {
+        std::filesystem::path named = referenced_path(finder_.folder() / subfolder, reference, syntax);
+        std::error_code error;
+        if (which_ == References::all && std::filesystem::is_regular_file(named, error) &&
+            known_.insert(named).second) {
+            canonical_.insert(std::filesystem::weakly_canonical(named, error));
+            files_.push_back(std::move(named));
+        }
+        if (readable == Readable::no) return;
+        try {
+            add_found(finder_.find(reference, subfolder, syntax).file);
+        } catch (const InputError&) {  // there is none
+        }
+    }
 
     /// Adds a file that may be read, unless it is already in the list under any path.
     /// \param file  canonical
-    void add_found(const std::filesystem::path& file);
+    void add_found(const std::filesystem::path& file) {
+        if (canonical_.insert(file).second && known_.insert(file).second) files_.push_back(file);
+    }
 
     std::vector<std::filesystem::path> finish() { return std::move(files_); }
 
 private:
-    std::filesystem::path folder_;
     FileFinder finder_;
     References which_;
     std::vector<std::filesystem::path> files_;
