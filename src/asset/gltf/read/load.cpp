@@ -158,14 +158,10 @@ void remove_null_members(Json& value) {
     if (value.is_array())
         for (Json& element : value) remove_null_members(element);
     if (!value.is_object()) return;
-    for (auto member = value.begin(); member != value.end();) {
-        if (member.key() != "extras" && member->is_null()) {
-            member = value.erase(member);
-            continue;
-        }
-        if (member.key() != "extras") remove_null_members(*member);
-        ++member;
-    }
+    std::erase_if(value.get_ref<Json::object_t&>(),
+                  [](const auto& member) { return member.first != "extras" && member.second.is_null(); });
+    for (auto& [key, member] : value.items())
+        if (key != "extras") remove_null_members(member);
 }
 
 }  // namespace

@@ -64,34 +64,30 @@ bool all_fit(const GltfWriter& writer, const Json& metadata, const char* list, c
     return true;
 }
 
-/// Calls visit(reference) for the given members of the properties in a list of the extension.
-/// Returns false if a call does, or if the list is malformed.
+/// Members of the properties in a list of the extension that refer to objects of the document.
+struct ReferenceKeys {
+    const char* list;
+    std::vector<const char*> keys;
+};
+const ReferenceKeys view_keys = {"propertyTables", {"values", "arrayOffsets", "stringOffsets"}};
+const ReferenceKeys texture_keys = {"propertyTextures", {"index"}};
+
+/// Calls visit(reference) for such members. Returns false if a call does, or if the list is malformed.
 template <class Visit>
-bool visit_references(Json& metadata, const char* list, const std::vector<const char*>& keys,
-                      const Visit& visit) {
+bool visit_references(Json& metadata, const ReferenceKeys& which, const Visit& visit) {
     if (!metadata.is_object()) return false;
-    if (!metadata.contains(list)) return true;
-    if (!metadata[list].is_array()) return false;
-    for (Json& element : metadata[list]) {
+    if (!metadata.contains(which.list)) return true;
+    if (!metadata[which.list].is_array()) return false;
+    for (Json& element : metadata[which.list]) {
         if (!element.is_object()) return false;
         if (!element.contains("properties")) continue;
         for (Json& property : element["properties"]) {
             if (!property.is_object()) return false;
-            for (const char* key : keys)
+            for (const char* key : which.keys)
                 if (property.contains(key) && !visit(property[key])) return false;
         }
     }
     return true;
-}
-
-template <class Visit>
-bool visit_views(Json& metadata, const Visit& visit) {
-    return visit_references(metadata, "propertyTables", {"values", "arrayOffsets", "stringOffsets"}, visit);
-}
-
-template <class Visit>
-bool visit_textures(Json& metadata, const Visit& visit) {
-    return visit_references(metadata, "propertyTextures", {"index"}, visit);
 }
 
 }  // namespace
@@ -148,8 +144,8 @@ void remap_structural_metadata(GltfWriter& writer) {
     const auto is_below = [](std::uint64_t count) {
         return [count](const Json& reference) { return valid_index(reference, count).has_value(); };
     };
-    const bool is_valid =
-        visit_views(metadata, is_below(views)) && visit_textures(metadata, is_below(textures));
+    const bool is_valid = visit_references(metadata, view_keys, is_below(views)) &&
+                          visit_references(metadata, texture_keys, is_below(textures));
     if (!is_valid) {
         writer.warnings.push_back(
             "EXT_structural_metadata refers to buffer views or textures that do not exist and was left out");
@@ -157,7 +153,7 @@ void remap_structural_metadata(GltfWriter& writer) {
         return;
     }
     std::map<Index, Index> copied;  // views of the source
-    visit_views(metadata, [&](Json& reference) {
+    visit_references(metadata, view_keys, [&](Json& reference) {
         const auto view = reference.get<Index>();
         reference = once(copied, view, [&] {
             return writer.binary.add_view(
@@ -165,7 +161,7 @@ void remap_structural_metadata(GltfWriter& writer) {
         });
         return true;
     });
-    visit_textures(metadata, [&](Json& reference) {
+    visit_references(metadata, texture_keys, [&](Json& reference) {
         reference = copy_texture(writer, reference.get<Index>());
         return true;
     });

@@ -47,9 +47,8 @@ Index write_asset_image(GltfWriter& writer, Index image, Json json = Json::objec
 void set_image(GltfWriter& writer, Json& texture, Index image) {
     texture.erase("source");
     if (texture.contains("extensions")) {
-        Json& extensions = texture["extensions"];
-        for (auto it = extensions.begin(); it != extensions.end();)
-            it = it->contains("source") ? extensions.erase(it) : std::next(it);
+        auto& extensions = texture["extensions"].get_ref<Json::object_t&>();
+        std::erase_if(extensions, [](const auto& own) { return own.second.contains("source"); });
         if (extensions.empty()) texture.erase("extensions");
     }
     const std::string& type = writer.asset.images[image].mime_type;

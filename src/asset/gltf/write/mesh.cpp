@@ -229,17 +229,12 @@ Json carried_primitive_members(GltfWriter& writer, const Part& part, Index mater
             warn_mesh(writer, part.name,
                       name + " does not fit the new vertices and triangles and was left out");
     // What an unknown extension says may not hold for other triangles.
-    if (part.file_order == FileOrder::for_gpu) {
-        for (auto extension = extensions.begin(); extension != extensions.end();) {
-            if (extension.key() == variants_name || fits(extension.key())) {
-                ++extension;
-                continue;
-            }
-            warn_mesh(writer, part.name,
-                      extension.key() + " is not known, and may not fit the new triangles: left out");
-            extension = extensions.erase(extension);
-        }
-    }
+    std::erase_if(extensions.get_ref<Json::object_t&>(), [&](const auto& extension) {
+        const std::string& name = extension.first;
+        if (part.file_order == FileOrder::given || name == variants_name || fits(name)) return false;
+        warn_mesh(writer, part.name, name + " is not known, and may not fit the new triangles: left out");
+        return true;
+    });
     if (material && material->rebaked && extensions.erase(variants_name) != 0)
         warn_mesh(writer, part.name, "the material variants do not fit the new material and were left out");
     if (!extensions.empty()) members["extensions"] = std::move(extensions);
