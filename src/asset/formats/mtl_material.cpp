@@ -153,7 +153,7 @@ private:
                 };
                 if (is_packed || (may_be_packed && !is_grey(images_.decode(*roughness)))) return Pixels{};
                 const ScalarImage r = values(roughness, from.roughness), m = values(metallic, from.metallic);
-                return roughness_metallic(roughness ? &r : nullptr, metallic ? &m : nullptr);
+                return roughness_metallic(r, m);
             });
             if (image == no_index) image = images_.use(*roughness);
             to.metallic_roughness_texture = placed(texture, image);

@@ -54,6 +54,13 @@ std::vector<std::uint8_t> scaled(const std::vector<std::uint8_t>& values, std::s
     return result;
 }
 
+/// Sets a channel to the values of an image, scaled to the size of the pixels.
+void put_channel(const ScalarImage& image, std::size_t channel, Pixels& pixels) {
+    const std::vector<std::uint8_t> values =
+        scaled(image.values, 1, {image.width, image.height}, {pixels.width, pixels.height});
+    for (std::size_t i = 0; i < values.size(); ++i) pixels.rgba[4 * i + channel] = values[i];
+}
+
 }  // namespace
 
 ScalarImage scalar_image(const Pixels& pixels, ScalarChannel channel) {
@@ -98,29 +105,17 @@ bool is_normal_map(const Pixels& pixels) {
 Pixels with_alpha(const Pixels& color, const ScalarImage& alpha) {
     Pixels result{std::max(color.width, alpha.width), std::max(color.height, alpha.height), {}, false};
     result.rgba = scaled(color.rgba, 4, {color.width, color.height}, {result.width, result.height});
-    const std::vector<std::uint8_t> values =
-        scaled(alpha.values, 1, {alpha.width, alpha.height}, {result.width, result.height});
-    for (std::size_t i = 0; i < values.size(); ++i) result.rgba[4 * i + 3] = values[i];
+    put_channel(alpha, 3, result);
     result.has_alpha = has_transparent_pixel(result);
     return result;
 }
 
-Pixels roughness_metallic(const ScalarImage* roughness, const ScalarImage* metallic) {
-    Pixels result;
-    for (const ScalarImage* image : {roughness, metallic}) {
-        if (!image) continue;
-        result.width = std::max(result.width, image->width);
-        result.height = std::max(result.height, image->height);
-    }
+Pixels roughness_metallic(const ScalarImage& roughness, const ScalarImage& metallic) {
+    Pixels result{
+        std::max(roughness.width, metallic.width), std::max(roughness.height, metallic.height), {}, false};
     result.rgba.assign(4 * pixel_count(result.width, result.height), 255);
-    const auto put = [&](const ScalarImage* image, std::size_t channel) {
-        if (!image) return;
-        const std::vector<std::uint8_t> values =
-            scaled(image->values, 1, {image->width, image->height}, {result.width, result.height});
-        for (std::size_t i = 0; i < values.size(); ++i) result.rgba[4 * i + channel] = values[i];
-    };
-    put(roughness, 1);
-    put(metallic, 2);
+    if (!roughness.values.empty()) put_channel(roughness, 1, result);
+    if (!metallic.values.empty()) put_channel(metallic, 2, result);
     return result;
 }
 

@@ -42,8 +42,8 @@ Pixels with_alpha(const Pixels& color, const ScalarImage& alpha);
 
 /// Packs roughness (green) and metal (blue) as in glTF; red is 255, as is a channel without an image. Sizes as in
 /// with_alpha().
-/// \pre at least one of the images is not null
-Pixels roughness_metallic(const ScalarImage* roughness, const ScalarImage* metallic);
+/// \pre at least one of the images is not empty
+Pixels roughness_metallic(const ScalarImage& roughness, const ScalarImage& metallic);
 
 /// Computes the tangent-space normal map of a height map that repeats, with y up as in glTF, from central differences:
 /// the normal is (-depth dh/du, -depth dh/dv, 1), for h from 0 to 1 and texture coordinates u to the right and v up.

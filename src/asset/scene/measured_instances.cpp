@@ -1,13 +1,12 @@
 #include "asset/scene/measured_instances.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace faqem::detail {
 namespace {
 
 constexpr std::uint64_t many_faces = std::uint64_t{1} << 24;
-constexpr std::uint64_t many_copies = 4;
+constexpr double many_copies = 4;
 
 std::uint64_t face_count(const Asset& asset, const Instance& instance) {
     return asset.parts[instance.part].triangles.size();
@@ -15,22 +14,17 @@ std::uint64_t face_count(const Asset& asset, const Instance& instance) {
 
 }  // namespace
 
-std::uint64_t shown_faces(const Asset& asset, const std::vector<Instance>& all) {
-    std::uint64_t faces = 0;
-    for (const Instance& instance : all) {
-        const std::uint64_t own = face_count(asset, instance);
-        faces = own > std::numeric_limits<std::uint64_t>::max() - faces
-                    ? std::numeric_limits<std::uint64_t>::max()
-                    : faces + own;
-    }
+double shown_faces(const Asset& asset, const std::vector<Instance>& all) {
+    double faces = 0;
+    for (const Instance& instance : all) faces += static_cast<double>(face_count(asset, instance));
     return faces;
 }
 
 bool has_excessive_instances(const Asset& asset, const std::vector<Instance>& all) {
-    std::uint64_t faces = 0;
-    for (const Part& part : asset.parts) faces += part.triangles.size();
-    const std::uint64_t shown = shown_faces(asset, all);
-    return shown > many_faces && shown / many_copies > faces;
+    double faces = 0;
+    for (const Part& part : asset.parts) faces += static_cast<double>(part.triangles.size());
+    const double shown = shown_faces(asset, all);
+    return shown > static_cast<double>(many_faces) && shown > many_copies * faces;
 }
 
 std::vector<std::size_t> measured_indices(const Asset& asset, const std::vector<Instance>& all) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -37,16 +38,9 @@ public:
     /// \param reach   one per point; those that are not > 0 are never found
     PointGrid(const std::vector<Vec3>& points, const std::vector<double>& reach)
         : points_(points), reach_(reach), next_(points.size(), no_index) {
-        std::vector<std::pair<int, std::size_t>> counts;  // by size of the cells
-        for (const double r : reach) {
-            if (!(r > 0)) continue;
-            const int size = cell_size(r);
-            const auto at = std::ranges::lower_bound(counts, std::pair(size, std::size_t{0}));
-            if (at != counts.end() && at->first == size)
-                ++at->second;
-            else
-                counts.insert(at, {size, 1});
-        }
+        std::map<int, std::size_t> counts;  // by size of the cells
+        for (const double r : reach)
+            if (r > 0) ++counts[cell_size(r)];
         for (const auto& [size, count] : counts)
             levels_.push_back({size, engine::weld_detail::VertexTable(count)});
     }

@@ -63,9 +63,9 @@ TEST_CASE("a mask becomes the alpha of a colour image of the larger size") {
 
 TEST_CASE("roughness is stored in green and metal in blue") {
     const ScalarImage r{2, 1, {10, 20}}, m{1, 1, {30}};
-    CHECK(roughness_metallic(&r, &m).rgba == std::vector<std::uint8_t>{255, 10, 30, 255, 255, 20, 30, 255});
-    CHECK(roughness_metallic(nullptr, &m).rgba == std::vector<std::uint8_t>{255, 255, 30, 255});
-    CHECK(roughness_metallic(&r, nullptr).width == 2);
+    CHECK(roughness_metallic(r, m).rgba == std::vector<std::uint8_t>{255, 10, 30, 255, 255, 20, 30, 255});
+    CHECK(roughness_metallic({}, m).rgba == std::vector<std::uint8_t>{255, 255, 30, 255});
+    CHECK(roughness_metallic(r, {}).width == 2);
 }
 
 // h = x / 8 within a period of 8 texels, and the same in y: the slopes are those of a plane inside.
