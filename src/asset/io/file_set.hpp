@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "asset/io/replacement.hpp"
+#include "asset/io/temporary_file.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
 
@@ -24,6 +24,15 @@ FAQEM_EXPORT void set_write_check(WriteCheck check);
 struct FileContent {
     std::filesystem::path file;
     std::span<const std::uint8_t> bytes;
+};
+
+/// A file whose bytes are on the disk under a temporary name.
+struct PendingFile {
+    std::filesystem::path folder, name;  ///< of the file that is written, links resolved
+    TemporaryFile temporary;             ///< in the same folder
+    Overwrite overwrite;
+
+    std::filesystem::path target() const { return folder / name; }
 };
 
 /// A set of files that is replaced all or nothing.
