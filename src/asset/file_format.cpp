@@ -8,7 +8,6 @@
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/image/image.hpp"
-#include "asset/io/file.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

@@ -4,7 +4,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "asset/file_format.hpp"
 #include "asset/formats/formats.hpp"

@@ -1,14 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <span>
 #include <utility>
 
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "asset/scene/position_rounding.hpp"
 #include "asset/scene/source_traits.hpp"
-#include "faqem/bake.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/error_bound_search.hpp"
 #include "faqem/detail/simplify/presets.hpp"

@@ -1,7 +1,5 @@
 #include "asset/formats/mtl.hpp"
 
-#include "asset/scene/messages.hpp"
-
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -1,7 +1,6 @@
 #include "asset/gltf/json.hpp"
 
 #include <charconv>
-#include <string_view>
 #include <vector>
 
 namespace faqem::detail {

@@ -8,7 +8,6 @@
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/scene.hpp"
-#include "asset/gltf/source_document.hpp"
 #include "asset/scene/affine.hpp"
 #include "asset/scene/repair.hpp"
 #include "faqem/error.hpp"

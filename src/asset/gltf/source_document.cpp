@@ -1,10 +1,7 @@
 #include "asset/gltf/source_document.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/scene.hpp"

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "asset/image/codecs.hpp"
 #include "asset/image/image_checks.hpp"
 #include "asset/image/image_plugin.hpp"
-#include "faqem/asset.hpp"
 #include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"
 

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <new>
-#include <string>
 #include <system_error>
 
 #include "faqem/error.hpp"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <string>
 
 #include "asset/io/locked_file.hpp"
 #include "asset/io/set_folder.hpp"

@@ -5,7 +5,6 @@
 #include <system_error>
 #include <utility>
 
-#include "asset/io/file.hpp"
 #include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"
 

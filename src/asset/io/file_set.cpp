@@ -13,7 +13,6 @@
 #include <system_error>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "asset/io/encoded_model.hpp"
 #include "asset/io/held_signals.hpp"

@@ -1,6 +1,5 @@
 #include "asset/scene/repair.hpp"
 
-#include <algorithm>
 #include <map>
 #include <type_traits>
 

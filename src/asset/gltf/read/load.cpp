@@ -1,7 +1,6 @@
 #include "asset/gltf/read/load.hpp"
 
 #include <limits>
-#include <string_view>
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/container.hpp"

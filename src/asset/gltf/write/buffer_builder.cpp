@@ -1,11 +1,9 @@
 #include "asset/gltf/write/buffer_builder.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/write/meshopt_encoder.hpp"

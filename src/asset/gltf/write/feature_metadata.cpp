@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "asset/gltf/write/writer.hpp"
-
 namespace faqem::detail {
 namespace {
 

@@ -1,6 +1,5 @@
 #include "asset/gltf/write/levels.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <utility>
 
