@@ -63,14 +63,6 @@ private:
     std::vector<Triangle> triangles_;
 };
 
-/// Makes the solids that have facets objects of the part, if there are several.
-void add_solids(Part& part, std::vector<std::string> names, const std::vector<Index>& solids,
-                const std::string& file) {
-    for (std::string& name : names)
-        if (name.empty()) name = std::filesystem::path(file).stem().string();
-    set_objects(part, solids, names);
-}
-
 /// Reads the next word of the file, which must equal `expected`, ignoring case.
 /// \throws InputError  if it does not
 void expect(TextScanner& in, std::string_view expected) {
@@ -129,7 +121,9 @@ Part read_ascii(std::span<const std::uint8_t> text, const std::string& file, Sto
         }
     } while (true);
     Part part = welder.part(file);
-    add_solids(part, names, solids, file);
+    for (std::string& name : names)
+        if (name.empty()) name = std::filesystem::path(file).stem().string();
+    set_objects(part, solids, names);
     return part;
 }
 

@@ -24,8 +24,7 @@ FAQEM_EXPORT std::vector<std::size_t> measured_indices(const Asset& asset, const
 
 /// The instances at the measured_indices() of those of the scene.
 inline std::vector<Instance> measured_instances(const Asset& asset) {
-    std::vector<Instance> all = instances(asset);
-    if (!has_excessive_instances(asset, all)) return all;
+    const std::vector<Instance> all = instances(asset);
     std::vector<Instance> measured;
     for (const std::size_t i : measured_indices(asset, all)) measured.push_back(all[i]);
     return measured;
