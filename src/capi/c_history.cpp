@@ -2,9 +2,7 @@
 
 #include <memory>
 #include <sstream>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "capi/c_result.hpp"
 #include "capi/guard.hpp"

@@ -5,13 +5,10 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "capi/c_mesh.hpp"
 #include "capi/c_result.hpp"
 #include "capi/guard.hpp"
-#include "faqem/faqem_levels.h"
-#include "faqem/levels.hpp"
 
 namespace {
 

@@ -1,7 +1,6 @@
 #include "capi/c_result.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "faqem/detail/options/appearance_rows.hpp"
 #include "faqem/detail/options/option_table.hpp"

@@ -1,7 +1,5 @@
 #include "render/visible_points.hpp"
 
-#include <cmath>
-
 namespace faqem::render {
 
 std::vector<VisiblePoint> visible_points(std::span<const PlacedMesh> meshes, const Camera& camera,
