@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "asset/scene/affine.hpp"
 #include "asset/scene/messages.hpp"
 #include "faqem/detail/measure/removed_components.hpp"
 #include "faqem/detail/simplify/run.hpp"
@@ -119,14 +120,8 @@ void warn_of_small_shares(const Asset& source, std::span<const double> shares, S
 
 std::vector<double> cost_weights(std::size_t parts, std::span<const Instance> instances) {
     std::vector<double> weights(parts, 0);
-    for (const Instance& instance : instances) {
-        double squares = 0;  // of the entries of the linear part: three times the mean squared scale
-        for (const std::size_t column : {0u, 4u, 8u}) {
-            for (std::size_t row = 0; row < 3; ++row)
-                squares += std::pow(instance.transform[column + row], 2);
-        }
-        weights[instance.part] += std::pow(squares / 3, 2);
-    }
+    for (const Instance& instance : instances)
+        weights[instance.part] += std::pow(squared_scale(instance.transform), 2);
     for (double& weight : weights) {
         if (!(weight > 0) || !std::isfinite(weight)) weight = 1;
     }

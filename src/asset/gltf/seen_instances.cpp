@@ -59,14 +59,6 @@ NodeScales largest_scales(const SourceDocument& source) {
     return scales;
 }
 
-// Mean squared singular value of the linear part.
-double squared_scale(const Matrix4& matrix) {
-    double squares = 0;
-    for (const std::size_t column : {0u, 4u, 8u})
-        for (std::size_t row = 0; row < 3; ++row) squares += matrix[column + row] * matrix[column + row];
-    return squares / 3;
-}
-
 // By joint of a skin: the squared scale from mesh to world space; 0 for joints outside the scene.
 std::vector<double> joint_scales(const SourceDocument& source, const Json& skin,
                                  const std::vector<const PlacedNode*>& node_at) {

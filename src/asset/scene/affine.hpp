@@ -35,6 +35,14 @@ inline double transformed_bound(const std::array<double, 16>& m, double largest)
     return bound;
 }
 
+/// Mean squared singular value of the linear part.
+inline double squared_scale(const std::array<double, 16>& m) {
+    double squares = 0;
+    for (const std::size_t column : {0u, 4u, 8u})
+        for (std::size_t row = 0; row < 3; ++row) squares += m[column + row] * m[column + row];
+    return squares / 3;
+}
+
 /// Transforms normals by the inverse transpose of the linear part, and normalises them. Those of mirroring transforms
 /// point to the same side as the face normals of faces whose winding is reversed. Defined for singular transforms too.
 class NormalTransform {

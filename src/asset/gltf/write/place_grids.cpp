@@ -8,6 +8,7 @@
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/writer.hpp"
+#include "asset/scene/affine.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -81,11 +82,9 @@ void write_instances(GltfWriter& writer, Json& node) {
         const Vec3 offset = grid.offset();
         std::vector<Vec3f> translations, scales;
         for (const Matrix& m : instance_matrices(writer.source, node)) {
-            Vec3f t;
-            for (std::size_t i = 0; i < 3; ++i)
-                t[i] = static_cast<float>(m[i] * offset[0] + m[4 + i] * offset[1] + m[8 + i] * offset[2] +
-                                          m[12 + i]);
-            translations.push_back(t);
+            const Vec3 t = transformed_point(m, offset);
+            translations.push_back(
+                {static_cast<float>(t[0]), static_cast<float>(t[1]), static_cast<float>(t[2])});
         }
         const Index scale = index_member(attributes, "SCALE");
         if (scale != no_index) scales = read_vectors<float, 3>(writer.source, scale);
