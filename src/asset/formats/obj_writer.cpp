@@ -22,25 +22,13 @@
 namespace faqem::detail {
 namespace {
 
-/// The materials used by the faces, in the order of their first use, and the inverse mapping.
-struct UsedMaterials {
-    std::vector<Index> materials;  // indices into Asset::materials, or no_index
-    std::vector<Index> slot;  // index into `materials` by asset material; the last element is for no_index
-
-    Index slot_of(Index material) const { return material == no_index ? slot.back() : slot[material]; }
-};
-
-/// Collects the materials used by the faces; empty if no face has a material.
-UsedMaterials used_materials(const Part& part, std::size_t count) {
-    UsedMaterials used;
-    used.slot.assign(count + 1, no_index);
-    for (const Index m : part.face_material) {
-        Index& slot = m == no_index ? used.slot.back() : used.slot[m];
-        if (slot != no_index) continue;
-        slot = static_cast<Index>(used.materials.size());
-        used.materials.push_back(m);
-    }
-    if (used.materials == std::vector<Index>{no_index}) used.materials.clear();
+/// The materials used by the faces, in the order of their first use; empty if no face has a material.
+std::vector<Index> used_materials(const Part& part) {
+    std::vector<Index> used;
+    std::set<Index> known;
+    for (const Index material : part.face_material)
+        if (known.insert(material).second) used.push_back(material);
+    if (used == std::vector<Index>{no_index}) used.clear();
     return used;
 }
 
@@ -179,11 +167,12 @@ std::vector<ObjObject> objects_of(const Asset& asset, const std::vector<Instance
     return objects;
 }
 
-std::string faces_text(const Part& part, VertexLines& lines, const UsedMaterials& used,
+std::string faces_text(const Part& part, VertexLines& lines, const std::vector<Index>& used,
                        const MtlLibrary& library, const std::vector<ObjObject>& objects) {
     std::string text;
     text.reserve(40 * part.triangles.size());  // as long as most files need, since growing copies the text
-    Index current = no_index, group = no_index;
+    std::optional<Index> current;
+    Index group = no_index;
     auto next = objects.begin();
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
         if (objects.size() > 1 && next != objects.end() && next->first_face == f)
@@ -196,9 +185,11 @@ std::string faces_text(const Part& part, VertexLines& lines, const UsedMaterials
                     "\n";
         }
         const Index material = part.face_material[f];
-        const Index slot = used.slot_of(material);
-        if (!used.materials.empty() && slot != current) text += "usemtl " + library.names[slot] + "\n";
-        current = slot;
+        if (!used.empty() && material != current) {
+            const auto number = std::ranges::find(used, material) - used.begin();
+            text += "usemtl " + library.names[static_cast<std::size_t>(number)] + "\n";
+        }
+        current = material;
         text += 'f';
         for (const Index v : part.triangles[f]) append_corner(text, lines.corner(v, material));
         text += '\n';
@@ -217,8 +208,8 @@ EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
     const std::vector<Instance> all = instances(parts);
     const Part flat = flatten_for_file(parts);
     const std::string stem = file.stem().string();
-    const UsedMaterials used = used_materials(flat, asset.materials.size());
-    MtlLibrary library = make_mtl(asset, used.materials, stem, losses);
+    const std::vector<Index> used = used_materials(flat);
+    MtlLibrary library = make_mtl(asset, used, stem, losses);
     if (std::ranges::any_of(flat.colors, [](const Vec4f& c) { return c[3] != 1; }))
         losses.push_back("OBJ cannot hold the alpha of vertex colours");
 
@@ -228,7 +219,7 @@ EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
     for (Index v = 0; v < flat.positions.size(); ++v) lines.position(v);
     std::string text;
     text.reserve(2 * faces.size() + faces.size() / 2);  // the vertices take about as much as the faces
-    if (!used.materials.empty()) text += "mtllib " + library_file_name(stem) + "\n";
+    if (!used.empty()) text += "mtllib " + library_file_name(stem) + "\n";
     if (objects.size() < 2) text += "o " + (objects.empty() ? stem : objects[0].name) + "\n";
     lines.write(text);
     if (asset.smoothing != Smoothing::unknown && flat.normals.empty())
@@ -237,8 +228,7 @@ EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
 
     for (const MtlImage& image : library.images)
         model.files.push_back(encoded_image(image.name, asset.images[image.image]));
-    if (!used.materials.empty())
-        model.files.push_back(encoded_file(library_file_name(stem), std::move(library.text)));
+    if (!used.empty()) model.files.push_back(encoded_file(library_file_name(stem), std::move(library.text)));
     model.files.push_back(encoded_file(file.filename().string(), std::move(text)));
     return model;
 }
