@@ -39,7 +39,8 @@ struct BakedOnto : SimplifiedAsset {
 /// Bakes the appearance of one asset onto the surface of another one, which need not be made from it: textures,
 /// materials, UVs as OntoOptions::uvs says, and vertex normals where a normal map needs them. Both are compared in scene space, in their poses at rest;
 /// a part with several instances gets the appearance at its first one. A point of the target shows the closest point of
-/// the source on a face that is turned to the same side, or on a double-sided one if there is none.
+/// the source on a face that is turned to the same side, or on a double-sided one if there is none; where both have
+/// surface that is seen from outside, rather on that of the source.
 /// The target keeps its nodes, names, skins, morph targets and animations; its materials and vertex colours are
 /// replaced. Extensions of materials of the source, except for unlit ones, are left out, with a warning.
 /// \param source   the appearance

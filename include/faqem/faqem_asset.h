@@ -70,6 +70,21 @@ FAQEM_API faqem_status faqem_asset_create(const faqem_mesh* mesh, faqem_asset** 
 FAQEM_API faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options* options,
                                             faqem_asset** simplified, faqem_error* error);
 
+/**
+ * Bakes the appearance of one model onto the mesh of another one, see faqem::bake_onto().
+ * \param source        the appearance; unchanged
+ * \param target        the mesh; unchanged
+ * \param uvs           `auto`, `keep` or `new`; null: `auto`
+ * \param max_distance  in scene units, as `0.1`, or as a share of the diagonal of the source, as `2%`; null: `5%`
+ * \param options       null: the defaults
+ * \param baked         receives a new object, which has a report
+ * \param error         may be null
+ */
+FAQEM_API faqem_status faqem_asset_bake_onto(const faqem_asset* source, const faqem_asset* target,
+                                             const char* uvs, const char* max_distance,
+                                             const faqem_options* options, faqem_asset** baked,
+                                             faqem_error* error);
+
 /** Whether the levels of a model share textures, see faqem::LevelTextures. */
 typedef enum faqem_level_textures FAQEM_ENUM {
     FAQEM_LEVEL_TEXTURES_EACH = 0,  /**< every level has its own textures */

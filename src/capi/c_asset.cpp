@@ -1,5 +1,9 @@
 #include "capi/c_asset.hpp"
 
+#include <string>
+#include <utility>
+
+#include "bake/onto/onto_options.hpp"
 #include "capi/c_mesh.hpp"
 #include "scene/check_asset.hpp"
 #include "scene/resolved_options.hpp"
@@ -72,6 +76,16 @@ faqem_status faqem_asset_simplify(const faqem_asset* asset, const faqem_options*
         SimplifiedAsset made = simplify(asset->asset, capi::options_or_defaults(options));
         capi::warn_of_idle_options(options, asset->asset, made.report);
         *simplified = new faqem_asset(std::move(made));
+    });
+}
+
+faqem_status faqem_asset_bake_onto(const faqem_asset* source, const faqem_asset* target, const char* uvs,
+                                   const char* max_distance, const faqem_options* options,
+                                   faqem_asset** baked, faqem_error* error) {
+    return capi::catch_exceptions(error, {{source, "source"}, {target, "target"}, {baked, "baked"}}, [&] {
+        const OntoOptions onto = detail::onto_options(uvs ? uvs : "", max_distance ? max_distance : "");
+        *baked = new faqem_asset(
+            bake_onto(source->asset, target->asset, capi::options_or_defaults(options), onto));
     });
 }
 

@@ -132,6 +132,15 @@ class Models(unittest.TestCase):
         with self.assertRaises(faqem.OptionError):
             faqem.History.of(faqem.simplify_levels(both, [200], **texture))
 
+    def test_a_model_is_shown_on_another_mesh(self):
+        source = faqem.load(self.coloured())
+        bare = faqem.simplify(source, faces=40, bake="none")
+        baked = faqem.bake_onto(source, bare, max_distance="10%", texture_size=64)
+        self.assertEqual(len(baked.parts[0].triangles), len(bare.parts[0].triangles))
+        self.assertEqual(len(baked.images), 1)
+        with self.assertRaisesRegex(faqem.OptionError, "max_distance"):
+            faqem.bake_onto(source, bare, max_distance="far")
+
     def test_files_are_overwritten_only_on_request(self):
         model = faqem.Model.from_arrays(*flat_grid(2))
         file = self.folder / "kept.glb"

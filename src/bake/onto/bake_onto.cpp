@@ -13,12 +13,15 @@
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/messages.hpp"
 #include "bake/onto/onto_map.hpp"
+#include "bake/onto/onto_options.hpp"
 #include "bake/onto/onto_target.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/detail/options/option_table.hpp"
 #include "faqem/error.hpp"
 #include "scene/check_asset.hpp"
+#include "scene/material_groups.hpp"
 #include "scene/position_grids.hpp"
 #include "scene/scene_size.hpp"
 
@@ -129,11 +132,25 @@ void warn(const Asset& target, BakedOnto& result) {
         warnings.push_back(std::to_string(std::lround(100 * result.missing_texels)) +
                            "% of the texels have no point of the source, and the colours of those around");
     for (std::size_t p = 0; p < target.parts.size(); ++p)
-        if (!target.parts[p].colors.empty())
+        if (detail::has_non_white_colors(target.parts[p]))
             warnings.push_back(detail::part_title(target, p) + ": its vertex colours were left out");
 }
 
 }  // namespace
+
+OntoOptions detail::onto_options(std::string_view uvs, std::string_view max_distance) {
+    OntoOptions result;
+    if (!uvs.empty() && uvs != "auto") {
+        result.uvs = uvs == "keep" ? OntoUvs::keep : OntoUvs::created;
+        if (uvs != "keep" && uvs != "new")
+            throw OptionError("uvs: '" + std::string(uvs) + "' is not auto, keep or new");
+    }
+    if (max_distance.empty()) return result;
+    const OptionValue length =
+        parse_option_number(max_distance, OptionKind::length, {.excludes_min = true}, {}, "max_distance");
+    result.max_distance = {*length.number, length.unit};
+    return result;
+}
 
 BakedOnto bake_onto(const Asset& given_source, const Asset& given_target, const Options& requested,
                     const OntoOptions& onto) {

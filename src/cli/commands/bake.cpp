@@ -1,5 +1,3 @@
-#include "faqem/bake_onto.hpp"
-
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -11,6 +9,7 @@
 
 #include "asset/file_format.hpp"
 #include "asset/io/set_folder.hpp"
+#include "bake/onto/onto_options.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"
@@ -27,20 +26,14 @@ namespace faqem::cli {
 namespace {
 
 struct BakeArguments : SimplifyArguments {
-    std::string target, out, source, max_distance, uvs = "auto";
+    std::string target, out, source, max_distance, uvs;
     bool force = false, quiet = false;
 };
 
 int run(const BakeArguments& arguments) {
     Options options = make_options(arguments.options);
     options.format = format_of_output(arguments.out);
-    OntoOptions onto;
-    if (arguments.uvs != "auto") onto.uvs = arguments.uvs == "keep" ? OntoUvs::keep : OntoUvs::created;
-    if (!arguments.max_distance.empty()) {
-        const detail::OptionValue length = detail::parse_option_number(
-            arguments.max_distance, detail::OptionKind::length, above_zero, {}, "--max-distance");
-        onto.max_distance = {*length.number, length.unit};
-    }
+    const OntoOptions onto = detail::onto_options(arguments.uvs, arguments.max_distance);
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.target);
     protect_input(arguments.source);

@@ -18,7 +18,7 @@ from .errors import *
 # without numpy and the library.
 _modules = {
     **dict.fromkeys(["History", "simplify_levels"], "_levels"),
-    **dict.fromkeys(["Model", "ModelLevel", "Part", "SimplifiedModel", "bake_truncated", "load", "save", "save_levels"], "_model"),
+    **dict.fromkeys(["Model", "ModelLevel", "Part", "SimplifiedModel", "bake_onto", "bake_truncated", "load", "save", "save_levels"], "_model"),
     **dict.fromkeys(["command", "compare"], "_command"),
     **dict.fromkeys(["Image", "Material", "Texture"], "_textures"),
     **dict.fromkeys(["Simplified", "SimplifiedLevel"], "_simplify"),
@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from ._command import command as command, compare as compare
     from ._levels import History as History, simplify_levels as simplify_levels
     from ._model import Model as Model, ModelLevel as ModelLevel, Part as Part, SimplifiedModel as SimplifiedModel
-    from ._model import bake_truncated as bake_truncated, load as load, save as save, save_levels as save_levels
+    from ._model import bake_onto as bake_onto, bake_truncated as bake_truncated
+    from ._model import load as load, save as save, save_levels as save_levels
     from ._simplify import Simplified as Simplified, SimplifiedLevel as SimplifiedLevel
     from ._textures import Image as Image, Material as Material, Texture as Texture
 

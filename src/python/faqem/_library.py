@@ -92,6 +92,7 @@ _signatures: list[tuple[Any, list[Any], str]] = [
     (_status, [_handle, _made, _error], "asset_to_glb"),
     (_status, [_handle, c_size_t, _made, _error], "asset_decode_image"),
     (_status, [_handle, _handle, _made, _error], "asset_simplify"),
+    (_status, [_handle, _handle, c_char_p, c_char_p, _handle, _made, _error], "asset_bake_onto"),
     (_status, [_handle, _handle, POINTER(Level), c_size_t, c_int, _made, _error], "asset_simplify_levels"),
     (_status, [_handle, _handle, c_uint64, _handle, _made, _error], "asset_bake_truncated"),
     (_status, [_handle, c_char_p, c_int, _error], "asset_save"),

@@ -229,6 +229,26 @@ def simplify_model_levels(
         ModelLevel, chosen, library.faqem_asset_simplify_levels, source, level_array(levels), shared)
 
 
+def bake_onto(
+    source: Model, target: Model, /, *, uvs: str = "auto", max_distance: float | str = "5%",
+    **options: Unpack[CommonModelOptions],
+) -> SimplifiedModel:
+    """Bakes the appearance of one model onto the mesh of another one, which need not be made from it.
+
+    source        the appearance
+    target        the mesh, at the same place
+    uvs           "keep": those of the target; "new": new ones; "auto": "keep" if they are in [0, 1] and do not overlap
+    max_distance  texels farther from the source show the texels around them: scene units, or "2%" of its diagonal
+    options       those about baking; see docs/python.md
+
+    Returns a Model with a report. Raises the exceptions of simplify().
+    """
+    texts = [str(text).encode() for text in (uvs, max_distance)]
+    appearance, mesh, chosen = _source(source), _source(target), Options(["uvs", "max_distance"], **options)
+    return chosen.run(
+        lambda: SimplifiedModel(create(library.faqem_asset_bake_onto, appearance, mesh, *texts, chosen.object)))
+
+
 def bake_truncated(
     model: Model, history: History, faces: int, /, **options: Unpack[CommonModelOptions]
 ) -> SimplifiedModel:

@@ -137,6 +137,18 @@ TEST_CASE("neither side of a thin wall shows the colour of the other one") {
           }) < 1e-6);
 }
 
+TEST_CASE("of nested shells the outer one is shown, except on a target that has both") {
+    const TriangleMesh outer = icosphere(3), inner = scaled(outer, 0.97);
+    const Asset source = together(painted(outer, red), painted(inner, blue));
+    // The middles of its faces are nearer to the inner shell than to the outer one.
+    const BakedOnto one = bake_onto(source, plain(icosphere(1)), lossless());
+    CHECK(worst(one.asset, [](std::size_t, const Vec3&) { return Color{255, 0, 0}; }) < 1e-6);
+    const BakedOnto two = bake_onto(source, together(plain(outer), plain(inner)), lossless());
+    CHECK(worst(two.asset, [](std::size_t part, const Vec3&) {
+              return part == 0 ? Color{255, 0, 0} : Color{0, 0, 255};
+          }) < 1e-6);
+}
+
 TEST_CASE("texels above a hole of the source are counted, and have the colours around it") {
     TriangleMesh holed = moved(grid(16), {});
     std::erase_if(holed.triangles, [&](const Triangle& t) {
