@@ -98,7 +98,9 @@ class Extension(unittest.TestCase):
         noise = sphere.data.materials[1].node_tree  # what new textures could not show is no obstacle
         noise.links.new(noise.nodes.new("ShaderNodeTexNoise").outputs["Color"], noise.nodes[0].inputs["Base Color"])
         sphere.data.uv_layers[0].name = "Mine"
-        materials, given = list(sphere.data.materials), names()
+        sphere.material_slots[0].link = "OBJECT"
+        sphere.material_slots[0].material = bpy.data.materials.new("Mine")
+        materials, given = [slot.material for slot in sphere.material_slots], names()
         self.assertEqual(simplify(target="FACES", faces=3000, textures="KEEP", apply=False), {"FINISHED"})
         self.assertEqual(list(sphere.data.materials), materials)
         self.assertEqual([layer.name for layer in sphere.data.uv_layers], ["Mine"])

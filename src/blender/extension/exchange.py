@@ -50,20 +50,11 @@ class Exchange:
         self._token = f"faqem-{uuid.uuid4().hex[:8]}"
         self._materials = []  # by the number in the file
         for one in objects:
-            self._check(one)
-
-    def _check(self, one):
-        """Raises Fault for an object that cannot be simplified as asked for."""
-        fault = None
-        if not one.is_editable or one.override_library:
-            fault = "is linked from a library; make it local first"
-        elif one.data.shape_keys and not self._apply:
-            fault = "has shape keys, which a simplified mesh cannot keep; choose Apply Modifiers"
-        for slot in () if self._keep else one.material_slots:
-            reason = slot.material and material_fault(slot.material, bool(one.data.uv_layers) or self._apply)
-            fault = fault or reason and f"material '{slot.material.name}': {reason}"
-        if fault:
-            raise Fault(f"Object '{one.name}': {fault}")
+            if not one.is_editable or one.override_library:
+                raise Fault(f"Object '{one.name}': is linked from a library; make it local first")
+            if one.data.shape_keys and not apply:
+                raise Fault(f"Object '{one.name}': has shape keys, which a simplified mesh cannot keep; choose Apply "
+                            "Modifiers")
 
     def _name(self, number):
         return f"{self._token}.{number}."
@@ -81,11 +72,11 @@ class Exchange:
         """Writes the objects to a file. Raises Fault."""
         depsgraph = bpy.context.evaluated_depsgraph_get()
         with _Stage() as stage:
-            meshes, copies, placed = {}, {}, []
+            meshes, placed = {}, []
             for number, one in enumerate(self.objects):
-                materials = [slot.material for slot in one.material_slots]
                 changed = self._apply and (one.modifiers or one.data.shape_keys)
-                key = number if changed else (one.data, *materials)  # objects that share a mesh still do
+                # Objects that share a mesh still do.
+                key = number if changed else (one.data, *(slot.material for slot in one.material_slots))
                 if key not in meshes:
                     meshes[key] = bpy.data.meshes.new_from_object(
                         one.evaluated_get(depsgraph), preserve_all_data_layers=True, depsgraph=depsgraph
@@ -93,12 +84,7 @@ class Exchange:
                     meshes[key].name = self._name(number)
                     if not meshes[key].polygons:
                         raise Fault(f"Object '{one.name}': has no faces")
-                    for slot, material in enumerate(materials):
-                        if self._keep and material and material not in copies:
-                            copies[material] = material.copy()
-                            copies[material].name = self._name(len(self._materials))
-                            self._materials.append(material)
-                        meshes[key].materials[slot] = copies.get(material, material)
+                    self._set_materials(meshes[key], one)
                 placed.append(bpy.data.objects.new(self._name(number), meshes[key]))
             scene = stage.open()
             for copy, one in zip(placed, self.objects):
@@ -109,6 +95,25 @@ class Exchange:
                                           export_morph=False, export_skins=False)
             except RuntimeError as error:
                 raise Fault(f"The glTF exporter failed: {error}") from None
+
+    def _set_materials(self, mesh, one):
+        """Gives the mesh of an object the materials for the file: those that modifiers and the slots of the object set.
+
+        Raises Fault for one that new textures cannot be made from.
+        """
+        slots = one.material_slots
+        for slot, material in enumerate(mesh.materials):
+            if slot < len(slots) and slots[slot].link == "OBJECT":
+                material = slots[slot].material
+            fault = material and not self._keep and material_fault(material, bool(mesh.uv_layers))
+            if fault:
+                raise Fault(f"Object '{one.name}': material '{material.name}': {fault}")
+            if self._keep and material:
+                if material not in self._materials:
+                    self._materials.append(material)
+                    material.copy().name = self._name(len(self._materials) - 1)
+                material = bpy.data.materials[self._name(self._materials.index(material))]
+            mesh.materials[slot] = material
 
     def load(self, paths, place):
         """Imports results, and passes a list with the meshes of each, in the order of the objects, to `place`.
