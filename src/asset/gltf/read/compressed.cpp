@@ -191,8 +191,10 @@ void check_meshopt(const CheckedJson& view) {
     const CheckedJson compressed = view.member("extensions").member(meshopt_name);
     if (compressed.json.is_null()) view.fail("refers to a buffer without data");
     if (!has_codec(meshopt_name)) view.fail_unsupported(missing_decoder_message(meshopt_name));
-    if (is_fallback_buffer(checked_buffer(compressed)))
+    compressed.required_reference("buffer", "buffers");
+    if (has_fallback_buffer(view.document, compressed.json))
         compressed.fail_at("buffer", "is a buffer without data");
+    checked_buffer(compressed);
     const std::uint64_t length = compressed.required_number("byteLength");
     const std::uint64_t stride = compressed.required_number("byteStride");
     const std::uint64_t count = compressed.required_number("count");
