@@ -27,8 +27,8 @@ struct Corner {
 
 /// What a face shows of a texture.
 struct FaceTexture {
-    const Texture* texture = nullptr;  ///< null: none
-    std::array<Vector2d, 3> uv;        ///< with the texture transform applied
+    const detail::MipImage* texture = nullptr;  ///< null: none
+    std::array<Vector2d, 3> uv;                 ///< with the texture transform applied
     double mip_level = 0;
 };
 
@@ -72,12 +72,14 @@ Vector2d corner_uv(const ScreenTriangle& face, const TextureRef& texture_ref, st
 
 /// Mip level of a face: half the base-2 logarithm of the number of texels per pixel. It is constant per face,
 /// since faces are small.
-double mip_level(const ScreenTriangle& face, const Texture& texture, const std::array<Vector2d, 3>& uv) {
+double mip_level(const ScreenTriangle& face, const detail::MipImage& texture,
+                 const std::array<Vector2d, 3>& uv) {
+    // Coarser levels would mix unrelated charts of an atlas, whose gutters are a few texels wide.
+    constexpr double max_level = 3;
     const Vector2d a = uv[1] - uv[0], b = uv[2] - uv[0];
-    const double texels =
-        std::abs(a.x() * b.y() - a.y() * b.x()) * texture.levels[0].width * texture.levels[0].height;
+    const double texels = std::abs(a.x() * b.y() - a.y() * b.x()) * texture.width() * texture.height();
     const double ratio = texels / std::max(std::abs(face.screen_area), 1e-9);
-    return ratio > 1 ? 0.5 * std::log2(ratio) : 0;
+    return ratio > 1 ? std::min(0.5 * std::log2(ratio), max_level) : 0;
 }
 
 FaceTexture make_face_texture(const ScreenTriangle& face, const TextureRef& texture_ref,
@@ -86,9 +88,12 @@ FaceTexture make_face_texture(const ScreenTriangle& face, const TextureRef& text
     const auto& uvs = face.part->uvs;
     const bool has_uvs = texture_ref.uv_set < uvs.size() && !uvs[texture_ref.uv_set].empty();
     if (!has_uvs || texture_ref.image >= textures.size() || !textures[texture_ref.image]) return result;
-    result.texture = &textures[texture_ref.image];
-    for (std::size_t k = 0; k < 3; ++k)
-        result.uv[k] = transform_uv(texture_ref, corner_uv(face, texture_ref, k));
+    result.texture = textures[texture_ref.image].get();
+    const detail::UvTransform transform = detail::uv_transform(texture_ref);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vector2d uv = corner_uv(face, texture_ref, k);
+        result.uv[k] = Vector2d(transform.apply(uv.x(), uv.y()).data());
+    }
     result.mip_level = mip_level(face, *result.texture, result.uv);
     return result;
 }
@@ -101,7 +106,7 @@ std::optional<Vector4f> sample_texture(const ScreenTriangle& face, std::optional
     if (!of_face) of_face = make_face_texture(face, texture_ref, textures);
     if (!of_face->texture) return std::nullopt;
     const Vector2d at = w[0] * of_face->uv[0] + w[1] * of_face->uv[1] + w[2] * of_face->uv[2];
-    return sample(*of_face->texture, texture_ref, at, of_face->mip_level);
+    return Vector4f(of_face->texture->sample(texture_ref, at.x(), at.y(), of_face->mip_level).data());
 }
 
 Vector4f base_color(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w) {

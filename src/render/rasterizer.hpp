@@ -3,6 +3,7 @@
 /// A simple software rasterizer: depth buffer, perspective-correct attributes, textures and two lights.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,12 @@
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
 #include "render/camera.hpp"
-#include "render/texture.hpp"
+#include "render/texture_sampling.hpp"
 
 namespace faqem::render {
+
+/// An image as one role of a material shows it, or null.
+using Texture = std::shared_ptr<const detail::MipImage>;
 
 /// An asset in world space with decoded images.
 struct Scene {
@@ -25,7 +29,7 @@ struct Scene {
     };
     Asset asset;  ///< posed parts follow those of the file
     std::vector<PartInstance> parts;
-    std::vector<Texture> color_textures, normal_maps;  ///< by image; empty if unused or not decodable
+    std::vector<Texture> color_textures, normal_maps;  ///< by image; null if unused or not decodable
     std::uint64_t faces = 0;                           ///< number of faces of all instances
     std::vector<std::string> warnings;
 };

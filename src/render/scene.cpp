@@ -1,4 +1,4 @@
-#include <optional>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -12,6 +12,8 @@ namespace faqem::render {
 
 namespace {
 
+using detail::TexelEncoding;
+
 /// The instance of a part that its transform alone places: a posed part is added to the asset.
 Instance placed_instance(Asset& asset, const detail::PosedInstance& instance) {
     if (!instance.pose) return {instance.part, instance.transform};
@@ -19,14 +21,13 @@ Instance placed_instance(Asset& asset, const detail::PosedInstance& instance) {
     return {static_cast<Index>(asset.parts.size() - 1), detail::identity_transform};
 }
 
-std::optional<Texture> load_texture(const Image& image, ColorSpace color_space,
-                                    std::vector<std::string>& warnings) {
+Texture load_texture(const Image& image, TexelEncoding encoding, std::vector<std::string>& warnings) {
     try {
-        return make_texture(decode(image), color_space);
+        return std::make_shared<const detail::MipImage>(decode(image), encoding);
     } catch (const Error& error) {
         warnings.push_back("image '" + image.name +
                            "' cannot be decoded and is drawn white: " + error.what());
-        return std::nullopt;
+        return nullptr;
     }
 }
 
@@ -35,16 +36,15 @@ void load_textures(Scene& scene) {
     scene.color_textures.resize(count);
     scene.normal_maps.resize(count);
     const auto load = [&](const TextureRef& texture_ref, std::vector<Texture>& textures,
-                          ColorSpace color_space) {
+                          TexelEncoding encoding) {
         if (texture_ref.image >= count || textures[texture_ref.image]) return;
-        if (auto texture = load_texture(scene.asset.images[texture_ref.image], color_space, scene.warnings)) {
-            textures[texture_ref.image] = std::move(*texture);
-        }
+        textures[texture_ref.image] =
+            load_texture(scene.asset.images[texture_ref.image], encoding, scene.warnings);
     };
     for (const Material& material : scene.asset.materials) {
-        load(material.base_color_texture, scene.color_textures, ColorSpace::srgb);
-        load(material.emissive_texture, scene.color_textures, ColorSpace::srgb);
-        load(material.normal_texture, scene.normal_maps, ColorSpace::linear);
+        load(material.base_color_texture, scene.color_textures, TexelEncoding::color_and_data_alpha);
+        load(material.emissive_texture, scene.color_textures, TexelEncoding::color_and_data_alpha);
+        load(material.normal_texture, scene.normal_maps, TexelEncoding::data);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "result/image_error.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "asset/scene/material_textures.hpp"
@@ -11,15 +12,18 @@ namespace faqem::detail {
 
 namespace {
 
-using render::ColorSpace;
 using render::Texture;
 
-// The texture of an image that stays as it is; empty, which is drawn white, if it cannot be decoded.
-Texture decoded_texture(const Image& image, ColorSpace color_space) {
+Texture make_texture(Pixels pixels, TexelEncoding encoding) {
+    return std::make_shared<const MipImage>(std::move(pixels), encoding);
+}
+
+// The texture of an image that stays as it is; null, which is drawn white, if it cannot be decoded.
+Texture decoded_texture(const Image& image, TexelEncoding encoding) {
     try {
-        return render::make_texture(decode(image), color_space);
+        return make_texture(decode(image), encoding);
     } catch (const Error&) {
-        return {};
+        return nullptr;
     }
 }
 
@@ -34,16 +38,16 @@ std::vector<std::uint8_t> images_in_role(const Asset& model, TextureRef Material
 }
 
 std::vector<Texture> textures(const Asset& model, std::span<const PendingImage> pending,
-                              TextureRef Material::*role, ColorSpace color_space) {
+                              TextureRef Material::*role, TexelEncoding encoding) {
     const std::vector<std::uint8_t> is_used = images_in_role(model, role);
     std::vector<std::uint8_t> is_pending(is_used.size(), 0);
     std::vector<Texture> result(is_used.size());
     for (const PendingImage& image : pending) {
         is_pending[image.image] = 1;
-        if (is_used[image.image]) result[image.image] = render::make_texture(image.pixels, color_space);
+        if (is_used[image.image]) result[image.image] = make_texture(image.pixels, encoding);
     }
     for (std::size_t i = 0; i < result.size(); ++i)
-        if (is_used[i] && !is_pending[i]) result[i] = decoded_texture(model.images[i], color_space);
+        if (is_used[i] && !is_pending[i]) result[i] = decoded_texture(model.images[i], encoding);
     return result;
 }
 
@@ -56,8 +60,9 @@ bool has_any(const std::vector<Texture>& all) {
 ImageErrorMeter::ImageErrorMeter(const Asset& model, std::span<const PendingImage> pending,
                                  const RunContext& context)
     : threads_(context.threads) {
-    std::vector<Texture> colors = textures(model, pending, &Material::base_color_texture, ColorSpace::srgb);
-    std::vector<Texture> normals = textures(model, pending, &Material::normal_texture, ColorSpace::linear);
+    std::vector<Texture> colors =
+        textures(model, pending, &Material::base_color_texture, TexelEncoding::color_and_data_alpha);
+    std::vector<Texture> normals = textures(model, pending, &Material::normal_texture, TexelEncoding::data);
     Asset shown = model;
     shown.images.clear();
     scene_ = render::make_scene(std::move(shown));
@@ -106,11 +111,11 @@ std::vector<std::optional<PictureDifference>> ImageErrorMeter::operator()(std::v
     std::vector<std::optional<PictureDifference>> result(images_.size());
     // Errors of one role: the other has perfect images, so that they are not mixed up.
     const auto measure = [&](std::vector<Texture>& all, TextureRef Material::*role, render::Shading shading,
-                             ColorSpace color_space, const PictureDifference& weights) {
+                             TexelEncoding encoding, const PictureDifference& weights) {
         std::vector<std::pair<std::size_t, Texture>> replaced;
         for (std::size_t i = 0; i < images_.size(); ++i) {
             if (shown[i].rgba.empty() || !all[images_[i]]) continue;
-            replaced.emplace_back(i, render::make_texture(shown[i], color_space));
+            replaced.emplace_back(i, make_texture(shown[i], encoding));
             std::swap(all[images_[i]], replaced.back().second);
         }
         if (replaced.empty()) return;
@@ -127,9 +132,9 @@ std::vector<std::optional<PictureDifference>> ImageErrorMeter::operator()(std::v
         }
     };
     // Light changes an error of colours little.
-    measure(scene_.color_textures, &Material::base_color_texture, render::Shading::unlit, ColorSpace::srgb,
-            {1, 1});
-    measure(scene_.normal_maps, &Material::normal_texture, render::Shading::lit, ColorSpace::linear, {0, 1});
+    measure(scene_.color_textures, &Material::base_color_texture, render::Shading::unlit,
+            TexelEncoding::color_and_data_alpha, {1, 1});
+    measure(scene_.normal_maps, &Material::normal_texture, render::Shading::lit, TexelEncoding::data, {0, 1});
     return result;
 }
 

@@ -5,7 +5,7 @@
 #include "bake/atlas/packing.hpp"
 #include "bake/atlas/per_triangle.hpp"
 #include "bake/atlas/segmentation.hpp"
-#include "bake/source/texture_sampling.hpp"
+#include "render/texture_sampling.hpp"
 #include "scene/visibility.hpp"
 #include "step_counts/silence.hpp"
 #include "support/catch.hpp"

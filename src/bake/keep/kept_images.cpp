@@ -11,8 +11,8 @@
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/source_traits.hpp"
 #include "bake/keep/uv_texels.hpp"
-#include "bake/source/texture_sampling.hpp"
 #include "bake/texture/image_choice.hpp"
+#include "render/texture_sampling.hpp"
 #include "scene/material_groups.hpp"
 
 namespace faqem::detail {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "bake/parts/corners.hpp"
-#include "bake/source/texture_sampling.hpp"
 #include "bake/texture/picture_difference.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "render/texture_sampling.hpp"
 
 namespace faqem::detail {
 

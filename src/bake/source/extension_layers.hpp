@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "asset/scene/material_textures.hpp"
-#include "bake/source/texture_sampling.hpp"
+#include "render/texture_sampling.hpp"
 
 namespace faqem::detail {
 

@@ -7,7 +7,7 @@
 
 #include "asset/image/image_size.hpp"
 #include "asset/scene/material_textures.hpp"
-#include "bake/source/texture_sampling.hpp"
+#include "render/texture_sampling.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "bake/source/texture_sampling.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/surface_map.hpp"
+#include "render/texture_sampling.hpp"
 
 namespace faqem::detail {
 

@@ -14,8 +14,8 @@
 #include "asset/scene/material_textures.hpp"
 #include "bake/source/extension_layers.hpp"
 #include "bake/source/source_normals.hpp"
-#include "bake/source/texture_sampling.hpp"
 #include "faqem/surface_map.hpp"
+#include "render/texture_sampling.hpp"
 #include "scene/material_groups.hpp"
 
 namespace faqem::detail {

@@ -5,11 +5,11 @@
 #include <span>
 
 #include "bake/parts/corners.hpp"
-#include "bake/source/texture_sampling.hpp"
 #include "bake/texture/pending_images.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/options.hpp"
+#include "render/texture_sampling.hpp"
 
 namespace faqem::detail {
 
@@ -20,7 +20,8 @@ struct BakeJob {
     const BakeOptions& options;
     std::span<const BakePart> parts;  ///< by part of the source, as map_parts() makes them
     const RunContext& context;
-    bool needs_attributes = false;  ///< whether bake_keep() throws instead of transferring UVs and vertex colours
+    bool needs_attributes =
+        false;  ///< whether bake_keep() throws instead of transferring UVs and vertex colours
 };
 
 /// Bakes new images with a new atlas.

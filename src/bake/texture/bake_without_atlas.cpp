@@ -13,9 +13,9 @@
 #include "bake/parts/vertex_attributes.hpp"
 #include "bake/source/extension_layers.hpp"
 #include "bake/source/source_sampler.hpp"
-#include "bake/source/texture_sampling.hpp"
 #include "bake/texture/bake_job.hpp"
 #include "faqem/error.hpp"
+#include "render/texture_sampling.hpp"
 #include "scene/material_groups.hpp"
 
 namespace faqem::detail {

@@ -2,7 +2,7 @@
 
 #include "asset/image/srgb.hpp"
 #include "bake/page/push_pull.hpp"
-#include "bake/source/texture_sampling.hpp"
+#include "render/texture_sampling.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "bake/source/texture_sampling.hpp"
+#include "render/texture_sampling.hpp"
 
 #include <algorithm>
 #include <bit>
