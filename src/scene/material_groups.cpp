@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "asset/scene/part_arrays.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -28,9 +30,8 @@ bool has_plain_materials(const Asset& asset, const BakeOptions& bake) {
         return false;
     return std::ranges::none_of(asset.materials,
                                 [](const Material& material) { return has_textures(material); }) &&
-           std::ranges::none_of(asset.parts, [](const Part& part) {
-               return !part.colors.empty() || !part.joints.empty() || !part.morph_targets.empty();
-           });
+           !some_part_has(asset, &Part::colors) && !some_part_has(asset, &Part::joints) &&
+           !some_part_has(asset, &Part::morph_targets);
 }
 
 std::vector<Index> materials_of(const Part& part) {

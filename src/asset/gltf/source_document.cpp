@@ -7,6 +7,7 @@
 #include "asset/gltf/scene.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "asset/scene/source_traits.hpp"
 
 namespace faqem::detail {
@@ -153,8 +154,7 @@ std::uint64_t stored_bytes(const Json& view) {
 
 bool is_dynamic(const Asset& asset) {
     if (asset.source && !member(asset.source->document, "animations").empty()) return true;
-    return std::ranges::any_of(
-        asset.parts, [](const Part& part) { return !part.joints.empty() || !part.morph_targets.empty(); });
+    return some_part_has(asset, &Part::joints) || some_part_has(asset, &Part::morph_targets);
 }
 
 std::vector<Index> variant_materials(const Asset& asset, const Part& part) {

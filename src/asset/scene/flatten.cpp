@@ -123,7 +123,6 @@ Part flatten(const Asset& asset, const std::vector<PosedInstance>& all) {
 
 std::vector<std::string> flattening_losses(const Asset& asset, const std::string& format) {
     std::vector<std::string> losses;
-    const auto any = [&](auto&& test) { return std::ranges::any_of(asset.parts, test); };
     const std::string cannot = format + " cannot hold ";
     if (asset.source)
         losses.push_back(
@@ -131,14 +130,13 @@ std::vector<std::string> flattening_losses(const Asset& asset, const std::string
     if (const std::size_t uninstanced = uninstanced_part_count(asset))
         losses.push_back("no node of the scene references " + std::to_string(uninstanced) +
                          (uninstanced == 1 ? " mesh, which was left out" : " meshes, which were left out"));
-    if (any([](const Part& p) { return !p.joints.empty(); }))
+    if (some_part_has(asset, &Part::joints))
         losses.push_back(cannot + "skins: the meshes are posed by their joints");
-    if (any([](const Part& p) { return !p.morph_targets.empty(); }))
+    if (some_part_has(asset, &Part::morph_targets))
         losses.push_back(cannot + "morph targets" +
                          (has_morph_weights(asset) ? ": the meshes have their default weights" : ""));
-    if (any([](const Part& p) { return !p.custom_attributes.empty(); }))
-        losses.push_back(cannot + "custom attributes");
-    if (any([](const Part& p) { return !p.tangents.empty(); })) losses.push_back(cannot + "tangents");
+    if (some_part_has(asset, &Part::custom_attributes)) losses.push_back(cannot + "custom attributes");
+    if (some_part_has(asset, &Part::tangents)) losses.push_back(cannot + "tangents");
     return losses;
 }
 

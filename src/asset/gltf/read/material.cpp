@@ -9,14 +9,13 @@
 namespace faqem::detail {
 namespace {
 
-double number_or(const Json& value, double fallback) {
-    return value.is_number() ? value.get<double>() : fallback;
+float number_or(const Json& value, float fallback) {
+    return value.is_number() ? static_cast<float>(value.get<double>()) : fallback;
 }
 
 Vec2f pair_or(const Json& pair, Vec2f fallback) {
     if (pair.size() != 2) return fallback;
-    return {static_cast<float>(number_or(pair[0], fallback[0])),
-            static_cast<float>(number_or(pair[1], fallback[1]))};
+    return {number_or(pair[0], fallback[0]), number_or(pair[1], fallback[1])};
 }
 
 Wrap wrap_of(const Json& sampler, const char* key) {
@@ -44,7 +43,7 @@ TextureRef texture_ref(const LoadedGltf& loaded, const Json& info) {
     const Json& transform = member(info, "extensions", "KHR_texture_transform");
     ref.offset = pair_or(member(transform, "offset"), ref.offset);
     ref.scale = pair_or(member(transform, "scale"), ref.scale);
-    ref.rotation = static_cast<float>(number_or(member(transform, "rotation"), 0));
+    ref.rotation = number_or(member(transform, "rotation"), 0);
     ref.uv_set = static_cast<std::uint32_t>(unsigned_member(transform, "texCoord", ref.uv_set));
     return ref;
 }
@@ -58,7 +57,7 @@ std::vector<ExtensionTexture> extension_textures(const LoadedGltf& loaded, const
         const Json& info = member(material, "extensions", extension.c_str(), name.c_str());
         const TextureRef texture = texture_ref(loaded, info);
         if (!texture || !can_decode_image(loaded.source->images[texture.image].mime_type)) continue;
-        result.push_back({extension, name, texture, static_cast<float>(number_or(member(info, "scale"), 1))});
+        result.push_back({extension, name, texture, number_or(member(info, "scale"), 1)});
     }
     return result;
 }
@@ -75,18 +74,17 @@ Material read_material(const LoadedGltf& loaded, const Json& json) {
     material.name = string_member(json, "name");
     read_factors(member(pbr, "baseColorFactor"), material.base_color);
     read_factors(member(json, "emissiveFactor"), material.emissive);
-    material.metallic = static_cast<float>(number_or(member(pbr, "metallicFactor"), 1));
-    material.roughness = static_cast<float>(number_or(member(pbr, "roughnessFactor"), 1));
+    material.metallic = number_or(member(pbr, "metallicFactor"), 1);
+    material.roughness = number_or(member(pbr, "roughnessFactor"), 1);
     for (const CoreSlot& slot : core_slots) {
         const Json& info = member(slot.is_in_pbr ? pbr : json, slot.key);
         material.*slot.texture = texture_ref(loaded, info);
-        if (slot.factor)
-            material.*slot.factor = static_cast<float>(number_or(member(info, slot.factor_key), 1));
+        if (slot.factor) material.*slot.factor = number_or(member(info, slot.factor_key), 1);
     }
     material.extension_textures = extension_textures(loaded, json);
     if (alpha_mode == "MASK") material.alpha_mode = AlphaMode::mask;
     if (alpha_mode == "BLEND") material.alpha_mode = AlphaMode::blend;
-    material.alpha_cutoff = static_cast<float>(number_or(member(json, "alphaCutoff"), 0.5));
+    material.alpha_cutoff = number_or(member(json, "alphaCutoff"), 0.5f);
     material.double_sided = member(json, "doubleSided") == true;
     for (const auto& [name, value] : member(json, "extensions").items()) {
         if (name == "KHR_materials_unlit")

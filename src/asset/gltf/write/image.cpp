@@ -62,12 +62,11 @@ void set_image(GltfWriter& writer, Json& texture, Index image) {
 
 void find_source_images(GltfWriter& writer) {
     for (const Image& image : writer.asset.images) {
-        Index found = no_index;
-        for (Index i = 0; i < writer.source.images.size() && found == no_index; ++i)
-            if (const Image& own = writer.source.images[i];
-                !image.encoded.empty() && own.encoded == image.encoded && own.mime_type == image.mime_type)
-                found = i;
-        writer.source_image_of.push_back(found);
+        const auto same = std::ranges::find_if(writer.source.images, [&](const Image& own) {
+            return !image.encoded.empty() && own.encoded == image.encoded && own.mime_type == image.mime_type;
+        });
+        const auto index = static_cast<Index>(same - writer.source.images.begin());
+        writer.source_image_of.push_back(same == writer.source.images.end() ? no_index : index);
     }
 }
 
