@@ -2,14 +2,13 @@
 /// faqem-bench: simplifies the meshes of a directory with faqem's presets and the peers, and measures the
 /// results.
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
-#include <span>
 
 #include "faqem/error.hpp"
 #include "input.hpp"
@@ -20,123 +19,61 @@ namespace {
 using namespace faqem;
 using namespace faqem::bench;
 
-constexpr const char* usage = R"(Usage: faqem-bench [OPTION]...
-  --models DIR        directory of .obj .ply .stl .off files; default: environment variable FAQEM_BENCH_MODELS
-  --only NAME,...     only meshes whose file name contains one of these strings
-  --max-faces N       skip larger meshes
-  --min-faces N       skip smaller meshes
-  --ratios R,...      ratios of faces to keep; default: 0.1,0.01
-  --simplifiers S,... names of peers, presets (faqem-NAME) and presets with options (faqem-NAME:key=value:...),
-                      or peers or presets for all of them; default: peers,presets
-  --out FILE          output, JSON lines; existing rows are not measured again; default: results.jsonl
-  --again             measure existing rows again; the last row of a mesh, ratio and simplifier is valid
-  --samples N         samples per direction of each comparison; default: 100000
-  --timeout S         limit of CPU time per simplifier, mesh and ratio, seconds; default: 300
-  --memory G          limit of address space per run, GiB; default: 12
-  --save DIR          save every result as DIR/MESH-RATIO-SIMPLIFIER.obj
-  --list              print the names of the simplifiers of this build
-)";
-
 struct Arguments {
     std::filesystem::path models, out = "results.jsonl", save;
     std::vector<std::string> only;
     std::size_t min_faces = 0, max_faces = no_index;
     std::vector<double> ratios = {0.1, 0.01};
-    std::vector<NamedSimplifier> simplifiers;
+    std::vector<std::string> simplifiers = {"peers", "presets"};
     std::uint64_t samples = 100'000;
     Limits limits;
-    bool again = false;
+    bool again = false, list = false;
 };
-
-std::vector<std::string> split(std::string_view text) {
-    std::vector<std::string> words;
-    while (!text.empty()) {
-        const std::string_view word = text.substr(0, text.find(','));
-        words.emplace_back(word);
-        text.remove_prefix(std::min(text.size(), word.size() + 1));
-    }
-    return words;
-}
-
-template <class Number>
-Number number(std::string_view text) {
-    Number value = {};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) {
-        throw OptionError("'" + std::string(text) + "' is not a number");
-    }
-    return value;
-}
 
 void append(std::vector<NamedSimplifier>& to, std::vector<NamedSimplifier> more) {
     std::move(more.begin(), more.end(), std::back_inserter(to));
 }
 
-std::vector<NamedSimplifier> simplifiers(std::string_view list) {
+std::vector<NamedSimplifier> simplifiers(const std::vector<std::string>& names) {
     std::vector<NamedSimplifier> all;
-    for (const std::string& word : split(list)) {
-        if (word == "peers") {
+    for (const std::string& name : names) {
+        if (name == "peers") {
             append(all, peers());
-        } else if (word == "presets") {
+        } else if (name == "presets") {
             append(all, presets());
         } else {
-            all.push_back(simplifier_named(word));
+            all.push_back(simplifier_named(name));
         }
     }
     return all;
 }
 
-std::vector<double> ratios(std::string_view list) {
-    std::vector<double> all;
-    for (const std::string& word : split(list)) {
-        const double ratio = number<double>(word);
-        if (!(ratio > 0 && ratio <= 1)) throw OptionError("--ratios: must be in (0, 1]: " + word);
-        all.push_back(ratio);
-    }
-    return all;
-}
-
-Arguments parse(std::span<char*> words) {
-    Arguments a;
-    if (const char* folder = std::getenv("FAQEM_BENCH_MODELS")) a.models = folder;
-    a.simplifiers = simplifiers("peers,presets");
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const std::string_view key = words[i];
-        if (key == "--again") {
-            a.again = true;
-            continue;
-        }
-        if (i + 1 == words.size()) throw OptionError(std::string(key) + ": unknown option or missing value");
-        const std::string_view value = words[++i];
-        if (key == "--models") {
-            a.models = value;
-        } else if (key == "--only") {
-            a.only = split(value);
-        } else if (key == "--max-faces") {
-            a.max_faces = number<std::size_t>(value);
-        } else if (key == "--min-faces") {
-            a.min_faces = number<std::size_t>(value);
-        } else if (key == "--ratios") {
-            a.ratios = ratios(value);
-        } else if (key == "--simplifiers") {
-            a.simplifiers = simplifiers(value);
-        } else if (key == "--out") {
-            a.out = value;
-        } else if (key == "--save") {
-            a.save = value;
-        } else if (key == "--samples") {
-            a.samples = number<std::uint64_t>(value);
-        } else if (key == "--timeout") {
-            a.limits.seconds = number<unsigned>(value);
-        } else if (key == "--memory") {
-            a.limits.gibibytes = number<double>(value);
-        } else {
-            throw OptionError(std::string(key) + ": unknown option");
-        }
-    }
-    if (a.models.empty())
-        throw OptionError("no directory of meshes: use --models DIR or set FAQEM_BENCH_MODELS");
-    return a;
+void add_options(CLI::App& app, Arguments& a) {
+    app.option_defaults()->always_capture_default();
+    app.add_option("--models", a.models, "directory of .obj .ply .stl .off files")
+        ->envname("FAQEM_BENCH_MODELS");
+    app.add_option("--only", a.only, "only meshes whose file name contains one of these strings")
+        ->delimiter(',');
+    app.add_option("--max-faces", a.max_faces, "skip larger meshes");
+    app.add_option("--min-faces", a.min_faces, "skip smaller meshes");
+    app.add_option("--ratios", a.ratios, "ratios of faces to keep")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option(
+           "--simplifiers", a.simplifiers,
+           "names of peers, presets (faqem-NAME) and presets with options (faqem-NAME:key=value:...), or "
+           "peers or presets for all of them")
+        ->delimiter(',');
+    app.add_option("--out", a.out, "output, JSON lines; existing rows are not measured again");
+    app.add_flag("--again", a.again,
+                 "measure existing rows again; the last row of a mesh, ratio and simplifier is valid");
+    app.add_option("--samples", a.samples, "samples per direction of each comparison");
+    app.add_option("--timeout", a.limits.seconds,
+                   "limit of CPU time per simplifier, mesh and ratio, seconds");
+    app.add_option("--memory", a.limits.gibibytes, "limit of address space per run, GiB");
+    app.add_option("--save", a.save, "save every result as DIR/MESH-RATIO-SIMPLIFIER.obj");
+    app.add_flag("--list", a.list, "print the names of the simplifiers of this build");
 }
 
 /// Loads the selected meshes, sorted by increasing size, so that an interrupted run has as many rows as
@@ -172,13 +109,16 @@ std::string file_name(const RowKey& key) {
 }
 
 void run(const Arguments& a) {
+    if (a.models.empty())
+        throw OptionError("no directory of meshes: use --models DIR or set FAQEM_BENCH_MODELS");
+    const std::vector<NamedSimplifier> measured = simplifiers(a.simplifiers);
     const std::set<RowKey> present = a.again ? std::set<RowKey>() : keys_in(a.out);
     if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
     if (!a.save.empty()) std::filesystem::create_directories(a.save);
     std::ofstream out(a.out, std::ios::app);
     for (const Subject& subject : subjects(a)) {
         for (const double ratio : a.ratios) {
-            for (const NamedSimplifier& s : a.simplifiers) {
+            for (const NamedSimplifier& s : measured) {
                 const RowKey key = {subject.name, ratio, s.name};
                 if (present.contains(key)) continue;
                 const std::size_t target = target_faces(ratio, subject.mesh.triangles.size());
@@ -198,18 +138,17 @@ void run(const Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    Arguments a;
+    CLI::App app("Simplifies meshes with faqem's presets and the peers, and measures the results.",
+                 "faqem-bench");
+    add_options(app, a);
+    CLI11_PARSE(app, argc, argv);
     try {
-        const std::span<char*> words(argv + 1, argv + argc);
-        if (words.size() == 1 && std::string_view(words[0]) == "--help") {
-            std::cout << usage;
-        } else if (words.size() == 1 && std::string_view(words[0]) == "--list") {
-            for (const NamedSimplifier& s : simplifiers("peers,presets")) std::cout << s.name << '\n';
+        if (a.list) {
+            for (const NamedSimplifier& s : simplifiers(a.simplifiers)) std::cout << s.name << '\n';
         } else {
-            run(parse(words));
+            run(a);
         }
-    } catch (const OptionError& e) {
-        std::cerr << "faqem-bench: " << e.what() << '\n' << usage;
-        return 2;
     } catch (const std::exception& e) {
         std::cerr << "faqem-bench: " << e.what() << '\n';
         return 1;
