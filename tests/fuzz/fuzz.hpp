@@ -6,13 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,23 +59,9 @@ public:
     /// Usually an integer or a fraction in a small range, so that positions coincide; sometimes an extreme
     /// value.
     double real() {
-        using Limits = std::numeric_limits<double>;
-        static constexpr double worst[] = {Limits::quiet_NaN(),
-                                           Limits::infinity(),
-                                           -Limits::infinity(),
-                                           Limits::max(),
-                                           Limits::lowest(),
-                                           Limits::denorm_min(),
-                                           Limits::min(),
-                                           1e38,
-                                           -1e38,
-                                           1e30,
-                                           1e-30,
-                                           1e-38,
-                                           1e7,
-                                           -0.0,
-                                           1e-300,
-                                           1e150};
+        static constexpr double worst[] = {NAN,     INFINITY, -INFINITY, DBL_MAX, -DBL_MAX, DBL_TRUE_MIN,
+                                           DBL_MIN, 1e38,     -1e38,     1e30,    1e-30,    1e-38,
+                                           1e7,     -0.0,     1e-300,    1e150};
         const std::uint8_t kind = byte();
         if (kind < 192) return (kind % 16) - 8.0;
         if (kind < 224) return (kind - 208.0) / 16;
@@ -90,25 +76,12 @@ private:
 /// A regular mesh or an empty one, with random vertices and faces added.
 inline TriangleMesh mesh_of(Input& in) {
     TriangleMesh mesh;
-    switch (in.byte() % 8) {
-        case 0:
-            mesh = test::grid(1 + in.below(6));
-            break;
-        case 1:
-            mesh = test::icosphere(1);
-            break;
-        case 2:
-            mesh = test::cylinder(3 + in.below(6), 1 + in.below(5), 2);
-            break;
-        case 3:
-            mesh = test::both(test::cube(), test::moved(test::cube(), {1.001, 0, 0}));
-            break;
-        case 4:
-            mesh = test::fan(3 + in.below(40));
-            break;
-        default:
-            break;
-    }
+    const int kind = in.byte() % 8;
+    if (kind == 0) mesh = test::grid(1 + in.below(6));
+    if (kind == 1) mesh = test::icosphere(1);
+    if (kind == 2) mesh = test::cylinder(3 + in.below(6), 1 + in.below(5), 2);
+    if (kind == 3) mesh = test::both(test::cube(), test::moved(test::cube(), {1.001, 0, 0}));
+    if (kind == 4) mesh = test::fan(3 + in.below(40));
     const std::size_t old = mesh.positions.size(), moved = in.byte() % 8, vertices = in.byte() % 48;
     for (std::size_t i = 0; i < moved && old > 0; ++i)
         mesh.positions[in.below(old)] = {in.real(), in.real(), in.real()};

@@ -21,31 +21,14 @@ using fuzz::expect;
 /// A surface of some hundred vertices, possibly with random vertices and faces added.
 TriangleMesh surface_of(fuzz::Input& in) {
     TriangleMesh mesh;
-    switch (in.byte() % 8) {
-        case 0:
-            mesh = test::icosphere(3);
-            break;
-        case 1:
-            mesh = test::grid(12 + in.below(20));
-            break;
-        case 2:
-            mesh = test::torus(16 + in.below(24), 10 + in.below(16));
-            break;
-        case 3:
-            mesh = test::globe(10 + in.below(10), 1);
-            break;
-        case 4:
-            mesh = test::cylinder(16 + in.below(24), 10 + in.below(16), 2);
-            break;
-        case 5:
-            mesh = test::soup(in.byte(), 300, 800);
-            break;
-        case 6:
-            mesh = test::both(test::icosphere(2), test::grid(8 + in.below(16)));
-            break;
-        default:
-            break;
-    }
+    const int kind = in.byte() % 8;
+    if (kind == 0) mesh = test::icosphere(3);
+    if (kind == 1) mesh = test::grid(12 + in.below(20));
+    if (kind == 2) mesh = test::torus(16 + in.below(24), 10 + in.below(16));
+    if (kind == 3) mesh = test::globe(10 + in.below(10), 1);
+    if (kind == 4) mesh = test::cylinder(16 + in.below(24), 10 + in.below(16), 2);
+    if (kind == 5) mesh = test::soup(in.byte(), 300, 800);
+    if (kind == 6) mesh = test::both(test::icosphere(2), test::grid(8 + in.below(16)));
     if (const std::uint8_t amount = in.byte() % 8)
         mesh = test::shaken(std::move(mesh), 0.01 * amount, amount);
     return in.flag() ? mesh : test::both(std::move(mesh), fuzz::mesh_of(in));

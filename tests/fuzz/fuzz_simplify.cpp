@@ -6,8 +6,10 @@
 #include "faqem/surface_map.hpp"
 #include "fuzz/fuzz.hpp"
 #include "fuzz/random_options.hpp"
+#include "support/results.hpp"
 
 using namespace faqem;
+using test::same_bits;
 
 namespace {
 
@@ -59,11 +61,6 @@ struct Soup {
                std::all_of(weights.begin(), weights.end(), in_range);
     }
 };
-
-bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
-}
 
 // Whether every edge has two faces of opposite direction. Faces that were dropped do not count.
 bool is_closed(const std::vector<Triangle>& triangles) {
