@@ -291,8 +291,7 @@ TEST_CASE("an error or SIGTERM at any call leaves either the old set or the new 
 
 TEST_CASE("readers of a half replaced set exit with 3, and the next run in its folder completes it") {
     if (!can_inject) return;
-    const Folder folder;
-    faqem::save(sheet(2), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(2));
     fs::create_directory(folder / "out");
     // The set of a process that died after it had renamed the image.
     REQUIRE(run(folder, "simplify in.glb out/a.gltf --bake keep --quiet --history out/a.history").code == 0);

@@ -20,8 +20,7 @@ nlohmann::json report(const Folder& folder) { return nlohmann::json::parse(read(
 }  // namespace
 
 TEST_CASE("--max-bytes without a face target is never exceeded, and more bytes show more") {
-    const Folder folder;
-    faqem::save(painted_sheet(40), folder / "in.glb");
+    const ModelFolder folder("in.glb", painted_sheet(40));
     double last = 0;
     for (const std::string bytes : {"5000", "12000", "40000", "120000"}) {
         CAPTURE(bytes);
@@ -34,8 +33,7 @@ TEST_CASE("--max-bytes without a face target is never exceeded, and more bytes s
 }
 
 TEST_CASE("--max-bytes shows more than a tenth of the faces with as many bytes") {
-    const Folder folder;
-    faqem::save(painted_sheet(40), folder / "in.glb");
+    const ModelFolder folder("in.glb", painted_sheet(40));
     REQUIRE(run(folder, "simplify in.glb fixed.glb --ratio 0.1").code == 0);
     const std::string bytes = std::to_string(fs::file_size(folder / "fixed.glb"));
     REQUIRE(run(folder, "simplify in.glb out.glb --max-bytes " + bytes).code == 0);
@@ -43,16 +41,14 @@ TEST_CASE("--max-bytes shows more than a tenth of the faces with as many bytes")
 }
 
 TEST_CASE("--max-bytes gives the same bytes with any number of threads") {
-    const Folder folder;
-    faqem::save(painted_sheet(24), folder / "in.glb");
+    const ModelFolder folder("in.glb", painted_sheet(24));
     REQUIRE(run(folder, "simplify in.glb a.glb --max-bytes 12000 --threads 1").code == 0);
     REQUIRE(run(folder, "simplify in.glb b.glb --max-bytes 12000 --threads 3").code == 0);
     CHECK(read(folder / "a.glb") == read(folder / "b.glb"));
 }
 
 TEST_CASE("the report of --max-bytes has the results that were compared, and the best one is written") {
-    const Folder folder;
-    faqem::save(painted_sheet(24), folder / "in.glb");
+    const ModelFolder folder("in.glb", painted_sheet(24));
     REQUIRE(run(folder, "simplify in.glb out.glb --max-bytes 12000 --report r.json").code == 0);
     const nlohmann::json json = report(folder), points = json["compared_results"];
     REQUIRE(!points.empty());
@@ -75,8 +71,7 @@ TEST_CASE("the report of --max-bytes has the results that were compared, and the
 }
 
 TEST_CASE("a limit that the smallest result exceeds is refused with the size of that result") {
-    const Folder folder;
-    faqem::save(sheet(20), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(20));
     const std::string before = "the smallest result has ";
     const Outcome none = run(folder, "simplify in.glb out.glb --max-bytes 0");
     CHECK(none.code == 10);
@@ -93,8 +88,7 @@ TEST_CASE("a limit that the smallest result exceeds is refused with the size of 
 }
 
 TEST_CASE("--max-bytes keeps the options of images and the kind of baking that were given") {
-    const Folder folder;
-    faqem::save(painted_sheet(24), folder / "in.glb");
+    const ModelFolder folder("in.glb", painted_sheet(24));
     REQUIRE(
         run(folder, "simplify in.glb png.glb --max-bytes 40000 --image-format png --texture-size 64").code ==
         0);
@@ -134,8 +128,7 @@ TEST_CASE("only options that leave the face count open are followed by a search 
 
 TEST_CASE(
     "--max-bytes sees the rounding of vertices, and chooses finer positions where the bytes are enough") {
-    const Folder folder;
-    faqem::save(painted_sheet(40), folder / "in.glb");
+    const ModelFolder folder("in.glb", painted_sheet(40));
     const auto written = [&](const std::string& options) {
         REQUIRE(
             run(folder, "simplify in.glb out.glb --force --quantize on --report r.json " + options).code ==

@@ -22,8 +22,7 @@ std::string size_in_message(const Outcome& outcome) {
 
 TEST_CASE(
     "lod: each level has at most --max-bytes and the faces that it has without, and more bytes show more") {
-    const Folder folder;
-    faqem::save(painted_sheet(40), folder / "in.glb");
+    const ModelFolder folder("in.glb", painted_sheet(40));
     const std::string command = "lod in.glb out --force --levels 0.5,0.1 ";
     REQUIRE(run(folder, command).code == 0);
     const auto faces = [&](int level) {
@@ -50,8 +49,7 @@ TEST_CASE(
 }
 
 TEST_CASE("lod and truncate refuse a limit below the smallest result, and take its size") {
-    const Folder folder;
-    faqem::save(painted_sheet(24), folder / "in.glb");
+    const ModelFolder folder("in.glb", painted_sheet(24));
     const std::string lod = "lod in.glb out --force --levels 200 --history h.bin --max-bytes ";
     const Outcome refused = run(folder, lod + "1000");
     CHECK(refused.code == 10);

@@ -68,8 +68,7 @@ std::uint64_t size_of(const Folder& folder, const char* file) { return fs::file_
 }  // namespace
 
 TEST_CASE("a textured result that would be larger than its input gives something up") {
-    const Folder folder;
-    faqem::save(model_with_small_image(), folder / "in.glb");
+    const ModelFolder folder("in.glb", model_with_small_image());
     for (const std::string kind : {"auto", "atlas"}) {
         const std::string command =
             "simplify in.glb out.glb --force --ratio 0.5 --report r.json --bake " + kind;
@@ -124,8 +123,7 @@ TEST_CASE("where new images would lose more than the UVs of the source, these ar
 }
 
 TEST_CASE("each textured level of lod that would be larger than the input gives something up") {
-    const Folder folder;
-    faqem::save(model_with_small_image(), folder / "in.glb");
+    const ModelFolder folder("in.glb", model_with_small_image());
     REQUIRE(run(folder, "lod in.glb larger --levels 0.5,0.2 --allow-larger").code == 0);
     REQUIRE(run(folder, "lod in.glb out --levels 0.5,0.2").code == 0);
     for (const char* level : {"in_LOD1.glb", "in_LOD2.glb"}) {
@@ -139,8 +137,7 @@ TEST_CASE("each textured level of lod that would be larger than the input gives 
 }
 
 TEST_CASE("truncate has the rule, too") {
-    const Folder folder;
-    faqem::save(model_with_small_image(), folder / "in.glb");
+    const ModelFolder folder("in.glb", model_with_small_image());
     REQUIRE(run(folder, "simplify in.glb whole.glb --faces 36 --history h.bin --normal-map off").code == 0);
     const std::string truncate = "truncate h.bin out.glb --force --faces 36 --source in.glb --normal-map off";
     REQUIRE(run(folder, truncate + " --allow-larger").code == 0);

@@ -33,8 +33,7 @@ faqem::Options options_for(faqem::ModelFormat format, std::uint64_t max_bytes) {
 }  // namespace
 
 TEST_CASE("load, simplify for a format, and save: the bytes of the command, for each format") {
-    const Folder folder;
-    faqem::save(painted_sheet(12), folder / "in.glb");
+    const ModelFolder folder("in.glb", painted_sheet(12));
     faqem::save(sheet(12), folder / "in.obj");
     faqem::Asset coloured = sheet(12, 0.3);
     coloured.materials.clear();
@@ -78,8 +77,7 @@ TEST_CASE("load, simplify for a format, and save: the bytes of the command, for 
 }
 
 TEST_CASE("a result is made for the format of the loaded file, and for GLB without one") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.obj");
+    const ModelFolder folder("in.obj", sheet(8));
     faqem::Asset source = faqem::load(folder / "in.obj");
     CHECK(source.format == faqem::ModelFormat::obj);
     CHECK(simplify(source).asset.format == faqem::ModelFormat::obj);
@@ -104,8 +102,7 @@ TEST_CASE("saving to another format than a result was made for gives a warning")
 }
 
 TEST_CASE("simplify of a file saves nothing that is cancelled, empty or beyond the maximum error") {
-    const Folder folder;
-    faqem::save(sheet(8, 0.4), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8, 0.4));
     faqem::Options options;
     options.progress = [](faqem::Phase, double) { return faqem::Continue::cancel; };
     const faqem::Report cancelled = faqem::simplify(folder / "in.glb", folder / "out.glb", options);
@@ -185,8 +182,7 @@ TEST_CASE("the report says what holds the bytes of a result that is hardly small
 }
 
 TEST_CASE("simplify() of files never replaces its input, and looks for an existing result before the work") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.ply");
+    const ModelFolder folder("in.ply", sheet(8));
     const std::string before = read(folder / "in.ply");
     CHECK_THROWS_AS(faqem::simplify(folder / "in.ply", folder / "." / "in.ply", {}, faqem::Overwrite::yes),
                     faqem::OptionError);

@@ -38,8 +38,7 @@ std::string warnings(const Folder& folder) {
 }  // namespace
 
 TEST_CASE("simplify --max-bytes does not change a result that fits") {
-    const Folder folder;
-    faqem::save(sheet(20), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(20));
     REQUIRE(run(folder, "simplify in.glb a.glb --ratio 0.5").code == 0);
     REQUIRE(run(folder, "simplify in.glb b.glb --ratio 0.5 --max-bytes 10MB --report r.json").code == 0);
     CHECK(read(folder / "a.glb") == read(folder / "b.glb"));
@@ -47,8 +46,7 @@ TEST_CASE("simplify --max-bytes does not change a result that fits") {
 }
 
 TEST_CASE("simplify --max-bytes reduces faces and images and adds a warning to the report") {
-    const Folder folder;
-    faqem::save(noisy_sheet(60), folder / "in.glb");
+    const ModelFolder folder("in.glb", noisy_sheet(60));
     REQUIRE(run(folder, "simplify in.glb full.glb --ratio 0.9 --allow-larger").code == 0);
     REQUIRE(fs::file_size(folder / "full.glb") > 300000);
     const Outcome outcome =
@@ -66,16 +64,14 @@ TEST_CASE("simplify --max-bytes reduces faces and images and adds a warning to t
 }
 
 TEST_CASE("--max-bytes does not depend on the name of the result") {
-    const Folder folder;
-    faqem::save(noisy_sheet(60), folder / "in.glb");
+    const ModelFolder folder("in.glb", noisy_sheet(60));
     for (const std::string name : {"out.glb", "OUTPUT.GLB"})
         REQUIRE(run(folder, "simplify in.glb " + name + " --ratio 1 --max-bytes 60000").code == 0);
     CHECK(read(folder / "OUTPUT.GLB") == read(folder / "out.glb"));
 }
 
 TEST_CASE("simplify --max-bytes reduces only faces if there are no images") {
-    const Folder folder;
-    faqem::save(sheet(60, 0.2), folder / "in.ply");
+    const ModelFolder folder("in.ply", sheet(60, 0.2));
     REQUIRE(run(folder, "simplify in.ply out.ply --bake none --ratio 1 --max-bytes 20KB").code == 0);
     const std::uintmax_t bytes = fs::file_size(folder / "out.ply");
     CHECK(bytes <= 20000);
@@ -83,8 +79,7 @@ TEST_CASE("simplify --max-bytes reduces only faces if there are no images") {
 }
 
 TEST_CASE("simplify --max-bytes counts all files of a model") {
-    const Folder folder;
-    faqem::save(noisy_sheet(30), folder / "in.glb");
+    const ModelFolder folder("in.glb", noisy_sheet(30));
     for (const std::string name : {"out.gltf", "out.obj"}) {
         fs::create_directory(folder / "to");
         REQUIRE(run(folder, "simplify in.glb to/" + name + " --ratio 1 --max-bytes 50000").code == 0);
@@ -107,8 +102,7 @@ TEST_CASE("--max-bytes is kept wherever the same command without it has as few b
 }
 
 TEST_CASE("--max-bytes with a face count makes images smaller before it takes faces") {
-    const Folder folder;
-    faqem::save(noisy_sheet(30), folder / "in.glb");
+    const ModelFolder folder("in.glb", noisy_sheet(30));
     const std::string command = "simplify in.glb out.glb --force --faces 400 --bake atlas --report r.json";
     REQUIRE(run(folder, command + " --allow-larger").code == 0);
     const faqem::Asset plain = faqem::load(folder / "out.glb");

@@ -122,4 +122,9 @@ inline faqem::Asset sheet(faqem::Index n, double bumps = 0.05) {
     return asset;
 }
 
+/// A folder with a file of a model.
+struct ModelFolder : Folder {
+    ModelFolder(const std::string& file, const faqem::Asset& model) { faqem::save(model, *this / file); }
+};
+
 }  // namespace tool_test

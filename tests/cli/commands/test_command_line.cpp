@@ -18,8 +18,7 @@ TEST_CASE("help and version are printed to stdout with exit code 0") {
 }
 
 TEST_CASE("an invalid command line exits with 2 and an error on stderr") {
-    const Folder folder;
-    faqem::save(sheet(4), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(4));
     for (const char* arguments : {"dance",
                                   "help dance",
                                   "in.glb out.glb -o other.glb",
@@ -52,8 +51,7 @@ TEST_CASE("an invalid command line exits with 2 and an error on stderr") {
 }
 
 TEST_CASE("messages about values out of range name the option of the command") {
-    const Folder folder;
-    faqem::save(sheet(2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(2));
     const std::pair<const char*, const char*> wrong[] = {
         {"--ratio", "2"},           {"--faces", "0"},          {"--max-error", "0"},
         {"--max-error", "1%%"},     {"--max-seconds", "1s"},   {"--w-area", "nan"},
@@ -74,8 +72,7 @@ TEST_CASE("messages about values out of range name the option of the command") {
 }
 
 TEST_CASE("short forms give the same as long ones") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     REQUIRE(run(folder, "simplify in.glb out.glb --ratio 0.2 --bake none --quiet").code == 0);
     const std::string expected = read(folder / "out.glb");
     for (const char* words : {"in.glb out.glb -fqr.2", "./in.glb -f -r 20% -q -o out.glb",
@@ -129,8 +126,7 @@ TEST_CASE("bad input exits with 3 and an unknown file format with 4") {
 }
 
 TEST_CASE("an output file that is the input is rejected, also through links") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     const std::string before = read(folder / "in.glb");
     fs::create_symlink("in.glb", folder / "link.glb");
     fs::create_hard_link(folder / "in.glb", folder / "hard.glb");
@@ -158,8 +154,7 @@ TEST_CASE("an output file that is the input is rejected, also through links") {
 }
 
 TEST_CASE("simplify and render overwrite existing files only with --force") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     write(folder / "out.glb", "precious");
     write(folder / "report.json", "precious");
     write(folder / "out.png", "precious");
@@ -175,8 +170,7 @@ TEST_CASE("simplify and render overwrite existing files only with --force") {
 }
 
 TEST_CASE("output files that cannot be written are reported before the input is read") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     fs::create_directory(folder / "folder.glb");
     CHECK(run(folder, "simplify in.glb out.xyz").code == 2);
     CHECK(run(folder, "simplify in.glb out").code == 2);
@@ -190,8 +184,7 @@ TEST_CASE("output files that cannot be written are reported before the input is 
 }
 
 TEST_CASE("no colour escape sequences are written on a terminal") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     for (const char* environment : {"NO_COLOR=1", "CLICOLOR_FORCE=1"}) {
         const std::string command =
             "cd '" + folder.path().string() + "' && " + environment + " script -qec \"'" + tool_path +
@@ -205,8 +198,7 @@ TEST_CASE("no colour escape sequences are written on a terminal") {
 }
 
 TEST_CASE("failing to write to standard output exits with 7") {
-    const Folder folder;
-    faqem::save(sheet(4), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(4));
     const std::string command =
         std::string("'") + tool_path + "' info '" + (folder / "in.glb").string() + "' >/dev/full 2>/dev/null";
     CHECK(WEXITSTATUS(std::system(command.c_str())) == 7);

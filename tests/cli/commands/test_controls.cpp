@@ -32,8 +32,7 @@ nlohmann::json report_of(const Folder& folder, const std::string& arguments) {
 }  // namespace
 
 TEST_CASE("simplify --prune deletes small components by model units or relative to the scene's diagonal") {
-    const Folder folder;
-    faqem::save(sheet_with_small_component(), folder / "in.gltf");
+    const ModelFolder folder("in.gltf", sheet_with_small_component());
     for (const char* size : {"0.015", "1%"}) {
         CAPTURE(size);
         const nlohmann::json report = report_of(folder, std::string("in.gltf out.glb --prune ") + size);
@@ -50,8 +49,7 @@ TEST_CASE("simplify --prune deletes small components by model units or relative 
 }
 
 TEST_CASE("simplify --prune measures components at the largest scale of their mesh in the scene") {
-    const Folder folder;
-    faqem::save(sheet_with_small_component(), folder / "small.gltf");
+    const ModelFolder folder("small.gltf", sheet_with_small_component());
     nlohmann::json scene = nlohmann::json::parse(read(folder / "small.gltf"));
     const std::size_t node = scene["scenes"][0]["nodes"][0];
     scene["nodes"][node]["scale"] = {8, 8, 8};

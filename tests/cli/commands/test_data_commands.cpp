@@ -6,8 +6,7 @@
 using namespace tool_test;
 
 TEST_CASE("info prints counts and measures of meshes and images") {
-    const Folder folder;
-    faqem::save(sheet(5, 0), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(5, 0));
     const Outcome outcome = run(folder, "info in.glb --json");
     REQUIRE(outcome.code == 0);
     const nlohmann::json info = nlohmann::json::parse(outcome.out);

@@ -27,8 +27,7 @@ bool close_to(std::size_t faces, std::size_t target) { return faces <= target &&
 }  // namespace
 
 TEST_CASE("lod writes the original, one model per level and a manifest") {
-    const Folder folder;
-    faqem::save(sheet(30, 0.2), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(30, 0.2));
     const Outcome outcome = run(folder, "lod hill.glb out --levels 50%,0.1,50 --bake none");
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
@@ -62,8 +61,7 @@ TEST_CASE("lod writes the original, one model per level and a manifest") {
 
 TEST_CASE(
     "lod prints the bytes of the source and of all levels, and warns of a share without its percent sign") {
-    const Folder folder;
-    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(20, 0.2));
     const auto size = [&](const char* file) { return faqem::cli::shown_bytes(fs::file_size(folder / file)); };
     const Outcome folder_of_files = run(folder, "lod a.glb out --levels 40,4 --without-original --bake none");
     const std::uint64_t both =
@@ -78,8 +76,7 @@ TEST_CASE(
 }
 
 TEST_CASE("lod --without-original writes the first level as LOD0") {
-    const Folder folder;
-    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(20, 0.2));
     REQUIRE(
         run(folder, "lod a.glb . --levels 0.5,error:2% --without-original --format ply --bake none --quiet")
             .code == 0);
@@ -104,8 +101,7 @@ TEST_CASE("at the switch distance the error covers the allowed number of pixels"
 }
 
 TEST_CASE("lod rejects invalid levels and options and writes nothing") {
-    const Folder folder;
-    faqem::save(sheet(8, 0.2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(8, 0.2));
     for (const char* levels : {"0.1,0.5", "0", "-1", "1.5", "x", "error:", "error:-1", "nan", "0%", "150%"}) {
         const Outcome outcome = run(folder, std::string("lod a.glb out --bake none --levels=") + levels);
         CHECK(outcome.code == 2);
@@ -144,8 +140,7 @@ TEST_CASE("levels of a mesh ten million units from the origin keep shape and pos
 }
 
 TEST_CASE("lod overwrites existing files only with --force") {
-    const Folder folder;
-    faqem::save(sheet(8, 0.2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(8, 0.2));
     write(folder / "a_LOD1.glb", "mine");
     const std::string command = "lod a.glb . --levels 0.5 --bake none";
     CHECK(run(folder, command).code == 7);
@@ -156,8 +151,7 @@ TEST_CASE("lod overwrites existing files only with --force") {
 }
 
 TEST_CASE("lod writes nothing if a level misses its target or maximum error") {
-    const Folder folder;
-    faqem::save(sheet(8, 0.2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(8, 0.2));
     const Outcome outcome =
         run(folder, "lod a.glb out --levels 0.5,4 --lock-boundary --strict-target --bake none");
     CHECK(outcome.code == 5);
@@ -172,8 +166,7 @@ TEST_CASE("lod writes nothing if a level misses its target or maximum error") {
 }
 
 TEST_CASE("lod with a file as output writes all levels to it, and its scene has the finest") {
-    const Folder folder;
-    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(24, 0.2));
     const std::string options = " --levels 0.5,0.1 --texture-size 128";
     REQUIRE(run(folder, "lod hill.glb one.glb" + options).code == 0);
     REQUIRE(run(folder, "lod hill.glb many" + options).code == 0);
@@ -213,8 +206,7 @@ TEST_CASE("lod with a file as output writes all levels to it, and its scene has 
 }
 
 TEST_CASE("a file with levels is read as the finest one in every command") {
-    const Folder folder;
-    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(24, 0.2));
     const std::string options = " --levels 0.5,0.1 --texture-size 128 --allow-larger";
     REQUIRE(run(folder, "lod hill.glb hill_LOD.glb" + options).code == 0);
     const std::string warning = "2 coarser levels of 1 node (MSFT_lod) left out";
@@ -262,8 +254,7 @@ TEST_CASE("a level pixels:N@D is the error that covers N pixels at distance D") 
 }
 
 TEST_CASE("lod meets error levels given in pixels at a distance") {
-    const Folder folder;
-    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(20, 0.2));
     REQUIRE(run(folder, "lod a.glb out --levels pixels:1@2,pixels:1@20 --bake none --quiet").code == 0);
     const nlohmann::json json = manifest(folder, "out/a_LOD.json");
     CHECK(json["levels"][1]["switch_distance"] <= 2);
@@ -272,8 +263,7 @@ TEST_CASE("lod meets error levels given in pixels at a distance") {
 }
 
 TEST_CASE("levels with --bake keep share the original image in one file") {
-    const Folder folder;
-    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(20, 0.2));
     REQUIRE(run(folder, "lod a.glb all.glb --levels 0.5,0.1 --bake keep --quiet").code == 0);
     const std::string bytes = read(folder / "all.glb");
     const nlohmann::json document = nlohmann::json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
@@ -282,8 +272,7 @@ TEST_CASE("levels with --bake keep share the original image in one file") {
 }
 
 TEST_CASE("levels with --textures shared share a new texture, stored once in one file") {
-    const Folder folder;
-    faqem::save(sheet(20, 0.2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(20, 0.2));
     const std::string options =
         " --levels 0.5,0.1 --textures shared --texture-size 128 --normal-map off --quiet";
     REQUIRE(run(folder, "lod a.glb one.glb --without-original" + options).code == 0);

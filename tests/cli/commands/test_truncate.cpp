@@ -16,8 +16,7 @@ std::string faces_of_level(const Folder& folder, const std::string& manifest, st
 }  // namespace
 
 TEST_CASE("truncate writes the same bytes as the level of the run that wrote the history") {
-    const Folder folder;
-    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(24, 0.2));
     const std::string texture = " --texture-size 128";
     REQUIRE(
         run(folder, "lod hill.glb out --levels 0.5,200,60 --preset best --history h.bin" + texture).code ==
@@ -33,8 +32,7 @@ TEST_CASE("truncate writes the same bytes as the level of the run that wrote the
 }
 
 TEST_CASE("truncate without --source writes the geometry") {
-    const Folder folder;
-    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(24, 0.2));
     REQUIRE(run(folder,
                 "lod hill.glb out --levels 0.5,100 --bake none --normals none --format ply --history h.bin")
                 .code == 0);
@@ -44,8 +42,7 @@ TEST_CASE("truncate without --source writes the geometry") {
 }
 
 TEST_CASE("truncate writes the same bytes as simplify with the presets qem and paper") {
-    const Folder folder;
-    faqem::save(sheet(24, 0.2), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(24, 0.2));
     for (const std::string preset : {"qem", "paper"}) {
         const std::string options = " --preset " + preset + " --bake none --force";
         REQUIRE(run(folder, "lod hill.glb out --levels 0.5,40 --history h.bin" + options).code == 0);
@@ -60,8 +57,7 @@ TEST_CASE("truncate writes the same bytes as simplify with the presets qem and p
 }
 
 TEST_CASE("truncate reads the history of simplify and rejects invalid arguments") {
-    const Folder folder;
-    faqem::save(sheet(16, 0.2), folder / "a.glb");
+    const ModelFolder folder("a.glb", sheet(16, 0.2));
     faqem::save(sheet(12, 0.2), folder / "b.glb");
     REQUIRE(run(folder, "simplify a.glb simplified.glb --faces 80 --bake none --history h.bin").code == 0);
     REQUIRE(run(folder, "truncate h.bin cut.glb --faces 80 --source a.glb --bake none").code == 0);
@@ -83,8 +79,7 @@ TEST_CASE("truncate reads the history of simplify and rejects invalid arguments"
 }
 
 TEST_CASE("lod and truncate print what was repaired in the model, which --strict rejects") {
-    const Folder folder;
-    faqem::save(sheet(12, 0.2), folder / "hill.obj");
+    const ModelFolder folder("hill.obj", sheet(12, 0.2));
     write(folder / "hill.mtl", read(folder / "hill.mtl") + "disp d.png\n");
     const std::string warning = "'disp' is not supported (1 statement)\n", size = " --texture-size 64";
     const Outcome lod = run(folder, "lod hill.obj out --levels 0.5,100 --history h.bin" + size);

@@ -41,8 +41,7 @@ const std::string nothing = "accepted";
 }  // namespace
 
 TEST_CASE("an image of a.obj is not replaced by one of a.gltf, and the reverse") {
-    const Folder folder;
-    faqem::save(sheet(2), folder / "a.obj");
+    const ModelFolder folder("a.obj", sheet(2));
     std::string message = refusal(folder, gltf_files);
     CHECK(contains(message, "a_0.png: is needed by "));
     CHECK(contains(message, "choose another output name"));
@@ -62,8 +61,7 @@ TEST_CASE("an image of a.obj is not replaced by one of a.gltf, and the reverse")
 }
 
 TEST_CASE("files that no other model of the name refers to may be replaced") {
-    const Folder folder;
-    faqem::save(sheet(2), folder / "a.obj");
+    const ModelFolder folder("a.obj", sheet(2));
     CHECK(refusal(folder, {"a.bin", "a.gltf"}) == nothing);             // without the image
     CHECK(refusal(folder, {"b_0.png", "b.bin", "b.gltf"}) == nothing);  // another name
     CHECK(refusal(folder, {"a_0.png", "a.glb"}) == nothing);            // no model with files beside it

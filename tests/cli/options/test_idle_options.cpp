@@ -21,8 +21,7 @@ std::string idle_options(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a typed option without effect gives a warning that says why") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     faqem::save(sheet(8), folder / "bare.stl");
     const auto idle = [&](const std::string& options) {
         const Outcome outcome = run(folder, "simplify " + options + " --force");
@@ -44,8 +43,7 @@ TEST_CASE("a typed option without effect gives a warning that says why") {
 }
 
 TEST_CASE("an option of a profile that has no effect gives no warning") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     write(folder / "p.json", R"({"faqem-profile": 1, "texture-size": 64, "position-bits": 12})");
     const std::string keep = "simplify in.glb out.glb --force --bake keep --config p.json ";
     CHECK(idle_options(run(folder, keep).out) == "");
@@ -54,8 +52,7 @@ TEST_CASE("an option of a profile that has no effect gives no warning") {
 }
 
 TEST_CASE("the other commands warn, too, and a batch once") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     fs::create_directory(folder / "models");
     for (const char* name : {"models/a.glb", "models/b.glb"}) fs::copy_file(folder / "in.glb", folder / name);
     const std::string keep = " --bake keep --texture-size 64";

@@ -78,8 +78,7 @@ TEST_CASE("the command line takes precedence over the profile, also for options 
 }
 
 TEST_CASE("a profile gives the same result as its options on the command line") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     write(folder / "p.json", R"({"faqem-profile": 1, "faces": 30, "bake": "none", "quiet": true})");
     REQUIRE(run(folder, "simplify in.glb by-profile.glb --config p.json").out.empty());
     REQUIRE(run(folder, "simplify in.glb by-options.glb --faces 30 --bake none --quiet").code == 0);

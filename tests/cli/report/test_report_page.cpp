@@ -68,8 +68,7 @@ TEST_CASE("a report page with --without-view is small and has no script") {
 }
 
 TEST_CASE("file names are escaped in a report page") {
-    const Folder folder;
-    faqem::save(sheet(2), folder / "<script>&.glb");
+    const ModelFolder folder("<script>&.glb", sheet(2));
     REQUIRE(
         run(folder, std::string("report '<script>&.glb' '<script>&.glb' --without-view -o p.html") + small)
             .code == 0);

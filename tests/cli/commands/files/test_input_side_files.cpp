@@ -219,8 +219,7 @@ TEST_CASE("batch writes no result if one would overwrite a file that any of its 
 }
 
 TEST_CASE("a profile is an input: it is not overwritten") {
-    const Folder folder;
-    faqem::save(sheet(4), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(4));
     write(folder / "p.json", R"({"faqem-profile": 1, "ratio": 0.5})");
     const auto before = contents(folder);
     const Outcome outcome = run(folder, "simplify in.glb a.glb --config p.json --report p.json --force");

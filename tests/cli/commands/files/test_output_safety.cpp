@@ -37,8 +37,7 @@ Outcome run_after(const Folder& folder, const std::string& before, const std::st
 
 TEST_CASE("a failed write exits with 7, keeps the old file and leaves no temporary file") {
     // A limit of the file size simulates a full disk: write() fails after part of the file is written.
-    const Folder folder;
-    faqem::save(sheet(40), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(40));
     write(folder / "old.glb", "precious");
     for (const char* out : {"new.glb", "old.glb --force", "new.gltf", "new.obj", "new.ply", "new.stl"}) {
         CAPTURE(out);
@@ -59,8 +58,7 @@ TEST_CASE("a full or read-only file system exits with 7, keeps the old file and 
         WARN("skipped: mounting a file system is not permitted");
         return;
     }
-    const Folder folder;
-    faqem::save(sheet(40), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(40));
     for (const std::string out : {"new.glb", "old.glb", "new.gltf", "new.obj", "new.ply", "new.stl"}) {
         CAPTURE(out);
         const std::string simplify = std::string("'") + tool_path + "' simplify in.glb /mnt/" + out +
@@ -80,8 +78,7 @@ TEST_CASE("a full or read-only file system exits with 7, keeps the old file and 
 }
 
 TEST_CASE("devices and pipes are rejected as output files before the input is read") {
-    const Folder folder;
-    faqem::save(sheet(4), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(4));
     REQUIRE(::mkfifo((folder / "fifo.glb").c_str(), 0600) == 0);
     fs::create_symlink("/dev/full", folder / "full.glb");
     for (const char* out : {"full.glb", "fifo.glb"}) {
@@ -96,8 +93,7 @@ TEST_CASE("devices and pipes are rejected as output files before the input is re
 }
 
 TEST_CASE("an output directory that is not writable exits with 7") {
-    const Folder folder;
-    faqem::save(sheet(4), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(4));
     fs::create_directory(folder / "locked");
     write(folder / "locked/old.glb", "precious");
     REQUIRE(::chmod((folder / "locked").c_str(), 0555) == 0);
@@ -129,8 +125,7 @@ TEST_CASE("an output file that is the input in a linked directory is rejected") 
 }
 
 TEST_CASE("the next run in a folder removes temporary files of dead runs, but not those in use") {
-    const Folder folder;
-    faqem::save(sheet(4), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(4));
     fs::create_directory(folder / "out");
     const std::string dead = "out/.faqem-00000000000000000000dead.tmp",
                       used = "out/.faqem-00000000000000000000beef.tmp";

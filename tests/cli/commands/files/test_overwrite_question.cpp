@@ -50,8 +50,7 @@ Session run_at_terminal(const Folder& folder, const std::string& arguments, cons
 }  // namespace
 
 TEST_CASE("at a terminal an existing output is replaced only after a yes") {
-    const Folder folder;
-    faqem::save(sheet(4), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(4));
     const std::string command = "in.glb out.glb --bake none --report r.json";
     for (const auto& [keys, code] :
          {std::pair("y\r", 0), {"yes\r", 0}, {"n\r", 7}, {"\r", 7}, {"\x04", 7}, {"\x03", 8}}) {
@@ -74,8 +73,7 @@ TEST_CASE("at a terminal an existing output is replaced only after a yes") {
 }
 
 TEST_CASE("nobody is asked with --force, for new files, for inputs, in a batch, and in a pipe") {
-    const Folder folder;
-    faqem::save(sheet(4), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(4));
     write(folder / "out.glb", "mine");
     for (const auto& [arguments, code] : {std::pair("in.glb new.glb --bake none", 0),
                                           {"in.glb in.glb", 2},
@@ -97,8 +95,7 @@ TEST_CASE("nobody is asked with --force, for new files, for inputs, in a batch, 
 }
 
 TEST_CASE("each command that writes asks once") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(8));
     for (const char* arguments : {"lod in.glb levels --levels 0.5 --bake none --history h.bin",
                                   "lod in.glb levels.glb --levels 0.5 --bake none",
                                   "truncate h.bin cut.glb --faces 70", "render in.glb a.png --size 32",

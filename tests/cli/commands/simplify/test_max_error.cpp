@@ -14,8 +14,7 @@ faqem::MeshView view(const faqem::Part& part) { return {part.positions, part.tri
 }  // namespace
 
 TEST_CASE("simplify --max-error finds the smallest model within the distance and reports the bounds") {
-    const Folder folder;
-    faqem::save(sheet(30, 0.2), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(30, 0.2));
     const Outcome outcome =
         run(folder, "simplify in.glb out.glb --max-error 0.01 --bake none --report r.json");
     CHECK(outcome.code == 0);
@@ -38,8 +37,7 @@ TEST_CASE("simplify --max-error finds the smallest model within the distance and
 }
 
 TEST_CASE("simplify --max-error in percent is relative to the diagonal of the transformed scene") {
-    const Folder folder;
-    faqem::save(sheet(24, 0.2), folder / "small.gltf");
+    const ModelFolder folder("small.gltf", sheet(24, 0.2));
     nlohmann::json scene = nlohmann::json::parse(read(folder / "small.gltf"));
     const std::size_t node = scene["scenes"][0]["nodes"][0];
     scene["nodes"][node]["scale"] = {8, 8, 8};
@@ -65,8 +63,7 @@ TEST_CASE("simplify --max-error in percent is relative to the diagonal of the tr
 }
 
 TEST_CASE("a face count that exceeds --max-error exits with 6 and writes no model") {
-    const Folder folder;
-    faqem::save(sheet(20, 0.2), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(20, 0.2));
     for (const char* target : {"--faces 30", "--ratio 0.04"}) {
         CAPTURE(target);
         const std::string common =
@@ -90,8 +87,7 @@ TEST_CASE("a face count that exceeds --max-error exits with 6 and writes no mode
 }
 
 TEST_CASE("a missed target has precedence over a missed --max-error") {
-    const Folder folder;
-    faqem::save(sheet(6, 0.2), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(6, 0.2));
     CHECK(run(folder, "simplify in.glb out.glb --faces 4 --lock-boundary --strict-target --max-error 1e-9")
               .code == 5);
     // Without a target, --strict-target has no effect.

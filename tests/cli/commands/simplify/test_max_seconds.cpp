@@ -15,8 +15,7 @@ nlohmann::json report_in(const Folder& folder) { return nlohmann::json::parse(re
 }  // namespace
 
 TEST_CASE("simplify without time writes the model with its faces and images and exits with 0") {
-    const Folder folder;
-    faqem::save(sheet(20, 0.2), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(20, 0.2));
     const Outcome outcome = run(folder, "simplify in.glb out.glb --report r.json" + no_time);
     CHECK(outcome.code == 0);
     CHECK(outcome.out.find("reached_time_limit") != std::string::npos);
@@ -31,8 +30,7 @@ TEST_CASE("simplify without time writes the model with its faces and images and 
 }
 
 TEST_CASE("simplify with much time writes the same bytes as without a limit") {
-    const Folder folder;
-    faqem::save(sheet(20, 0.2), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(20, 0.2));
     REQUIRE(run(folder, "simplify in.glb a.glb --history a.history").code == 0);
     REQUIRE(run(folder, "simplify in.glb b.glb --history b.history --max-seconds 1e8").code == 0);
     CHECK(read(folder / "a.glb") == read(folder / "b.glb"));
@@ -40,8 +38,7 @@ TEST_CASE("simplify with much time writes the same bytes as without a limit") {
 }
 
 TEST_CASE("simplify exits with 12 if there is no result that the other options allow in time") {
-    const Folder folder;
-    faqem::save(sheet(20, 0.2), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(20, 0.2));
     for (const std::string other : {"--correspondence out.bin", "--max-bytes 300"}) {
         CAPTURE(other);
         const Outcome outcome = run(folder, "simplify in.glb out.glb " + other + no_time);

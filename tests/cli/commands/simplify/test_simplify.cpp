@@ -26,8 +26,7 @@ std::size_t face_count(const faqem::Asset& asset) {
 }  // namespace
 
 TEST_CASE("simplify writes a simplified model, a report and a summary") {
-    const Folder folder;
-    faqem::save(sheet(20), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(20));
     const Outcome outcome =
         run(folder, "simplify in.glb out.glb --faces 100 --texture-size 256 --report r.json");
     CHECK(outcome.code == 0);
@@ -102,8 +101,7 @@ TEST_CASE("simplify --bake auto adapts to the output format and to sources witho
 }
 
 TEST_CASE("baking options determine maps and image format and the report describes the pages") {
-    const Folder folder;
-    faqem::save(sheet(12), folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(12));
     const Outcome outcome = run(folder,
                                 "simplify in.glb out.glb --texture-size 64 --normal-map on --image-format "
                                 "jpeg:60 --correspondence map.bin --report r.json");
@@ -178,8 +176,7 @@ TEST_CASE("simplify --history writes the histories of all parts one after the ot
 
 TEST_CASE("SIGTERM and SIGINT end simplify with 8 and no temporary files") {
     for (const int number : {SIGTERM, SIGINT}) {
-        const Folder folder;
-        faqem::save(sheet(200), folder / "in.glb");
+        const ModelFolder folder("in.glb", sheet(200));
         const pid_t process = fork();
         REQUIRE(process >= 0);
         if (process == 0) {

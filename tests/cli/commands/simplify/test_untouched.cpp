@@ -26,8 +26,7 @@ std::size_t untouched(const Folder& folder, const std::string& in_and_out, const
 }  // namespace
 
 TEST_CASE("untouched: the command keeps vertices and image bytes") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(8));
     CHECK(untouched(folder, "hill.glb out.glb") == 1);
     const faqem::Asset before = faqem::load(folder / "hill.glb"), after = faqem::load(folder / "out.glb");
     CHECK(after.parts[0].positions == before.parts[0].positions);
@@ -38,8 +37,7 @@ TEST_CASE("untouched: the command keeps vertices and image bytes") {
 }
 
 TEST_CASE("untouched: options for images and normals apply where they differ from their defaults") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(8));
     for (const std::string options :
          {"--texture-size 128", "--image-format png", "--image-format jpeg", "--bake atlas",
           "--normal-map off", "--normals flat", "--correspondence c.bin"})
@@ -52,8 +50,7 @@ TEST_CASE("untouched: options for images and normals apply where they differ fro
 }
 
 TEST_CASE("untouched: other formats keep what they can store") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(8));
     faqem::save(sheet(8), folder / "hill.obj");
     CHECK(untouched(folder, "hill.glb out.obj") == 0);  // glTF's materials do not fit into OBJ
     CHECK(untouched(folder, "hill.obj out.obj") == 1);
@@ -71,8 +68,7 @@ TEST_CASE("untouched: other formats keep what they can store") {
 }
 
 TEST_CASE("untouched: truncate gives the same bytes") {
-    const Folder folder;
-    faqem::save(sheet(8), folder / "hill.glb");
+    const ModelFolder folder("hill.glb", sheet(8));
     CHECK(untouched(folder, "hill.glb out.glb", "--history h.bin") == 1);
     REQUIRE(run(folder, "truncate h.bin cut.glb --source hill.glb --faces 20000").code == 0);
     CHECK(read(folder / "cut.glb") == read(folder / "out.glb"));
