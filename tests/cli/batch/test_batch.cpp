@@ -30,13 +30,15 @@ std::string status(const Outcome& outcome, const std::string& name) {
     return lines.contains(name) ? lines.at(name)["status"].get<std::string>() : "none";
 }
 
-/// Writes in/a.glb, in/sub/b.obj with its library and image, and in/sub/c.ply.
-void make_models(const Folder& folder) {
-    fs::create_directories(folder / "in/sub");
-    faqem::save(sheet(8), folder / "in/a.glb");
-    faqem::save(sheet(10), folder / "in/sub/b.obj");
-    faqem::save(sheet(6), folder / "in/sub/c.ply");
-}
+/// Has in/a.glb, in/sub/b.obj with its library and image, and in/sub/c.ply.
+struct Models : Folder {
+    Models() {
+        fs::create_directories(*this / "in/sub");
+        faqem::save(sheet(8), *this / "in/a.glb");
+        faqem::save(sheet(10), *this / "in/sub/b.obj");
+        faqem::save(sheet(6), *this / "in/sub/c.ply");
+    }
+};
 
 /// Changes the modification time of a file, but not its content.
 void touch(const fs::path& file) {
@@ -48,8 +50,7 @@ const std::string batch = "batch in out --texture-size 64 --ratio 0.5 ";
 }  // namespace
 
 TEST_CASE("batch writes the same bytes as simplify for every model of a directory tree") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     write(folder / "in/notes.txt", "no model");
     const Outcome outcome = run(folder, batch + "--jobs 2");
     CHECK(outcome.code == 0);
@@ -76,8 +77,7 @@ TEST_CASE("batch writes the same bytes as simplify for every model of a director
 }
 
 TEST_CASE("batch --format selects the output format") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     CHECK(run(folder, batch + "--format ply").code == 0);
     CHECK(fs::exists(folder / "out/sub/b.ply"));
     CHECK(run(folder, "batch in other --format off").code == 2);
@@ -85,8 +85,7 @@ TEST_CASE("batch --format selects the output format") {
 }
 
 TEST_CASE("a failing model does not stop a batch and its line has the code and message of simplify") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     write(folder / "in/broken.ply", "ply\nno header");
     write(folder / "in/empty.obj", "v 0 0 0\n");
     write(folder / "in/point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
@@ -141,8 +140,7 @@ TEST_CASE("batch reports links that lead to no file as models that cannot be rea
 }
 
 TEST_CASE("batch applies --max-error and --strict to each model") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     const Outcome outcome = run(folder, batch + "--max-error 1e-9");
     CHECK(outcome.code == 9);
     CHECK(lines_of(outcome).at("a.glb")["code"] == 6);
@@ -162,8 +160,7 @@ TEST_CASE("batch applies --max-error and --strict to each model") {
 }
 
 TEST_CASE("two models with the same output file are an error before the batch starts") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     faqem::save(sheet(4), folder / "in/a.stl");
     const Outcome outcome = run(folder, batch);
     CHECK(outcome.code == 2);
@@ -174,8 +171,7 @@ TEST_CASE("two models with the same output file are an error before the batch st
 }
 
 TEST_CASE("batch does not read its results as models and does not overwrite its models") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     CHECK(run(folder, "batch in in").code == 2);
     CHECK(run(folder, "batch in in/sub/..").code == 2);
     CHECK(run(folder, "batch in in/out --texture-size 64").code == 0);
@@ -198,8 +194,7 @@ TEST_CASE("batch exits with 3 if the input directory is missing or has no models
 }
 
 TEST_CASE("batch overwrites existing files only with --force") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     fs::create_directory(folder / "out");
     write(folder / "out/a.glb", "precious");
     for (const char* resume : {"", "--resume"}) {
@@ -216,8 +211,7 @@ TEST_CASE("batch overwrites existing files only with --force") {
 }
 
 TEST_CASE("batch --resume processes only models that are new, changed or without result") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     const auto again = [&](const std::string& name) { return status(run(folder, batch + "--resume"), name); };
     REQUIRE(run(folder, batch + "--resume").code == 0);
     const Outcome second = run(folder, batch + "--resume");
@@ -264,8 +258,7 @@ TEST_CASE("batch --resume processes only models that are new, changed or without
 }
 
 TEST_CASE("batch --resume redoes a result whose record is truncated") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     REQUIRE(run(folder, batch + "--jobs 1").code == 0);
     const fs::path record = fs::directory_iterator(folder / "out/.faqem-batch/directory")->path();
     // Only the first entry of this result remains, which says that it was begun, so that it may be
@@ -303,8 +296,7 @@ TEST_CASE("batch exits with 8 after a signal and can be resumed") {
 }
 
 TEST_CASE("batch --resume keeps a file that was there before an attempt that did not end") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     REQUIRE(run(folder, batch + "--jobs 1").code == 0);
     const auto file_record = [&] {
         return fs::directory_iterator(folder / "out/.faqem-batch/directory")->path();
@@ -328,8 +320,7 @@ TEST_CASE("batch --resume keeps a file that was there before an attempt that did
 }
 
 TEST_CASE("batch completes with a memory limit below the estimate of each model") {
-    const Folder folder;
-    make_models(folder);
+    const Models folder;
     CHECK(run(folder, batch + "--jobs 3 --max-memory 1MB").code == 0);
     for (const char* wrong : {"--max-memory 0", "--max-memory much", "--max-memory -1GB", "--jobs -1"}) {
         CAPTURE(wrong);

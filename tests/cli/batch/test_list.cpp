@@ -16,13 +16,15 @@ namespace {
 using Json = nlohmann::json;
 
 /// Twelve models, and models.jsonl with them.
-void make_list(const Folder& folder) {
-    fs::create_directories(folder / "in/sub");
-    for (unsigned i = 0; i < 12; ++i)
-        faqem::save(sheet(4 + i),
-                    folder / ("in/" + std::string(i % 2 ? "sub/" : "") + "m" + std::to_string(i) + ".ply"));
-    REQUIRE(run(folder, "list in -o models.jsonl").code == 0);
-}
+struct ListedModels : Folder {
+    ListedModels() {
+        fs::create_directories(*this / "in/sub");
+        for (unsigned i = 0; i < 12; ++i)
+            faqem::save(sheet(4 + i), *this / ("in/" + std::string(i % 2 ? "sub/" : "") + "m" +
+                                               std::to_string(i) + ".ply"));
+        REQUIRE(run(*this, "list in -o models.jsonl").code == 0);
+    }
+};
 
 std::vector<Json> json_lines(const std::string& text) {
     std::vector<Json> lines;
@@ -56,8 +58,7 @@ const std::string shard_words = "batch --list models.jsonl out --bake none --thr
 }  // namespace
 
 TEST_CASE("the shards of a list have the bytes of one batch, and a second run begins no model") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     REQUIRE(run(folder, "batch in plain --bake none --threads 1").code == 0);
     std::size_t models = 0;
     for (const char* shard : {"0/3", "1/3", "2/3"}) {
@@ -80,8 +81,7 @@ TEST_CASE("the shards of a list have the bytes of one batch, and a second run be
 }
 
 TEST_CASE("a result that is missing or has another size is made again, all others are not") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     REQUIRE(run(folder, shard_words).code == 0);
     for (const auto& entry : fs::recursive_directory_iterator(folder / "out"))
         if (entry.path().filename() == "m0.ply.glb") write(entry.path(), "cut");
@@ -93,8 +93,7 @@ TEST_CASE("a result that is missing or has another size is made again, all other
 }
 
 TEST_CASE("models that cannot be read are refused, and the shard is complete") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     write(folder / "in/m0.ply", "no model");
     const Outcome outcome = run(folder, shard_words);
     CHECK(outcome.code == 0);
@@ -105,8 +104,7 @@ TEST_CASE("models that cannot be read are refused, and the shard is complete") {
 }
 
 TEST_CASE("a model whose attempts ended without an end five times, or that crashed twice, is given up") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     REQUIRE(run(folder, shard_words).code == 0);
     Json started;
     for (const auto& entry : fs::directory_iterator(folder / "out/.faqem-batch/0-of-1"))
@@ -144,8 +142,7 @@ TEST_CASE("a model whose attempts ended without an end five times, or that crash
 }
 
 TEST_CASE("another list, number of shards or other options are another run, which only --new-run allows") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     REQUIRE(run(folder, shard_words + "--shard 0/2").code == 0);
     for (const char* other : {"--shard 0/3", "--shard 1/2 --ratio 0.3"}) {
         const Outcome outcome = run(folder, shard_words + other);
@@ -160,8 +157,7 @@ TEST_CASE("another list, number of shards or other options are another run, whic
 }
 
 TEST_CASE("a list may give each model an output and options") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     write(folder / "models.jsonl",
           R"({"id":"a","input":"in/m0.ply","output":"x/y.obj","options":{"faces":10}})"
           "\n"
@@ -178,8 +174,7 @@ TEST_CASE("a list may give each model an output and options") {
 }
 
 TEST_CASE("a table with sha256 and local_path is a list") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     write(folder / "table.csv", "name,sha256,local_path\n\"a, b\",0123,in/m0.ply\n");
     REQUIRE(run(folder, "list table.csv -o models.jsonl --force").code == 0);
     const auto lines = json_lines(read(folder / "models.jsonl"));
@@ -205,8 +200,7 @@ TEST_CASE("the bytes of a model in lists and records are those of its files toge
 }
 
 TEST_CASE("a list is read once, so that it may come from a pipe") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     const std::string in = (folder / "in/m0.ply").string();
     for (const std::string end : {"\n", ""}) {
         const std::string list = R"({"id":"a","input":")" + in + "\"}" + end;
@@ -220,8 +214,7 @@ TEST_CASE("a list is read once, so that it may come from a pipe") {
 }
 
 TEST_CASE("lists that cannot be right are errors before the first model") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     const auto message = [&](const std::string& list) {
         write(folder / "models.jsonl", list);
         const Outcome outcome = run(folder, shard_words);
@@ -251,16 +244,14 @@ TEST_CASE("lists that cannot be right are errors before the first model") {
 }
 
 TEST_CASE("an empty name of a shard, as of a variable that is not set, is not the whole list") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     const Outcome outcome = run(folder, shard_words + "--shard \"\"");
     CHECK(outcome.code == 2);
     CHECK(outcome.out.empty());
 }
 
 TEST_CASE("a model whose id is too long for the name of a file does not stop its shard") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     std::string id;
     while (id.size() < 500) id += "\xc3\xa9";  // six bytes in a name
     write(folder / "models.jsonl", R"({"id":")" + id + R"(","input":"in/m0.ply"})" + "\n");
@@ -270,8 +261,7 @@ TEST_CASE("a model whose id is too long for the name of a file does not stop its
 }
 
 TEST_CASE("merging finds two models with one output in different shards") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     write(folder / "models.jsonl", R"({"id":"m0","input":"in/m0.ply","output":"x.glb"})"
                                    "\n"
                                    R"({"id":"m2","input":"in/m2.ply","output":"./x.glb"})"
@@ -284,8 +274,7 @@ TEST_CASE("merging finds two models with one output in different shards") {
 }
 
 TEST_CASE("a shard whose records cannot be written is to be tried again, and the next attempt completes it") {
-    const Folder folder;
-    make_list(folder);
+    const ListedModels folder;
     const std::string words = "batch --list models.jsonl out --bake none --faces 4 --format ply --jobs 1";
     // No file may have more than 4096 bytes. Twelve models have more in their records, and fewer in each result.
     const int status =
