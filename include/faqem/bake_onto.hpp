@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "faqem/asset.hpp"
@@ -27,6 +28,12 @@ struct OntoOptions {
     std::optional<Length> max_distance = {};
     OntoUvs uvs = OntoUvs::automatic;
 };
+
+/// Options from text.
+/// \param uvs           `auto`, `keep`, `new`, or empty
+/// \param max_distance  as `0.1`, `2%` of the diagonal, or empty
+/// \throws OptionError  a text has another form, or the distance is not above 0
+FAQEM_EXPORT OntoOptions onto_options(std::string_view uvs, std::string_view max_distance);
 
 /// Result of bake_onto(): the target with new textures, with the report of the run.
 struct BakedOnto : SimplifiedAsset {

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "bake/onto/onto_options.hpp"
 #include "capi/c_mesh.hpp"
+#include "faqem/bake_onto.hpp"
 #include "scene/check_asset.hpp"
 #include "scene/resolved_options.hpp"
 
@@ -83,7 +83,7 @@ faqem_status faqem_asset_bake_onto(const faqem_asset* source, const faqem_asset*
                                    const char* max_distance, const faqem_options* options,
                                    faqem_asset** baked, faqem_error* error) {
     return capi::catch_exceptions(error, {{source, "source"}, {target, "target"}, {baked, "baked"}}, [&] {
-        const OntoOptions onto = detail::onto_options(uvs ? uvs : "", max_distance ? max_distance : "");
+        const OntoOptions onto = onto_options(uvs ? uvs : "", max_distance ? max_distance : "");
         *baked = new faqem_asset(
             bake_onto(source->asset, target->asset, capi::options_or_defaults(options), onto));
     });

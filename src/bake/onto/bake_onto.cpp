@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,13 +42,13 @@ void check_options(const Options& options, const OntoOptions& onto) {
         throw OptionError("bake_onto: max_distance must be finite and above 0");
 }
 
-const Asset& finest(const Asset& asset, std::optional<detail::FinestLevel>& storage, Report& report) {
+/// A valid asset without coarser levels of detail.
+Asset finest(Asset asset, Report& report) {
     detail::check_asset(asset);
     report.warnings.insert(report.warnings.end(), asset.warnings.begin(), asset.warnings.end());
-    storage = detail::finest_level(asset);
-    if (!storage) return asset;
-    report.warnings.push_back(storage->warning);
-    return storage->asset;
+    const std::string warning = detail::keep_finest_level(asset);
+    if (!warning.empty()) report.warnings.push_back(warning);
+    return asset;
 }
 
 /// The source as one part. What of its materials is in its own file, where the result cannot refer to it, is left out.
@@ -138,7 +137,7 @@ void warn(const Asset& target, BakedOnto& result) {
 
 }  // namespace
 
-OntoOptions detail::onto_options(std::string_view uvs, std::string_view max_distance) {
+OntoOptions onto_options(std::string_view uvs, std::string_view max_distance) {
     OntoOptions result;
     if (!uvs.empty() && uvs != "auto") {
         result.uvs = uvs == "keep" ? OntoUvs::keep : OntoUvs::created;
@@ -146,8 +145,8 @@ OntoOptions detail::onto_options(std::string_view uvs, std::string_view max_dist
             throw OptionError("uvs: '" + std::string(uvs) + "' is not auto, keep or new");
     }
     if (max_distance.empty()) return result;
-    const OptionValue length =
-        parse_option_number(max_distance, OptionKind::length, {.excludes_min = true}, {}, "max_distance");
+    const detail::OptionValue length = detail::parse_option_number(
+        max_distance, detail::OptionKind::length, {.excludes_min = true}, {}, "max_distance");
     result.max_distance = {*length.number, length.unit};
     return result;
 }
@@ -159,9 +158,8 @@ BakedOnto bake_onto(const Asset& given_source, const Asset& given_target, const 
     const RunContext context(requested);
     BakedOnto result;
     try {
-        std::optional<detail::FinestLevel> source_level, target_level;
-        const Asset &source = finest(given_source, source_level, result.report),
-                    &target = finest(given_target, target_level, result.report);
+        const Asset source = finest(given_source, result.report),
+                    target = finest(given_target, result.report);
         Options options = requested;
         if (options.format == ModelFormat::automatic) options.format = target.format;
         const Asset flat = flat_source(source, result.report);
@@ -169,14 +167,12 @@ BakedOnto bake_onto(const Asset& given_source, const Asset& given_target, const 
             detail::scene_size(source)(onto.max_distance.value_or(of_diagonal(usual_max_distance)));
         bake_parts(flat, target, options, onto, max_distance, context, result);
         warn(target, result);
-        for (const Part& part : target.parts) {
-            result.report.faces_in += part.triangles.size();
-            result.report.vertices_in += part.positions.size();
+        for (std::size_t p = 0; p < target.parts.size(); ++p) {
+            result.report.faces_in += target.parts[p].triangles.size();
+            result.report.vertices_in += target.parts[p].positions.size();
+            result.report.vertices_out += result.asset.parts[p].positions.size();
         }
-        for (const Part& part : result.asset.parts) {
-            result.report.faces_out += part.triangles.size();
-            result.report.vertices_out += part.positions.size();
-        }
+        result.report.faces_out = result.report.faces_in;
         result.report.bytes_in = target.file_bytes;
     } catch (const engine::Cancelled& stopped) {
         if (stopped.reason != StopReason::cancelled)

@@ -126,20 +126,16 @@ Part textured_part(const Part& part, const FlatTarget& target, const FlatTarget:
         set_tangents(mesh->part, with_tangents, values.uvs[0], values.tangents);
         if (part.normals.empty()) values.normals = std::move(mesh->part.normals.normals);
     }
-    to.colors.clear();
-    to.tangents.clear();
-    if (baked.uvs.empty()) return to;
     SimplifyResult split;  // with the vertices of the part
     split.mesh.positions = part.positions;
     split.mesh.triangles = part.triangles;
     WeldedPart welded = weld_corners({.source = &part, .simplified = &split, .map = nullptr}, values);
     std::vector<Index> vertices;
     for (const std::uint64_t c : welded.corner) vertices.push_back(part.triangles[c / 3][c % 3]);
-    const Part whole = std::move(to);
-    to = whole;
-    select_vertices(whole, vertices, to);
+    select_vertices(part, vertices, to);
+    to.colors.clear();
     to.triangles = std::move(welded.part.triangles);
-    if (!keeps_uvs) to.uvs = std::move(welded.part.uvs);
+    if (!keeps_uvs && !baked.uvs.empty()) to.uvs = std::move(welded.part.uvs);
     to.tangents = std::move(welded.part.tangents);
     if (!welded.part.normals.empty()) to.normals = std::move(welded.part.normals);
     return to;

@@ -33,7 +33,7 @@ struct BakeArguments : SimplifyArguments {
 int run(const BakeArguments& arguments) {
     Options options = make_options(arguments.options);
     options.format = format_of_output(arguments.out);
-    const OntoOptions onto = detail::onto_options(arguments.uvs, arguments.max_distance);
+    const OntoOptions onto = onto_options(arguments.uvs, arguments.max_distance);
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.target);
     protect_input(arguments.source);
