@@ -180,7 +180,7 @@ class Extension(unittest.TestCase):
                                         window_manager=types.SimpleNamespace(event_timer_remove=lambda timer: None),
                                         workspace=types.SimpleNamespace(status_text_set=status.append))
         run = module.start(operator, context)
-        while not run.progress:
+        while run.is_alive() and not run.progress:
             run.join(0.001)
         timer, escape = (types.SimpleNamespace(type=kind, value="PRESS") for kind in ("TIMER", "ESC"))
         self.assertEqual(kind.modal(operator, context, timer), {"RUNNING_MODAL"})

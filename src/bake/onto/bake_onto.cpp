@@ -12,7 +12,6 @@
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/messages.hpp"
 #include "bake/onto/onto_map.hpp"
-#include "bake/onto/onto_options.hpp"
 #include "bake/onto/onto_target.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "bake/texture/bake_job.hpp"

@@ -1,3 +1,5 @@
+#include "faqem/bake_onto.hpp"
+
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -9,7 +11,6 @@
 
 #include "asset/file_format.hpp"
 #include "asset/io/set_folder.hpp"
-#include "bake/onto/onto_options.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"
