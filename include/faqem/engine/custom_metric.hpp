@@ -5,7 +5,6 @@
 #include <cmath>
 #include <concepts>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "faqem/engine/metric/accumulated.hpp"
@@ -35,16 +34,16 @@ concept Adjustment = requires(const A& adjust, const Inner& inner, const Collaps
 /// \tparam Inner   a metric whose evaluate() returns exact costs, such as AccumulatedMetric
 /// \tparam Adjust  see Adjustment; called from const functions on the calling thread
 template <CollapseMetric Inner, Adjustment<Inner> Adjust>
-class CustomMetric {
+class CustomMetric : public MetricWrapper<Inner> {
+    using MetricWrapper<Inner>::inner_;
+
 public:
     static_assert(!Inner::has_exact_cost, "an adjustment must see exact costs");
-    static constexpr bool has_exact_cost = false;
 
     /// \param inner   the metric to adjust; moved into this object
     /// \param adjust  the adjustment; moved into this object
-    CustomMetric(Inner inner, Adjust adjust) : inner_(std::move(inner)), adjust_(std::move(adjust)) {}
-
-    void initialise(const CollapseMesh& mesh, const PairTable& pairs) { inner_.initialise(mesh, pairs); }
+    CustomMetric(Inner inner, Adjust adjust)
+        : MetricWrapper<Inner>(std::move(inner)), adjust_(std::move(adjust)) {}
 
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                                       AllowedPosition allowed_position) const {
@@ -55,38 +54,13 @@ public:
         return found;
     }
 
-    static double exact_cost(const CollapseMesh&, const PairTable&, Index, Index,
-                             const Candidate& candidate) {
-        return candidate.cost;
-    }
-
-    static bool exceeds_limit(const Candidate&) { return false; }
-    static double contraction_cost(const CollapseMesh&, const Contraction&, const Candidate& candidate) {
-        return candidate.cost;
-    }
-
-    double weight(Index u, Index v) const { return inner_.weight(u, v); }
-
-    void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,
-                         const Vector3& p) {
-        inner_.before_collapse(mesh, pairs, survivor, removed, p);
-    }
-
-    void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor,
-                        std::span<const PairTable::Change> around) {
-        inner_.after_collapse(mesh, pairs, survivor, around);
-    }
-
     /// At least `deferred`: the adjustment may depend on the one-ring of the neighbour, which has changed.
     Reevaluation reevaluation(const PairTable::Change& change) const {
         const Reevaluation inner = inner_.reevaluation(change);
         return inner == Reevaluation::none ? Reevaluation::deferred : inner;
     }
 
-    void set_target(std::size_t target_faces, double weight) { inner_.set_target(target_faces, weight); }
-
 private:
-    Inner inner_;
     Adjust adjust_;
 };
 

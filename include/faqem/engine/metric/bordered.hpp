@@ -19,18 +19,16 @@ namespace engine {
 /// target can be reached.
 /// \tparam Inner  the metric without borders; its evaluate() takes the flat of the new vertex as last argument
 template <CollapseMetric Inner>
-class BorderedMetric {
-public:
-    static constexpr bool has_exact_cost = Inner::has_exact_cost;
+class BorderedMetric : public MetricWrapper<Inner> {
+    using MetricWrapper<Inner>::inner_;
 
+public:
     /// \param inner   moved into this object
     /// \param flats   borrowed
     /// \param at      one per vertex slot, see PlanarBorders, or empty; borrowed, updated with the mesh
     /// \param weight  cost of a squared distance, >= 0
     BorderedMetric(Inner inner, std::span<const Flat> flats, std::vector<Index>& at, double weight)
-        : inner_(std::move(inner)), flats_(flats), at_(&at), weight_(weight) {}
-
-    void initialise(const CollapseMesh& mesh, const PairTable& pairs) { inner_.initialise(mesh, pairs); }
+        : MetricWrapper<Inner>(std::move(inner)), flats_(flats), at_(&at), weight_(weight) {}
 
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                                       AllowedPosition allowed_position) const {
@@ -55,16 +53,6 @@ public:
         return found;
     }
 
-    double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
-                      const Candidate& candidate) {
-        return inner_.exact_cost(mesh, pairs, u, v, candidate);
-    }
-    bool exceeds_limit(const Candidate& candidate) { return inner_.exceeds_limit(candidate); }
-    double contraction_cost(const CollapseMesh& mesh, const Contraction& contraction,
-                            const Candidate& candidate) {
-        return inner_.contraction_cost(mesh, contraction, candidate);
-    }
-    double weight(Index u, Index v) const { return inner_.weight(u, v); }
     void set_target(std::size_t target_faces, double weight) {
         inner_.set_target(target_faces, weight);
         weight_ = weight;
@@ -74,18 +62,12 @@ public:
         inner_.before_collapse(mesh, pairs, survivor, removed, p);
         if (!at_->empty()) (*at_)[survivor] = PlanarBorders::merged((*at_)[survivor], (*at_)[removed]);
     }
-    void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor,
-                        std::span<const PairTable::Change> around) {
-        inner_.after_collapse(mesh, pairs, survivor, around);
-    }
-    Reevaluation reevaluation(const PairTable::Change& change) const { return inner_.reevaluation(change); }
 
 private:
     /// At the target a face has about the area `weight`. A lost corner then costs as much as a lost component of
     /// one face.
     static constexpr double corner_factor = 100;
 
-    Inner inner_;
     std::span<const Flat> flats_;
     std::vector<Index>* at_;
     double weight_;

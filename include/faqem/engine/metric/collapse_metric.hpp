@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// The concept of collapse metrics, and defaults for its optional parts.
+/// The concept of collapse metrics, and bases of metrics.
 
 #include <concepts>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "faqem/engine/constraints/contraction.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
@@ -26,7 +27,7 @@ enum class Reevaluation {
 /// A collapse metric: determines the cost of a collapse and the position of the new vertex. It owns its
 /// per-vertex state, which it updates with each collapse. Positions and lengths are in engine units. A metric
 /// derives from MetricDefaults and has at least evaluate() and reevaluation(). A metric that wraps another one
-/// does not derive from it, so that the compiler checks that it forwards everything.
+/// derives from MetricWrapper and has at least evaluate().
 template <class M>
 concept CollapseMetric = requires(M metric, const M& const_metric, const CollapseMesh& mesh,
                                   const PairTable& pairs, Index pair, Index u, Index v,
@@ -77,6 +78,41 @@ struct MetricDefaults {
     static void before_collapse(const CollapseMesh&, const PairTable&, Index, Index, const Vector3&) {}
     static void after_collapse(const CollapseMesh&, const PairTable&, Index,
                                std::span<const PairTable::Change>) {}
+};
+
+/// Base of metrics that wrap another one: everything but evaluate() is that of the inner metric.
+template <CollapseMetric Inner>
+class MetricWrapper {
+public:
+    static constexpr bool has_exact_cost = Inner::has_exact_cost;
+
+    /// \param inner  moved into this object
+    explicit MetricWrapper(Inner inner) : inner_(std::move(inner)) {}
+
+    void initialise(const CollapseMesh& mesh, const PairTable& pairs) { inner_.initialise(mesh, pairs); }
+    double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+                      const Candidate& candidate) {
+        return inner_.exact_cost(mesh, pairs, u, v, candidate);
+    }
+    bool exceeds_limit(const Candidate& candidate) { return inner_.exceeds_limit(candidate); }
+    double contraction_cost(const CollapseMesh& mesh, const Contraction& contraction,
+                            const Candidate& candidate) {
+        return inner_.contraction_cost(mesh, contraction, candidate);
+    }
+    double weight(Index u, Index v) const { return inner_.weight(u, v); }
+    void set_target(std::size_t target_faces, double weight) { inner_.set_target(target_faces, weight); }
+    void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,
+                         const Vector3& p) {
+        inner_.before_collapse(mesh, pairs, survivor, removed, p);
+    }
+    void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor,
+                        std::span<const PairTable::Change> around) {
+        inner_.after_collapse(mesh, pairs, survivor, around);
+    }
+    Reevaluation reevaluation(const PairTable::Change& change) const { return inner_.reevaluation(change); }
+
+protected:
+    Inner inner_;
 };
 
 }  // namespace engine

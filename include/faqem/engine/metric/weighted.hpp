@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,16 +18,14 @@ namespace engine {
 /// new vertex is interpolated linearly between both, at the point of the edge closest to it.
 /// \tparam Inner  the metric for weight 1
 template <CollapseMetric Inner>
-class WeightedMetric {
-public:
-    static constexpr bool has_exact_cost = Inner::has_exact_cost;
+class WeightedMetric : public MetricWrapper<Inner> {
+    using MetricWrapper<Inner>::inner_;
 
+public:
     /// \param inner    the metric for weight 1; moved into this object
     /// \param weights  one per vertex slot, finite and > 0
     WeightedMetric(Inner inner, std::vector<double> weights)
-        : inner_(std::move(inner)), weights_(std::move(weights)) {}
-
-    void initialise(const CollapseMesh& mesh, const PairTable& pairs) { inner_.initialise(mesh, pairs); }
+        : MetricWrapper<Inner>(std::move(inner)), weights_(std::move(weights)) {}
 
     std::optional<Candidate> evaluate(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                                       AllowedPosition allowed_position) const {
@@ -41,7 +38,7 @@ public:
 
     double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
                       const Candidate& candidate) {
-        if constexpr (has_exact_cost) {
+        if constexpr (Inner::has_exact_cost) {
             const double w = weight(u, v);
             const double cost =
                 w * inner_.exact_cost(mesh, pairs, u, v, {candidate.point, candidate.cost / w});
@@ -51,7 +48,6 @@ public:
         }
     }
 
-    bool exceeds_limit(const Candidate& candidate) { return inner_.exceeds_limit(candidate); }
     double contraction_cost(const CollapseMesh& mesh, const Contraction& contraction,
                             const Candidate& candidate) {
         const double w = weight(contraction.vertices()[0], contraction.vertices()[1]);
@@ -68,20 +64,10 @@ public:
         weights_[survivor] += t * (weights_[removed] - weights_[survivor]);
     }
 
-    void after_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor,
-                        std::span<const PairTable::Change> around) {
-        inner_.after_collapse(mesh, pairs, survivor, around);
-    }
-
-    Reevaluation reevaluation(const PairTable::Change& change) const { return inner_.reevaluation(change); }
-
-    void set_target(std::size_t target_faces, double weight) { inner_.set_target(target_faces, weight); }
-
     /// Weight of the pair (u, v): the larger one of both vertices.
     double weight(Index u, Index v) const { return std::max(weights_[u], weights_[v]); }
 
 private:
-    Inner inner_;
     std::vector<double> weights_;
 };
 
