@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from typing import Any
 
 import numpy
@@ -168,17 +169,6 @@ class MeshArrays:
         setattr(self.mesh, field, array.ctypes.data_as(pointers[field]))
 
 
-class _Memory:
-    """Memory of the library for numpy, which keeps this object, and with it the owner of the memory, alive."""
-
-    def __init__(self, pointer: Any, shape: tuple[int, ...], owner: object, writable: bool) -> None:
-        self.owner = owner
-        self.__array_interface__ = {
-            "version": 3, "shape": shape, "typestr": numpy.dtype(pointer._type_).str,
-            "data": (ctypes.addressof(pointer.contents), not writable),
-        }
-
-
 def view_array(pointer: Any, shape: tuple[int, ...], owner: object, *, writable: bool = False) -> Array:
     """Returns the array that a getter of the C API returns, without a copy; null gives an empty array.
 
@@ -186,6 +176,8 @@ def view_array(pointer: Any, shape: tuple[int, ...], owner: object, *, writable:
     """
     if not pointer:
         return numpy.empty((0, *shape[1:]), dtype=numpy.dtype(pointer._type_))
-    memory: Any = _Memory(pointer, shape, owner, writable)
-    array: Array = numpy.asarray(memory)
+    memory: Any = (pointer._type_ * math.prod(shape)).from_address(ctypes.addressof(pointer.contents))
+    memory.owner = owner
+    view = memoryview(memory)
+    array: Array = numpy.frombuffer(view if writable else view.toreadonly(), pointer._type_).reshape(shape)
     return array
