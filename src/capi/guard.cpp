@@ -1,6 +1,7 @@
 #include "capi/guard.hpp"
 
 #include <cstring>
+#include <exception>
 #include <new>
 #include <string_view>
 
@@ -35,29 +36,26 @@ faqem_status set_error(faqem_error* error, faqem_status status, std::string_view
     return status;
 }
 
+faqem_status status_of(const std::exception& error) {
+    if (dynamic_cast<const CancelledError*>(&error)) return FAQEM_ERROR_CANCELLED;
+    if (dynamic_cast<const OptionError*>(&error)) return FAQEM_ERROR_OPTION;
+    if (dynamic_cast<const UnsupportedError*>(&error)) return FAQEM_ERROR_UNSUPPORTED;
+    if (dynamic_cast<const InputError*>(&error)) return FAQEM_ERROR_INPUT;
+    if (dynamic_cast<const WriteError*>(&error)) return FAQEM_ERROR_WRITE;
+    if (dynamic_cast<const ByteLimitError*>(&error)) return FAQEM_ERROR_BYTE_LIMIT;
+    if (dynamic_cast<const TimeLimitError*>(&error)) return FAQEM_ERROR_TIME_LIMIT;
+    return FAQEM_ERROR_INTERNAL;
+}
+
 }  // namespace
 
 faqem_status status_of_exception(faqem_error* error) noexcept {
     try {
         throw;
-    } catch (const CancelledError& e) {
-        return set_error(error, FAQEM_ERROR_CANCELLED, e.what());
-    } catch (const OptionError& e) {
-        return set_error(error, FAQEM_ERROR_OPTION, e.what());
-    } catch (const UnsupportedError& e) {
-        return set_error(error, FAQEM_ERROR_UNSUPPORTED, e.what());
-    } catch (const InputError& e) {
-        return set_error(error, FAQEM_ERROR_INPUT, e.what());
-    } catch (const WriteError& e) {
-        return set_error(error, FAQEM_ERROR_WRITE, e.what());
-    } catch (const ByteLimitError& e) {
-        return set_error(error, FAQEM_ERROR_BYTE_LIMIT, e.what());
-    } catch (const TimeLimitError& e) {
-        return set_error(error, FAQEM_ERROR_TIME_LIMIT, e.what());
     } catch (const std::bad_alloc&) {
         return set_error(error, FAQEM_ERROR_NO_MEMORY, "not enough memory");
     } catch (const std::exception& e) {
-        return set_error(error, FAQEM_ERROR_INTERNAL, e.what());
+        return set_error(error, status_of(e), e.what());
     } catch (...) {
         return set_error(error, FAQEM_ERROR_INTERNAL, "unknown exception");
     }
