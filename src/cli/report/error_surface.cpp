@@ -80,13 +80,7 @@ ErrorSurface error_surface(const Part& mesh, const Part& to, double spacing, std
     Part part;
     part.name = "error";
     part.positions = mesh.positions;
-    for (const Triangle& t : mesh.triangles) {
-        const Index subdivisions = subdivision_count(mesh, t, spacing);
-        if (subdivisions > 1)
-            subdivide_face(part, t, subdivisions);
-        else
-            part.triangles.push_back(t);
-    }
+    for (const Triangle& t : mesh.triangles) subdivide_face(part, t, subdivision_count(mesh, t, spacing));
     part.face_material.assign(part.triangles.size(), no_index);
     const detail::Surface surface =
         detail::extract_nonempty_surface({to.positions, to.triangles}, "the other mesh");
