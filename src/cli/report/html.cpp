@@ -40,8 +40,7 @@ std::string fill_template(std::string_view text,
             text.remove_prefix(begin + 1);
             continue;
         }
-        const auto value =
-            std::find_if(values.begin(), values.end(), [&](const auto& pair) { return pair.first == name; });
+        const auto value = std::ranges::find(values, name, [](const auto& pair) { return pair.first; });
         assert(value != values.end());
         result += value->second;
         text.remove_prefix(end + 1);
@@ -51,14 +50,8 @@ std::string fill_template(std::string_view text,
 std::string html_table(const std::string& caption, const std::vector<std::string>& titles,
                        const std::vector<std::vector<std::string>>& rows) {
     std::string html = "<div><table>\n<caption>" + escape_html(caption) + "</caption>\n<thead><tr>";
-    for (const std::string& title : titles) {
-        const char* tag = title.empty() ? "td" : "th";
-        html.append("<")
-            .append(tag)
-            .append(title.empty() ? ">" : " scope=\"col\">")
-            .append(breakable_html(title));
-        html.append("</").append(tag).append(">");
-    }
+    for (const std::string& title : titles)
+        html += title.empty() ? "<td></td>" : "<th scope=\"col\">" + breakable_html(title) + "</th>";
     html += "</tr></thead>\n<tbody>\n";
     for (const std::vector<std::string>& row : rows) {
         html += "<tr><th scope=\"row\">" + breakable_html(row.at(0)) + "</th>";
