@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <CLI/StringTools.hpp>
 #include <algorithm>
 #include <ctime>
 #include <iomanip>
@@ -110,16 +111,14 @@ Overwrite check_outputs(std::vector<fs::path> files, bool force) {
 void check_extension(const fs::path& file, const std::vector<std::string_view>& extensions) {
     const std::string extension = detail::lower_case_extension(file);
     if (std::ranges::find(extensions, extension) != extensions.end()) return;
-    std::string known;
-    for (const std::string_view one : extensions) known += (known.empty() ? "" : ", ") + std::string(one);
-    throw OptionError(file.string() + ": the file name must end in one of " + known);
+    throw OptionError(file.string() + ": the file name must end in one of " +
+                      CLI::detail::join(extensions, ", "));
 }
 
 std::string format_names(const std::string& separator) {
-    std::string names;
-    for (const std::string_view extension : detail::format_extensions(detail::FormatUse::write))
-        names += (names.empty() ? "" : separator) + std::string(extension.substr(1));
-    return names;
+    return CLI::detail::join(
+        detail::format_extensions(detail::FormatUse::write),
+        [](std::string_view extension) { return extension.substr(1); }, separator);
 }
 
 std::string default_format() {

@@ -1,5 +1,6 @@
 #include "cli/options/builtin_profiles.hpp"
 
+#include <CLI/StringTools.hpp>
 #include <algorithm>
 #include <array>
 
@@ -26,11 +27,9 @@ constexpr std::array<BuiltinProfile, 2> all_profiles = {
      {"game", "files that every importer of glTF reads: PNG and JPEG images, and geometry without extensions",
       game_options}}};
 
-std::string names(std::string_view separator) {
-    std::string result;
-    for (const BuiltinProfile& profile : all_profiles)
-        result.append(result.empty() ? "" : separator).append(profile.name);
-    return result;
+std::string names(const std::string& separator) {
+    return CLI::detail::join(
+        all_profiles, [](const BuiltinProfile& profile) { return profile.name; }, separator);
 }
 
 }  // namespace
@@ -38,8 +37,7 @@ std::string names(std::string_view separator) {
 std::span<const BuiltinProfile> builtin_profiles() { return all_profiles; }
 
 const BuiltinProfile& builtin_profile(std::string_view name) {
-    const auto found = std::find_if(all_profiles.begin(), all_profiles.end(),
-                                    [&](const BuiltinProfile& profile) { return profile.name == name; });
+    const auto found = std::ranges::find(all_profiles, name, &BuiltinProfile::name);
     if (found != all_profiles.end()) return *found;
     throw OptionError("--profile: unknown value '" + std::string(name) + "' (known: " + names(", ") +
                       "); --config reads a profile from a file");

@@ -61,8 +61,8 @@ const OptionInfo* find_option(const CommandInfo& command, const std::string& key
         if (const std::string name = profile_key(option); !name.empty()) known.push_back(name);
     }
     const std::string suggested = detail::closest_word(key, known);
-    const auto other = std::find_if(tree.commands.begin(), tree.commands.end(),
-                                    [&](const CommandInfo& c) { return find_option(c, key) != nullptr; });
+    const auto other = std::ranges::find_if(
+        tree.commands, [&](const CommandInfo& c) { return find_option(c, key) != nullptr; });
     if (!suggested.empty())
         text += "; did you mean '" + suggested + "'?";
     else if (other != tree.commands.end())
@@ -93,9 +93,9 @@ std::vector<std::string> words_of(const OptionInfo& option, const Json& value, c
 
 /// The value by which an entry of a profile for an option is overridden; null if there is none.
 const ParsedValue* overriding(const std::vector<ParsedValue>& values, const OptionInfo& option) {
-    const auto found = std::find_if(values.begin(), values.end(), [&](const ParsedValue& value) {
+    const auto found = std::ranges::find_if(values, [&](const ParsedValue& value) {
         return value.option == &option ||
-               std::binary_search(option.excludes.begin(), option.excludes.end(), value.option->names.back());
+               std::ranges::binary_search(option.excludes, value.option->names.back());
     });
     return found == values.end() ? nullptr : &*found;
 }

@@ -1,32 +1,27 @@
 #include "cli/shell/completion.hpp"
 
+#include <CLI/StringTools.hpp>
 #include <sstream>
 
 namespace faqem::cli {
 
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text.append(text.empty() ? "" : " ").append(word);
-    return text;
-}
+using CLI::detail::join;
 
 std::string command_names(const CommandTree& tree, const char* between) {
-    std::string text;
-    for (const CommandInfo& command : tree.commands)
-        text.append(text.empty() ? "" : between).append(command.name);
-    return text;
+    return join(
+        tree.commands, [](const CommandInfo& command) { return command.name; }, between);
 }
 
 /// Returns the possible values of a command's positional argument, separated by spaces; empty for files.
 std::string positional_words(const CommandInfo& command) {
-    return command.positionals.empty() ? "" : joined(choices_of(command.positionals.front()));
+    return command.positionals.empty() ? "" : join(choices_of(command.positionals.front()), " ");
 }
 
 std::string bash_case(const CommandInfo& command) {
     std::ostringstream text;
-    text << "        " << command.name << ")\n            options='" << joined(names_of(command.options))
+    text << "        " << command.name << ")\n            options='" << join(names_of(command.options), " ")
          << "'\n";
     if (const std::string words = positional_words(command); !words.empty())
         text << "            words='" << words << "'\n";
@@ -35,7 +30,7 @@ std::string bash_case(const CommandInfo& command) {
         const std::vector<std::string> choices = choices_of(option);
         if (choices.empty()) continue;
         for (const std::string& name : option.names)
-            text << "                " << name << ") words='" << joined(choices) << "' options= ;;\n";
+            text << "                " << name << ") words='" << join(choices, " ") << "' options= ;;\n";
     }
     text << "            esac ;;\n";
     return text.str();
@@ -58,7 +53,7 @@ std::string bash_completion(const CommandTree& tree) {
             "    done\n"
             "    case $command in\n"
             "        '') options='"
-         << joined(names_of(tree.options)) << "' words='" << command_names(tree, " ") << "' ;;\n";
+         << join(names_of(tree.options), " ") << "' words='" << command_names(tree, " ") << "' ;;\n";
     for (const CommandInfo& command : tree.commands) text << bash_case(command);
     // If COMPREPLY is empty, readline completes file names (`-o default`).
     text << "    esac\n"

@@ -1,5 +1,6 @@
 #include "cli/shell/help.hpp"
 
+#include <CLI/StringTools.hpp>
 #include <algorithm>
 #include <sstream>
 
@@ -32,8 +33,7 @@ void add_entry(std::string& help, std::string name, const std::string& text) {
 }
 
 void add_option(std::string& help, const OptionInfo& option, bool all) {
-    std::string names;
-    for (const std::string& name : option.names) names.append(names.empty() ? "" : ", ").append(name);
+    std::string names = CLI::detail::join(option.names, ", ");
     if (!option.value_name.empty()) names.append(" ").append(option.value_name);
     add_entry(help, names, all ? option.description : summary_of(option));
 }

@@ -14,8 +14,7 @@ namespace {
 using ParsedOption = std::pair<const OptionInfo*, CLI::Option*>;
 
 CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
-    std::string names;
-    for (const std::string& name : info.names) names.append(names.empty() ? "" : ",").append(name);
+    std::string names = CLI::detail::join(info.names, ",");
     if (info.is_positional) names.append(",").append(info.value_name);
     if (info.kind == detail::OptionKind::flag) return command.add_flag(names);
     CLI::Option* option = command.add_option(names);
