@@ -15,11 +15,7 @@ Options of_kind(Bake kind) { return {.bake = {.kind = kind}}; }
 // The cube [0, 1]^3 with 8 vertices and no normals.
 Asset cube_asset() {
     Asset asset;
-    asset.parts.resize(1);
-    Part& part = asset.parts[0];
-    for (int i = 0; i < 8; ++i) part.positions.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2)});
-    part.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    asset.parts = {part_of(cube())};
     return asset;
 }
 
@@ -46,6 +42,24 @@ Asset pipe(int n) {
         part.triangles.push_back({i, i + 3, i + 1});
     }
     return asset;
+}
+
+// Checks that the normals of a pipe are perpendicular to its axis, outwards.
+void check_radial(const Part& part) {
+    for (std::size_t v = 0; v < part.positions.size(); ++v)
+        CHECK(dot(part.normals[v], {part.positions[v][0], 0, part.positions[v][2]}) > 0.9999);
+}
+
+// Checks that the corners of the faces have the colours that they have in the source.
+void check_same_colors(const Part& part, const Part& source) {
+    REQUIRE(part.colors.size() == part.positions.size());
+    for (std::size_t f = 0; f < source.triangles.size(); ++f) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Vec4f &got = part.colors[part.triangles[f][c]],
+                        &expected = source.colors[source.triangles[f][c]];
+            for (std::size_t k = 0; k < 4; ++k) CHECK(got[k] == Approx(expected[k]).margin(2e-3));
+        }
+    }
 }
 
 }  // namespace
@@ -80,10 +94,7 @@ TEST_CASE("smooth normals of the source are preserved") {
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), of_kind(Bake::none));
     const Part& part = simplified.asset.parts[0];
     CHECK(part.positions.size() == asset.parts[0].positions.size());
-    for (std::size_t v = 0; v < part.positions.size(); ++v) {
-        const Vec3 radial = {part.positions[v][0], 0, part.positions[v][2]};
-        CHECK(dot(part.normals[v], radial) > 0.9999);
-    }
+    check_radial(part);
 }
 
 TEST_CASE("normals are preserved on faces with reversed winding") {
@@ -93,10 +104,7 @@ TEST_CASE("normals are preserved on faces with reversed winding") {
         std::swap(part.triangles[f][0], part.triangles[f][1]);
     }
     const Part simplified = bake(asset, unchanged(asset), of_kind(Bake::none)).asset.parts[0];
-    for (std::size_t v = 0; v < simplified.positions.size(); ++v) {
-        const Vec3 radial = {simplified.positions[v][0], 0, simplified.positions[v][2]};
-        CHECK(dot(simplified.normals[v], radial) > 0.9999);
-    }
+    check_radial(simplified);
     CHECK(simplified.positions.size() == part.positions.size());
 }
 
@@ -121,9 +129,7 @@ TEST_CASE("normals that are perpendicular to their faces in the source stay so")
     // Upright cards whose normals all point up, as those of grass.
     Asset asset = pipe(16);
     asset.parts[0].normals.assign(asset.parts[0].positions.size(), {0, 1, 0});
-    Options options = of_kind(Bake::none);
-    options.target = ratio(0.5);
-    const Part part = simplify(asset, options).asset.parts[0];
+    const Part part = simplify(asset, {.target = ratio(0.5), .bake = {.kind = Bake::none}}).asset.parts[0];
     CHECK(part.triangles.size() == 16);
     for (const Vec3f& n : part.normals) CHECK(n[1] > 0.999f);
 }
@@ -144,9 +150,7 @@ TEST_CASE("normals stay apart where those of the source are, on facets as large 
         const auto first = static_cast<Index>(3 * f);
         part.triangles.push_back({first, first + 1, first + 2});
     }
-    Options options = of_kind(Bake::none);
-    options.target = ratio(1);
-    const Part result = simplify(faceted, options).asset.parts[0];
+    const Part result = simplify(faceted, {.target = ratio(1), .bake = {.kind = Bake::none}}).asset.parts[0];
     CHECK(result.positions.size() == 4 * strips);
     for (const Triangle& t : result.triangles)
         for (const Index v : t)
@@ -159,14 +163,7 @@ TEST_CASE("vertex colours of the source are preserved") {
     for (std::size_t v = 0; v < part.positions.size(); ++v)
         part.colors.push_back({v / 22.0f, 0.5f, 1 - v / 22.0f, 1});
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), of_kind(Bake::vertex));
-    const Part& out = simplified.asset.parts[0];
-    REQUIRE(out.colors.size() == out.positions.size());
-    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Vec4f &got = out.colors[out.triangles[f][c]], &expected = part.colors[part.triangles[f][c]];
-            for (std::size_t k = 0; k < 4; ++k) CHECK(got[k] == Approx(expected[k]).margin(2e-3));
-        }
-    }
+    check_same_colors(simplified.asset.parts[0], part);
     CHECK(simplified.asset.images.empty());
 }
 
@@ -176,14 +173,7 @@ TEST_CASE("the alpha of vertex colours without a material is kept and does not w
     part.face_material.clear();
     for (std::size_t v = 0; v < part.positions.size(); ++v)
         part.colors.push_back({v / 22.0f, 0.5f, 0, v < 2 ? 0 : v / 22.0f});
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), of_kind(Bake::vertex));
-    const Part& out = simplified.asset.parts[0];
-    REQUIRE(out.colors.size() == out.positions.size());
-    for (std::size_t f = 0; f < part.triangles.size(); ++f)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Vec4f &got = out.colors[out.triangles[f][c]], &expected = part.colors[part.triangles[f][c]];
-            for (std::size_t k = 0; k < 4; ++k) CHECK(got[k] == Approx(expected[k]).margin(2e-3));
-        }
+    check_same_colors(bake(asset, unchanged(asset), of_kind(Bake::vertex)).asset.parts[0], part);
 }
 
 TEST_CASE("vertex colours include texture, factor and alpha and are split between materials") {
@@ -196,11 +186,7 @@ TEST_CASE("vertex colours include texture, factor and alpha and are split betwee
     asset.materials[1].base_color = {0, 0, 1, 1};
     asset.materials[1].double_sided = true;
     asset.parts[0].face_material = {0, 1};
-    const SimplifiedAsset simplified = simplify(asset, [] {
-        Options options = of_kind(Bake::vertex);
-        options.target = ratio(1);
-        return options;
-    }());
+    const SimplifiedAsset simplified = simplify(asset, {.target = ratio(1), .bake = {.kind = Bake::vertex}});
     const Part& part = simplified.asset.parts[0];
     REQUIRE(part.triangles.size() == 2);
     CHECK(part.positions.size() == 6);
