@@ -302,10 +302,7 @@ TEST_CASE("history: the history of a run replays to its result, also after writi
         for (const Preset preset : all_presets) {
             for (const double share : {1.0, 0.5, 0.05}) {
                 INFO(int(preset) << " " << share);
-                Options options;
-                options.preset = preset;
-                options.target = ratio(share);
-                options.history = Recording::on;
+                Options options{.target = ratio(share), .preset = preset, .history = Recording::on};
                 const SimplifyResult result = simplify(mesh.view(), options);
                 validate(result.history);
                 CHECK(same_mesh(replay(result.history), result.mesh));

@@ -18,9 +18,7 @@ namespace {
 const std::vector<Level> wanted_levels = {ratio(0.5), faces(300), faces(40)};
 
 std::vector<SimplifiedLevel> levels_of(const TriangleMesh& mesh, Preset preset) {
-    Options options;
-    options.preset = preset;
-    options.history = Recording::on;
+    Options options{.preset = preset, .history = Recording::on};
     return simplify_levels(mesh.view(), wanted_levels, options);
 }
 
@@ -73,10 +71,9 @@ TEST_CASE("truncate: equals a separate run if the order of collapses does not de
     for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw}) {
         const ChainHistory chain = chain_of(levels_of(mesh, preset));
         for (const std::uint64_t faces : {1500, 1000, 641, 300, 77, 40}) {
-            Options options;
-            options.preset = preset;
-            options.history = Recording::on;
-            options.target = faqem::faces(static_cast<double>(faces));
+            Options options{.target = faqem::faces(static_cast<double>(faces)),
+                            .preset = preset,
+                            .history = Recording::on};
             check_same_restored(restore(truncate_to_faces(chain, faces)), simplify(mesh.view(), options));
         }
     }
@@ -105,8 +102,7 @@ TEST_CASE("truncate: counts above the original give the original, counts below t
 TEST_CASE("truncate: deleted faces are not in the simplified mesh") {
     const TriangleMesh mesh =
         test::both(test::lump(3), test::moved(test::scaled(test::tetrahedron(), 0.1), {3, 0, 0}));
-    Options options;
-    options.history = Recording::on;
+    Options options{.history = Recording::on};
     options.topology.prune = model_units(1);
     const auto levels = simplify_levels(mesh.view(), wanted_levels, options);
     const ChainHistory chain = read_chain(file_bytes(chain_of(levels)));
@@ -119,8 +115,7 @@ TEST_CASE("truncate: deleted faces are not in the simplified mesh") {
 TEST_CASE("truncate: several parts are truncated to the same level, and in proportion between levels") {
     const TriangleMesh large = test::lump(3), small = test::icosphere(2);
     const auto a = levels_of(large, Preset::balanced);
-    Options options;
-    options.history = Recording::on;
+    Options options{.history = Recording::on};
     const auto b = simplify_levels(small.view(), {ratio(0.5), ratio(0.25), ratio(0.1)}, options);
     const std::vector<ChainHistory> parts = {chain_of(a), chain_of(b)};
     for (std::size_t i = 0; i < 3; ++i) {

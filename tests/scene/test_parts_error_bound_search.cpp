@@ -21,8 +21,7 @@ Part wavy_grid(Index n, double height, double offset) {
 MeshView view(const Part& part) { return {part.positions, part.triangles, {}, nullptr, {}}; }
 
 Options within(MaxError error) {
-    Options options;
-    options.max_error = error;
+    Options options{.max_error = error};
     options.bake.kind = Bake::none;
     return options;
 }

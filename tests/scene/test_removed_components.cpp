@@ -25,10 +25,7 @@ TEST_CASE("removed components of a scene are named with their part, and the shar
     Asset asset;
     asset.parts = {triangles(5, 1), triangles(4, 2)};
     asset.parts[0].name = "small";
-    Options options;
-    options.preset = Preset::fast;
-    options.target = faces(8);
-    options.budget = Budget::mesh;
+    Options options{.target = faces(8), .budget = Budget::mesh, .preset = Preset::fast};
     const SimplifiedParts result = simplify_parts(asset, options);
     REQUIRE(result.report.faces_out == 8);
     REQUIRE(result.report.removed_components.size() == 1);

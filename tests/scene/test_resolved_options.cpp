@@ -30,8 +30,7 @@ Asset plate(const ColorOf& color_of) {
 constexpr Vec4f red = {1, 0, 0, 1}, blue = {0, 0, 1, 1};
 
 Bake kind_for(ModelFormat format, const Asset& asset) {
-    Options options;
-    options.format = format;
+    Options options{.format = format};
     return detail::resolved_options(asset, options).bake.kind;
 }
 

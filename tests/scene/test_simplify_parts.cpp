@@ -58,8 +58,7 @@ TEST_CASE("within an error, a small part keeps only what the error needs") {
     asset.parts = {bumpy(20), bumpy(20)};
     for (Vec3& p : asset.parts[1].positions)
         for (double& x : p) x *= 1000;
-    Options options;
-    options.max_error = model_units(100);
+    Options options{.max_error = model_units(100)};
     const SimplifiedParts simplified = simplify_parts(asset, options);
     CHECK(simplified.parts[1].mesh.triangles.size() > 100);
     CHECK(simplified.parts[0].mesh.triangles.size() <= 4);
@@ -140,9 +139,7 @@ TEST_CASE("a part with many small components keeps all of them") {
         labels.triangles.push_back({4 * i, 4 * i + 1, 4 * i + 2});
         labels.triangles.push_back({4 * i, 4 * i + 2, 4 * i + 3});
     }
-    Options options;
-    options.budget = Budget::mesh;
-    options.target = GENERATE(ratio(0.1), faces(82));
+    Options options{.target = GENERATE(ratio(0.1), faces(82)), .budget = Budget::mesh};
     const SimplifiedParts simplified = simplify_parts(asset, options);
     CHECK(simplified.parts[1].mesh.triangles.size() == 24);
     CHECK(simplified.report.components_deleted == 0);
@@ -168,17 +165,14 @@ TEST_CASE("components are counted after welding equal positions") {
         soup.triangles.push_back({n, n + 1, n + 2});
     }
     asset.parts[1] = soup;
-    Options options;
-    options.budget = Budget::mesh;
-    options.target = ratio(0.25);
+    Options options{.target = ratio(0.25), .budget = Budget::mesh};
     CHECK(simplify_parts(asset, options).parts[1].report.target_faces == 50);
 }
 
 TEST_CASE("report counts are sums over the parts") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(10)};
-    Options options;
-    options.preset = Preset::best;
+    Options options{.preset = Preset::best};
     const SimplifiedParts simplified = simplify_parts(asset, options);
     const Report &sum = simplified.report, &a = simplified.parts[0].report, &b = simplified.parts[1].report;
     CHECK(sum.faces_in == a.faces_in + b.faces_in);
@@ -213,8 +207,7 @@ TEST_CASE("small components are pruned from every part except its largest one") 
 TEST_CASE("cancelling the simplification returns an asset without parts") {
     Asset asset;
     asset.parts = {bumpy(20), bumpy(20)};
-    Options options;
-    options.budget = GENERATE(Budget::scene, Budget::mesh);
+    Options options{.budget = GENERATE(Budget::scene, Budget::mesh)};
     options.progress = [](Phase, double) { return Continue::cancel; };
     const SimplifiedAsset simplified = simplify(asset, options);
     CHECK(simplified.report.stop == StopReason::cancelled);
@@ -224,8 +217,7 @@ TEST_CASE("cancelling the simplification returns an asset without parts") {
 TEST_CASE("progress over several parts never decreases") {
     Asset asset;
     asset.parts = {bumpy(60), bumpy(40)};
-    Options options;
-    options.budget = GENERATE(Budget::scene, Budget::mesh);
+    Options options{.budget = GENERATE(Budget::scene, Budget::mesh)};
     std::vector<double> seen = {0};
     options.progress = [&](Phase, double fraction) {
         seen.push_back(fraction);

@@ -157,8 +157,7 @@ TEST_CASE("visibility of a dynamic scene causes a warning") {
     CHECK(detail::visibility_warning(asset).empty());
     asset.parts[0].morph_targets.resize(1);
     asset.parts[0].morph_targets[0].positions.resize(asset.parts[0].positions.size());
-    Options options;
-    options.visibility = Visibility::weighted;
+    Options options{.visibility = Visibility::weighted};
     const SimplifiedParts simplified = simplify_parts(asset, options);
     CHECK(std::count(simplified.report.warnings.begin(), simplified.report.warnings.end(),
                      detail::visibility_warning(asset)) == 1);
@@ -166,8 +165,7 @@ TEST_CASE("visibility of a dynamic scene causes a warning") {
 
 TEST_CASE("the visibility computation can be cancelled") {
     const Asset asset = shell_around(icosphere(5), 5);
-    Options options;
-    options.visibility = Visibility::weighted;
+    Options options{.visibility = Visibility::weighted};
     int asked = 0;
     options.progress = [&](Phase, double) { return ++asked == 3 ? Continue::cancel : Continue::yes; };
     const SimplifiedParts simplified = simplify_parts(asset, options);

@@ -97,8 +97,7 @@ TEST_CASE("levels of a torn soup are closed") {
 
 TEST_CASE("the error of a torn soup is measured from the closed mesh") {
     const Asset ball = asset_of(float_soup(icosphere(3), 1));
-    Options options;
-    options.max_error = of_diagonal(0.02);
+    Options options{.max_error = of_diagonal(0.02)};
     options.topology.prune = of_diagonal(0.5);  // each torn face would be a component that is pruned
     const SimplifiedParts simplified = simplify_parts(ball, options);
     CHECK(closed_manifold(simplified.parts[0].mesh.triangles));

@@ -27,13 +27,7 @@ std::size_t callback_calls(Work&& work, std::uint32_t threads = 1) {
     return count;
 }
 
-Options with(Preset preset, Target target) {
-    Options options;
-    options.preset = preset;
-    options.target = target;
-    options.threads = 3;
-    return options;
-}
+Options with(Preset preset, Target target) { return {.target = target, .preset = preset, .threads = 3}; }
 
 using EntryPoint = std::function<Report(const Options&)>;
 

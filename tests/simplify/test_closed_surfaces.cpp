@@ -87,8 +87,7 @@ bool is_closed(const std::vector<Triangle>& triangles) {
 }
 
 Options options_of(Preset preset, LinkCondition link) {
-    Options options;
-    options.preset = preset;
+    Options options{.preset = preset};
     options.topology.link = link;
     return options;
 }

@@ -16,10 +16,7 @@ using namespace faqem;
 namespace {
 
 Options within(MaxError error, Preset preset = Preset::balanced) {
-    Options options;
-    options.max_error = error;
-    options.preset = preset;
-    return options;
+    return {.max_error = error, .preset = preset};
 }
 
 /// A flat square of side 1 with 2 n^2 faces, whose middle vertex is raised by `height`.

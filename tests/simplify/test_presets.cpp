@@ -10,10 +10,7 @@ using engine::BaseWeight;
 namespace {
 
 detail::Settings of(Preset preset, const Weights& weights = {}, const Topology& topology = {}) {
-    Options options;
-    options.preset = preset;
-    options.weights = weights;
-    options.topology = topology;
+    Options options{.preset = preset, .weights = weights, .topology = topology};
     return detail::settings(options);
 }
 
@@ -97,8 +94,7 @@ TEST_CASE("every weight and topology option overrides the preset") {
 
 TEST_CASE("the link condition by_size applies to memoryless presets and is on for others") {
     for (const Preset preset : all_presets) {
-        Options o;
-        o.preset = preset;
+        Options o{.preset = preset};
         o.topology.link = LinkCondition::by_size;
         const detail::Settings s = detail::settings(o);
         const bool has_memory = s.quadric_policy == detail::Settings::QuadricPolicy::memory;

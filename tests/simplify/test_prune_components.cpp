@@ -148,8 +148,7 @@ TEST_CASE("a pruned mesh is simplified like the mesh without its small component
 }
 
 TEST_CASE("max_error ignores pruned components") {
-    Options options;
-    options.max_error = of_diagonal(0.01);
+    Options options{.max_error = of_diagonal(0.01)};
     const TriangleMesh mesh = dusty();
     const double diagonal = info(mesh.view()).diagonal;
     options.topology.prune = of_diagonal(0.02);

@@ -15,12 +15,7 @@ using test::taken;
 
 namespace {
 
-Options options(Preset preset, Target target) {
-    Options o;
-    o.preset = preset;
-    o.target = target;
-    return o;
-}
+Options options(Preset preset, Target target) { return {.target = target, .preset = preset}; }
 
 // x and y of each corner as its UV, shifted by 10 for faces with x > cut.
 CornerAttributes planar_uv(const TriangleMesh& mesh, double cut) {

@@ -21,9 +21,7 @@ TriangleMesh tile(Index n) {
 }
 
 SimplifyResult simplified(const TriangleMesh& mesh, Preset preset, Target target) {
-    Options options;
-    options.preset = preset;
-    options.target = target;
+    Options options{.target = target, .preset = preset};
     return simplify(mesh.view(), options);
 }
 

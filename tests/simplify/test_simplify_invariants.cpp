@@ -17,9 +17,7 @@ namespace {
 constexpr double ratios[] = {0.5, 0.1, 0.01};
 
 SimplifyResult run(const TriangleMesh& mesh, Preset preset, double share) {
-    Options o;
-    o.preset = preset;
-    o.target = ratio(share);
+    Options o{.target = ratio(share), .preset = preset};
     o.topology.weld_distance = 0;  // the distance of preset paper is in model units
     return simplify(mesh.view(), o);
 }
@@ -139,10 +137,7 @@ TEST_CASE("no collapse rotates a face normal by more than 90 degrees before the 
     std::size_t turned = 0, checked = 0;
     for (const TriangleMesh& mesh : all_sorts()) {
         for (const Preset preset : all_presets) {
-            Options o;
-            o.preset = preset;
-            o.target = ratio(0.3);
-            o.history = Recording::on;
+            Options o{.target = ratio(0.3), .preset = preset, .history = Recording::on};
             const SimplifyResult result = simplify(mesh.view(), o);
             if (taken(result.report, Rung::flip_half) > 0) continue;
             const CollapseHistory& h = result.history;
@@ -193,8 +188,7 @@ TEST_CASE("qem keeps closed surfaces closed and preserves their genus") {
 }
 
 TEST_CASE("the link condition preserves the topology of surfaces with boundaries") {
-    Options o;
-    o.preset = Preset::qem;
+    Options o{.preset = Preset::qem};
     for (const double share : {0.5, 0.2}) {
         o.target = ratio(share);
         for (const auto& [mesh, characteristic] :

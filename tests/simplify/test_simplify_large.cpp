@@ -15,11 +15,7 @@ const TriangleMesh& large() {
 }
 
 SimplifyResult simplified(Preset preset, std::uint32_t threads, Recording history) {
-    Options options;
-    options.preset = preset;
-    options.target = ratio(0.05);
-    options.threads = threads;
-    options.history = history;
+    Options options{.target = ratio(0.05), .preset = preset, .history = history, .threads = threads};
     return simplify(large().view(), options);
 }
 
@@ -80,9 +76,7 @@ TEST_CASE("large meshes: replaying the history collapse by collapse gives the re
 }
 
 TEST_CASE("large meshes: locked vertices keep their positions, and the callback can cancel") {
-    Options options;
-    options.preset = Preset::fast;
-    options.target = ratio(0.05);
+    Options options{.target = ratio(0.05), .preset = Preset::fast};
     TriangleMesh mesh = large();
     mesh.triangles.resize(mesh.triangles.size() - 1000);
     std::vector<std::uint8_t> locks(mesh.positions.size(), 0);

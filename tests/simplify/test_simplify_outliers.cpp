@@ -21,9 +21,7 @@ TriangleMesh unit_ball_at(double x, const TriangleMesh& mesh) {
 }
 
 TriangleMesh simplified(const TriangleMesh& mesh, Preset preset, std::uint64_t target) {
-    Options options;
-    options.preset = preset;
-    options.target = faces(target);
+    Options options{.target = faces(target), .preset = preset};
     return simplify(mesh.view(), options).mesh;
 }
 
