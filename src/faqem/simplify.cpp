@@ -9,8 +9,6 @@
 #include "faqem/detail/simplify/presets-inl.hpp"
 #include "faqem/detail/simplify/report-inl.hpp"
 #include "faqem/detail/simplify/report_json-inl.hpp"
-#include "faqem/detail/simplify/result_fitting-inl.hpp"
 #include "faqem/detail/simplify/run-inl.hpp"
 #include "faqem/detail/simplify/run_state-inl.hpp"
 #include "faqem/detail/simplify/simplify-inl.hpp"
-#include "faqem/detail/simplify/virtual_edges-inl.hpp"

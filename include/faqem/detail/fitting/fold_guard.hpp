@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/detail/geometry/surface_samples.hpp"
 #include "faqem/export.hpp"
 
@@ -48,9 +49,15 @@ private:
     std::vector<Edge> edges_;
 };
 
+inline FoldGuard::FoldGuard(const MeshRef& mesh, double min_fold_cosine)
+    : triangles_(mesh.triangles), min_fold_cosine_(min_fold_cosine) {
+    const std::vector<engine::Vector3> normals = unit_normals(mesh);
+    for_each_edge(sorted_halfedges(triangles_), [&](std::span<const Halfedge> on) {
+        if (on.size() != 2) return;
+        const Edge edge{{on[0].face, on[1].face}, on[0].is_ascending == on[1].is_ascending};
+        if (!is_fold(edge, normals)) edges_.push_back(edge);
+    });
+}
+
 }  // namespace detail
 FAQEM_NAMESPACE_END
-
-#ifdef FAQEM_HEADER_ONLY
-#include "faqem/detail/fitting/fold_guard-inl.hpp"
-#endif

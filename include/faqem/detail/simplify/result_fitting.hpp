@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/fitting/vertex_fitting.hpp"
+#include "faqem/detail/geometry/edge_flip.hpp"
+#include "faqem/detail/simplify/build_result.hpp"
 #include "faqem/detail/simplify/engine_run.hpp"
 #include "faqem/simplify.hpp"
 
@@ -22,13 +25,37 @@ namespace detail {
 /// \param result             changed in place
 /// \throws whatever the check of `context` throws
 /// Complexity: O(n log n) per iteration
-void fit_result(const RunState& state, const PreprocessedMesh& prepared, double min_normal_cosine,
-                const EngineInput& input, const std::vector<Index>& slots, const RunContext& context,
-                SimplifyResult& result);
+inline void fit_result(const RunState& state, const PreprocessedMesh& prepared, double min_normal_cosine,
+                       const EngineInput& input, const std::vector<Index>& slots, const RunContext& context,
+                       SimplifyResult& result) {
+    std::vector<engine::Vector3> now;
+    std::vector<std::uint8_t> fixed;
+    for (const Index v : slots) {
+        now.push_back(input.collapse_mesh.position(v));
+        const bool is_seam = !input.wedges.empty() && input.wedges.is_seam(input.collapse_mesh, v);
+        fixed.push_back(input.locked[v] || is_seam || input.curves.has_vertex(v));
+    }
+    TriangleMesh& mesh = result.mesh;
+    std::vector<Vec3> moved = mesh.positions;
+    std::vector<Triangle> triangles = mesh.triangles;
+    const MeshRef simplified{now, mesh.triangles};
+    // Edge flips would change the attributes of the corners.
+    const int flip_rounds = input.wedges.empty() ? 2 : 0;
+    const FittingResult fitted = fit_vertices(state.initial_surface(), simplified, fixed, min_normal_cosine,
+                                              flip_rounds, mesh.face_groups, context);
+    for (std::size_t v = 0; v < now.size(); ++v) {
+        if (fitted.positions[v] == now[v]) continue;
+        moved[v] = prepared.to_model(fitted.positions[v]);
+    }
+    for (const auto& [s, t] : fitted.flips) flip_edge(triangles[s], triangles[t]);
+    if (!revert_degenerate_faces(mesh.positions, triangles, moved)) return;
+    for (std::size_t v = 0; v < now.size(); ++v)
+        result.report.vertices_fitted += moved[v] != mesh.positions[v];
+    mesh.positions = std::move(moved);
+    mesh.triangles = std::move(triangles);
+    result.report.edges_flipped = fitted.flips.size();
+    if (!result.history.empty()) record_fitting(fitted.flips, result);
+}
 
 }  // namespace detail
 FAQEM_NAMESPACE_END
-
-#ifdef FAQEM_HEADER_ONLY
-#include "faqem/detail/simplify/result_fitting-inl.hpp"
-#endif

@@ -3,15 +3,147 @@
 /// Virtual edges: collapse candidates between connected components that are close but do not touch (paper,
 /// supplementary).
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
+#include "faqem/engine/mesh/components.hpp"
+#include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
+
+using engine::CollapseMesh;
+using engine::Vector3;
+
+// The nearest vertices of other components within a radius. Ties are ordered by index.
+class NearestInOtherComponents {
+public:
+    struct Hit {
+        double distance_squared;
+        std::size_t point;
+        bool operator<(const Hit& o) const {
+            return std::tie(distance_squared, point) < std::tie(o.distance_squared, o.point);
+        }
+    };
+
+    NearestInOtherComponents(const std::vector<Index>& component_of, Index own, double radius_squared)
+        : component_of_(component_of), own_(own), radius_squared_(radius_squared) {}
+
+    // Points beyond this squared distance can be skipped; points at equal distance are ordered by index.
+    double limit() const {
+        return count_ < hits_.size() ? radius_squared_ : hits_[count_ - 1].distance_squared;
+    }
+
+    void add(double distance_squared, std::size_t point) {
+        if (component_of_[point] == own_ || !(distance_squared <= radius_squared_)) return;
+        const Hit hit{distance_squared, point};
+        if (count_ == hits_.size()) {
+            if (!(hit < hits_.back())) return;
+        } else {
+            ++count_;
+        }
+        std::size_t i = count_ - 1;
+        for (; i > 0 && hit < hits_[i - 1]; --i) hits_[i] = hits_[i - 1];
+        hits_[i] = hit;
+    }
+
+    std::span<const Hit> hits() const { return std::span(hits_).first(count_); }
+
+private:
+    const std::vector<Index>& component_of_;
+    Index own_;
+    double radius_squared_;
+    std::array<Hit, 4> hits_ = {};
+    std::size_t count_ = 0;
+};
+
+// True if faces at both vertices have a common group, and the dot product of the mean normals is positive.
+inline bool are_compatible(const CollapseMesh& mesh, std::span<const Index> groups, Index u, Index v) {
+    const auto normal = [&](Index w) {
+        Vector3 n = Vector3::Zero();
+        mesh.for_each_face(w, [&](Index f, unsigned) { n += mesh.area_vector(f); });
+        return n;
+    };
+    if (!(normal(u).dot(normal(v)) > 0)) return false;
+    if (groups.empty()) return true;
+    return !mesh.all_of_faces(u, [&](Index f, unsigned) {
+        return mesh.all_of_faces(v, [&](Index g, unsigned) { return groups[f] != groups[g]; });
+    });
+}
+
+/// The vertices with faces, component by component.
+struct VerticesByComponent {
+    std::vector<Index> vertices;      ///< vertex slots
+    std::vector<Index> component_of;  ///< by entry of `vertices`
+    std::vector<Vector3> positions;   ///< by entry of `vertices`
+};
+
+inline VerticesByComponent vertices_by_component(const CollapseMesh& mesh,
+                                                 std::span<const engine::Component> components) {
+    VerticesByComponent result;
+    std::vector<std::uint8_t> seen(mesh.vertex_slots(), 0);
+    for (Index component = 0; component < components.size(); ++component) {
+        for (const Index f : components[component].faces) {
+            for (const Index v : mesh.triangle(f)) {
+                if (std::exchange(seen[v], std::uint8_t{1})) continue;
+                result.vertices.push_back(v);
+                result.component_of.push_back(component);
+                result.positions.push_back(mesh.position(v));
+            }
+        }
+    }
+    return result;
+}
+
+/// A virtual edge that may be added; a < b.
+struct CandidateEdge {
+    double length_squared;
+    Index a, b;
+    bool operator<(const CandidateEdge& o) const {
+        return std::tie(length_squared, a, b) < std::tie(o.length_squared, o.a, o.b);
+    }
+};
+
+/// Edges from each boundary vertex to the nearest boundary vertices of other components. An edge that is
+/// found from both ends occurs twice.
+inline std::vector<CandidateEdge> candidate_edges(const CollapseMesh& mesh, const VerticesByComponent& all,
+                                                  std::span<const Index> face_groups, double distance,
+                                                  double min_length) {
+    const engine::PairTable surface(mesh, {});
+    std::vector<Triangle> points;  // degenerate triangles: the tree is one of triangles
+    points.reserve(all.vertices.size());
+    for (Index point = 0; point < all.vertices.size(); ++point) points.push_back({point, point, point});
+    const Bvh tree(all.positions, points);
+    std::vector<CandidateEdge> edges;
+    for (std::size_t i = 0; i < all.vertices.size(); ++i) {
+        const Index v = all.vertices[i];
+        if (surface.boundary_degree(v) == 0) continue;
+        NearestInOtherComponents nearest(all.component_of, all.component_of[i], distance * distance);
+        tree.visit_near(
+            engine::to_array(all.positions[i]), [&] { return nearest.limit(); },
+            [&](const Bvh::Corners& point, double) {
+                const Vector3 d = point.a - all.positions[i];
+                nearest.add(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), point.face);
+            });
+        for (const auto& hit : nearest.hits()) {
+            const Index w = all.vertices[hit.point];
+            if (!(hit.distance_squared >= min_length * min_length) || surface.boundary_degree(w) == 0)
+                continue;
+            if (!are_compatible(mesh, face_groups, v, w)) continue;
+            edges.push_back({hit.distance_squared, std::min(v, w), std::max(v, w)});
+        }
+    }
+    return edges;
+}
 
 /// Finds pairs of boundary vertices of different components.
 ///
@@ -30,13 +162,25 @@ namespace detail {
 /// \return distinct pairs of vertex slots, each with the smaller one first, sorted
 /// Complexity: O(n log n) expected
 /// Source: FA-QEM, supplementary
-std::vector<std::pair<Index, Index>> virtual_edges(const engine::CollapseMesh& mesh,
-                                                   std::span<const Index> face_groups, double distance,
-                                                   double min_length);
+inline std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMesh& mesh,
+                                                          std::span<const Index> face_groups, double distance,
+                                                          double min_length) {
+    const std::vector<engine::Component> components = engine::components(mesh);
+    if (components.size() < 2) return {};
+    const VerticesByComponent all = vertices_by_component(mesh, components);
+    std::vector<CandidateEdge> edges = candidate_edges(mesh, all, face_groups, distance, min_length);
+    std::sort(edges.begin(), edges.end());
+    edges.erase(
+        std::unique(edges.begin(), edges.end(),
+                    [](const CandidateEdge& x, const CandidateEdge& y) { return x.a == y.a && x.b == y.b; }),
+        edges.end());
+    if (edges.size() > all.vertices.size()) edges.resize(all.vertices.size());
+    std::vector<std::pair<Index, Index>> result;
+    result.reserve(edges.size());
+    for (const CandidateEdge& edge : edges) result.emplace_back(edge.a, edge.b);
+    std::sort(result.begin(), result.end());
+    return result;
+}
 
 }  // namespace detail
 FAQEM_NAMESPACE_END
-
-#ifdef FAQEM_HEADER_ONLY
-#include "faqem/detail/simplify/virtual_edges-inl.hpp"
-#endif
