@@ -1,8 +1,6 @@
 #include "faqem/bake_onto.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>

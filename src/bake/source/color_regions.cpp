@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "asset/scene/value_numbers.hpp"
 #include "bake/source/source_normals.hpp"

@@ -2,7 +2,6 @@
 /// \file
 /// Profiles: JSON files with options, see docs/reference.md.
 
-#include <string>
 #include <vector>
 
 #include "cli/shell/command_tree.hpp"

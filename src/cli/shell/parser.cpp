@@ -1,7 +1,6 @@
 #include "cli/shell/parser.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <utility>
 
 #include "cli/shell/help.hpp"
