@@ -7,7 +7,7 @@ import sys
 import pages
 
 # Sections that refer to the options of simplify instead of listing them.
-SAME_AS_SIMPLIFY = {"lod", "batch", "truncate"}
+SAME_AS_SIMPLIFY = {"lod", "batch", "truncate", "bake"}
 
 
 def options_of_tool(tool):
