@@ -2,8 +2,6 @@
 /// \file
 /// Comparison of the colours of two textured models.
 
-#include <cstdint>
-
 #include "faqem/asset.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/export.hpp"

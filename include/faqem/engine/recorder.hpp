@@ -2,7 +2,6 @@
 /// \file
 /// Recorders are notified of every collapse before it happens.
 
-#include <concepts>
 #include <numeric>
 #include <span>
 #include <utility>

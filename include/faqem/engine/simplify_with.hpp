@@ -2,9 +2,7 @@
 /// \file
 /// Simplification with a custom metric in one call.
 
-#include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "faqem/engine/engine.hpp"

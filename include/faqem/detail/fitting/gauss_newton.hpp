@@ -2,7 +2,6 @@
 /// \file
 /// Gauss-Newton step for fitting a mesh to correspondences.
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -3,8 +3,6 @@
 #include "faqem/detail/fitting/vertex_fitting.hpp"
 #include "faqem/export.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>

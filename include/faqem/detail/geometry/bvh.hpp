@@ -9,7 +9,6 @@
 #include <limits>
 #include <span>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "faqem/detail/geometry/triangle.hpp"

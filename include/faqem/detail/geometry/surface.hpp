@@ -4,7 +4,6 @@
 /// to measure distances between meshes.
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <compare>
-#include <string>
 #include <vector>
 
 #include "faqem/compare.hpp"

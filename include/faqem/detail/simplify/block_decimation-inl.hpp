@@ -7,7 +7,6 @@
 #include <atomic>
 #include <bit>
 #include <limits>
-#include <thread>
 #include <utility>
 
 #include "faqem/detail/base/buckets.hpp"

@@ -2,9 +2,7 @@
 /// \file
 /// Parallel decimation of large surfaces in blocks, before one engine simplifies the rest.
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/rounds/block_steps.hpp"

@@ -2,7 +2,6 @@
 /// \file
 /// Removes the unused slots of a simplified surface, for use by the next engine.
 
-#include <cstdint>
 #include <span>
 #include <vector>
 

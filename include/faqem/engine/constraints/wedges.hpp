@@ -7,7 +7,6 @@
 /// because this would connect the UV charts on both sides of the seam.
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 

@@ -2,7 +2,6 @@
 /// \file
 /// The mesh that the engine collapses: any triangle soup, including edges with three or more faces.
 
-#include <array>
 #include <cassert>
 #include <cstdint>
 #include <utility>

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"

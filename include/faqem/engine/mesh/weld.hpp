@@ -2,7 +2,6 @@
 /// \file
 /// Welding of vertices at the same position (paper, supplementary: pre-emptive merging).
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
