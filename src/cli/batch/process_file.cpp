@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <exception>
 #include <new>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -61,52 +60,43 @@ bool is_own_result(const EarlierResult& earlier, const std::string& present) {
            (earlier.replaced && (present.empty() || present != *earlier.replaced));
 }
 
-struct Result {
-    ExitCode code = exit_ok;
-    std::string status, message;
-    std::uint64_t faces_in = 0, faces_out = 0;
-    std::vector<std::string> warnings;
-    Json record = {};  // what only a ledger has
-};
-
-Result cancelled_result() { return {exit_cancelled, "cancelled", "cancelled", 0, 0, {}}; }
+Json cancelled_line() { return batch_line(exit_cancelled, "cancelled", "cancelled"); }
 
 /// \param overwrite  set to yes when the result is about to be written
-Result simplify_and_save(const BatchFile& file, const BatchContext& work, const std::string& inputs,
-                         Overwrite& overwrite) {
+Json simplify_and_save(const BatchFile& file, const BatchContext& work, const std::string& inputs,
+                       Overwrite& overwrite) {
     const Options& options = file.options ? *file.options : work.options;
     SimplifiedAsset simplified = detail::simplify_file(
         file.in, options, [&](const Asset& source) { check_strictness(source, file.in, work.strictness); });
     const Report& report = simplified.report;
-    if (report.stop == StopReason::cancelled) return cancelled_result();
-    Result result = {exit_ok, "done", "", report.faces_in, report.faces_out, report.warnings};
-    result.code = rejection_code(report, work.strict_target);
-    if (result.code != exit_ok) {
-        result.status = "failed";
-        result.message = rejection_message(result.code, file.in, file.out, report);
-        return result;
+    if (report.stop == StopReason::cancelled) return cancelled_line();
+    const ExitCode code = rejection_code(report, work.strict_target);
+    const std::string message = code == exit_ok ? "" : rejection_message(code, file.in, file.out, report);
+    Json line =
+        batch_line(code, code == exit_ok ? "done" : "failed", message, report.faces_in, report.faces_out);
+    if (code == exit_ok) {
+        detail::save_result(simplified, file.out, options, std::exchange(overwrite, Overwrite::yes));
+        std::error_code error;
+        line["record"] = {{"bytes", fs::file_size(file.out, error)},
+                          {"input_bytes", report.bytes_in},
+                          {"inputs", inputs},
+                          {"written", modification_stamp({file.out})},
+                          {"peak_rss_bytes", process_memory()},
+                          {"time_limit", report.stop == StopReason::reached_time_limit}};
     }
-    detail::save_result(simplified, file.out, options, std::exchange(overwrite, Overwrite::yes));
-    result.warnings = report.warnings;
-    std::error_code error;
-    result.record = {{"bytes", fs::file_size(file.out, error)},
-                     {"input_bytes", report.bytes_in},
-                     {"inputs", inputs},
-                     {"written", modification_stamp({file.out})},
-                     {"peak_rss_bytes", peak_memory()},
-                     {"time_limit", report.stop == StopReason::reached_time_limit}};
-    return result;
+    line["warnings"] = report.warnings;
+    return line;
 }
 
-Result failed_result(const std::exception& problem) {
-    return {exit_code_of(problem), "failed", message_of(problem), 0, 0, {}};
+Json failed_line(const std::exception& problem) {
+    return batch_line(exit_code_of(problem), "failed", message_of(problem));
 }
 
 /// \param overwrite  whether the result may exist; set to yes when it is about to be written
 /// \param watch      reset after waiting for memory, so that it measures the work alone
 /// \throws std::bad_alloc  the memory is exhausted, and another attempt could get more
-Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemory& memory,
-                   Overwrite& overwrite, detail::Stopwatch& watch) try {
+Json try_process(const BatchFile& file, const BatchContext& work, GrantedMemory& memory, Overwrite& overwrite,
+                 detail::Stopwatch& watch) try {
     if (!file.problem.empty()) throw ReadError(file.in.string(), "", file.problem);
     if (!file.hash.empty() && model_hash(file.in) != file.hash)
         throw InputError(file.in.string(), "", "is not the model of the list: its SHA-256 is another one");
@@ -118,7 +108,7 @@ Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemor
         const std::string present = modification_stamp({file.out});
         if (!present.empty() && present == earlier.written && stamp == earlier.inputs &&
             file.options_id == earlier.options)
-            return {exit_ok, "skipped", "up to date", earlier.faces_in, earlier.faces_out, {}};
+            return batch_line(exit_ok, "skipped", "up to date", earlier.faces_in, earlier.faces_out);
         if (is_own_result(earlier, present)) overwrite = Overwrite::yes;
     }
     std::error_code error;
@@ -129,21 +119,14 @@ Result try_process(const BatchFile& file, const BatchContext& work, GrantedMemor
     require_memory(file.in, loading, memory.all());
     memory.reserve(loading + detail::estimated_work_memory(file.in, detail::total_file_size(inputs),
                                                            file.options ? *file.options : work.options));
-    if (is_interrupted()) return cancelled_result();
+    if (is_interrupted()) return cancelled_line();
     watch = {};
     return simplify_and_save(file, work, stamp, overwrite);
 } catch (const std::bad_alloc& problem) {
     if (memory.is_part()) throw;
-    return failed_result(problem);
+    return failed_line(problem);
 } catch (const std::exception& problem) {
-    return failed_result(problem);
-}
-
-Json line_of(const Result& result, double seconds) {
-    return {{"status", result.status},     {"code", static_cast<int>(result.code)},
-            {"faces_in", result.faces_in}, {"faces_out", result.faces_out},
-            {"seconds", seconds},          {"message", result.message},
-            {"warnings", result.warnings}, {"record", result.record}};
+    return failed_line(problem);
 }
 
 }  // namespace
@@ -154,8 +137,9 @@ Json process_batch_file(const BatchFile& file, const BatchContext& work, const B
     Overwrite overwrite = attempt.overwrite;
     detail::Stopwatch watch;
     try {
-        const Result result = try_process(file, work, memory, overwrite, watch);
-        return line_of(result, watch.seconds());
+        Json line = try_process(file, work, memory, overwrite, watch);
+        line["seconds"] = watch.seconds();
+        return line;
     } catch (const std::bad_alloc&) {
         return {{"retry", true}, {"overwrite", overwrite == Overwrite::yes}};
     }
@@ -168,8 +152,16 @@ std::string printed_line(const BatchFile& file, const Json& members) {
     return json_line(line);
 }
 
-Json line_without_result(ExitCode code, const std::string& status, const std::string& message) {
-    return line_of({code, status, message, 0, 0, {}}, 0);
+Json batch_line(ExitCode code, const std::string& status, const std::string& message, std::uint64_t faces_in,
+                std::uint64_t faces_out) {
+    return {{"status", status},
+            {"code", static_cast<int>(code)},
+            {"faces_in", faces_in},
+            {"faces_out", faces_out},
+            {"seconds", 0.0},
+            {"message", message},
+            {"warnings", Json::array()},
+            {"record", nullptr}};
 }
 
 }  // namespace faqem::cli

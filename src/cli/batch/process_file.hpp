@@ -41,9 +41,10 @@ Json process_batch_file(const BatchFile& file, const BatchContext& work, const B
 /// Returns the line that is printed for a model. \param members  of process_batch_file()
 std::string printed_line(const BatchFile& file, const Json& members);
 
-/// Returns the members of the line of a model without a result.
-/// \param status   `failed` or `cancelled`
+/// Returns the members of the line of a model, without warnings.
+/// \param status   `done`, `skipped`, `failed` or `cancelled`
 /// \param message  the reason
-Json line_without_result(ExitCode code, const std::string& status, const std::string& message);
+Json batch_line(ExitCode code, const std::string& status, const std::string& message,
+                std::uint64_t faces_in = 0, std::uint64_t faces_out = 0);
 
 }  // namespace faqem::cli

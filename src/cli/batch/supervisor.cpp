@@ -56,43 +56,41 @@ struct Slot {
     detail::Stopwatch watch;  ///< since the process was told something
 };
 
-class Supervisor {
-public:
-    Supervisor(const std::vector<BatchFile>& files, const BatchContext& work, const WorkerOptions& workers,
-               const BatchEvents& events)
-        : files_(files),
-          work_(work),
-          workers_(workers),
-          events_(events),
-          memory_(work.max_memory),
-          slots_(workers.jobs) {}
+/// Runs the models of a batch, as many at a time as there are slots.
+struct Supervisor {
+    const std::vector<BatchFile>& files;
+    const BatchContext& work;
+    const WorkerOptions& workers;
+    const BatchEvents& events;
+    MemoryQueue memory{work.max_memory};
+    std::vector<Slot> slots = std::vector<Slot>(workers.jobs);
+    std::size_t next_model = 0;  ///< the first one that was not begun
 
     void run() {
         do {
-            for (std::size_t i = 0; i < slots_.size(); ++i)
-                if (!slots_[i].has_model && next_ < files_.size()) begin(i);
+            for (std::size_t i = 0; i < slots.size(); ++i)
+                if (!slots[i].has_model && next_model < files.size()) begin(i);
             grant_memory();
         } while (wait_for_messages());
     }
 
-private:
     /// Gives the next model to a process without one.
     void begin(std::size_t i) {
         if (is_interrupted()) {
-            const std::size_t model = next_++;
-            events_.ended(model, line_without_result(exit_cancelled, "cancelled", "cancelled"));
+            const std::size_t model = next_model++;
+            events.ended(model, batch_line(exit_cancelled, "cancelled", "cancelled"));
             return;
         }
-        Slot& slot = slots_[i];
-        slot.model = next_++;
+        Slot& slot = slots[i];
+        slot.model = next_model++;
         slot.has_model = true;
         slot.has_begun = slot.is_cancelled = false;
-        slot.overwrite = workers_.overwrite == Overwrite::yes;
-        begin_attempt(i, files_[slot.model].alone);
+        slot.overwrite = workers.overwrite == Overwrite::yes;
+        begin_attempt(i, files[slot.model].alone);
     }
 
     void begin_attempt(std::size_t i, bool alone) {
-        Slot& slot = slots_[i];
+        Slot& slot = slots[i];
         slot.alone = alone;
         if (alone)
             wait_for_all_memory(i);
@@ -101,17 +99,17 @@ private:
     }
 
     void wait_for_all_memory(std::size_t i) {
-        memory_.release(i);
-        memory_.request(i, all_memory);
-        slots_[i].is_waiting = true;
+        memory.release(i);
+        memory.request(i, all_memory);
+        slots[i].is_waiting = true;
     }
 
     void tell_model(Slot& slot) {
         if (slot.alone) announce(slot);
         if (slot.worker && slot.models >= models_per_process) slot.worker.reset();
         if (!slot.worker) {
-            slot.worker = std::make_unique<Worker>(
-                [this](Channel& channel) { work_on_models(channel, files_, work_); });
+            slot.worker =
+                std::make_unique<Worker>([this](Channel& channel) { work_on_models(channel, files, work); });
             slot.models = 0;
         }
         ++slot.models;
@@ -119,7 +117,7 @@ private:
     }
 
     void announce(Slot& slot) {
-        if (!std::exchange(slot.has_begun, true)) events_.begun(slot.model);
+        if (!std::exchange(slot.has_begun, true)) events.begun(slot.model);
     }
 
     static void tell(Slot& slot, const Json& message) {
@@ -128,13 +126,13 @@ private:
     }
 
     void grant_memory() {
-        while (const std::optional<MemoryQueue::Grant> grant = memory_.grant()) {
-            Slot& slot = slots_[grant->worker];
+        while (const std::optional<MemoryQueue::Grant> grant = memory.grant()) {
+            Slot& slot = slots[grant->worker];
             slot.is_waiting = false;
             if (slot.alone)
                 tell_model(slot);
             else
-                tell(slot, {{"memory", std::min(grant->bytes, memory_.limit())}});
+                tell(slot, {{"memory", std::min(grant->bytes, memory.limit())}});
         }
     }
 
@@ -143,25 +141,25 @@ private:
     bool wait_for_messages() {
         std::vector<pollfd> polled;
         std::vector<std::size_t> owners;
-        for (std::size_t i = 0; i < slots_.size(); ++i) {
-            const Slot& slot = slots_[i];
+        for (std::size_t i = 0; i < slots.size(); ++i) {
+            const Slot& slot = slots[i];
             if (!slot.has_model || slot.is_waiting) continue;
             polled.push_back({slot.worker->channel().descriptor(), POLLIN, 0});
             owners.push_back(i);
         }
-        if (polled.empty()) return next_ < files_.size();
-        if (workers_.until_eof && !is_interrupted()) polled.push_back({STDIN_FILENO, POLLIN, 0});
+        if (polled.empty()) return next_model < files.size();
+        if (workers.until_eof && !is_interrupted()) polled.push_back({STDIN_FILENO, POLLIN, 0});
         const int ready = ::poll(polled.data(), polled.size(), poll_milliseconds);
         if (char byte; polled.size() > owners.size() && polled.back().revents != 0 &&
                        ::read(STDIN_FILENO, &byte, 1) <= 0)
             std::raise(SIGTERM);
         for (std::size_t k = 0; k < owners.size(); ++k) {
-            Slot& slot = slots_[owners[k]];
+            Slot& slot = slots[owners[k]];
             if (ready > 0 && polled[k].revents != 0)
                 on_message(owners[k]);
-            else if (slot.watch.seconds() > workers_.end_after)
+            else if (slot.watch.seconds() > workers.end_after)
                 on_end(owners[k],
-                       "did not end within " + std::to_string(std::lround(workers_.end_after)) + " seconds");
+                       "did not end within " + std::to_string(std::lround(workers.end_after)) + " seconds");
             else if (is_interrupted() && !std::exchange(slot.is_cancelled, true))
                 slot.worker->cancel();
         }
@@ -169,15 +167,15 @@ private:
     }
 
     void on_message(std::size_t i) {
-        Slot& slot = slots_[i];
+        Slot& slot = slots[i];
         std::optional<Json> message = slot.worker->channel().receive();
         if (!message) {
             on_death(i);
         } else if (message->contains("memory")) {
             announce(slot);
-            memory_.release(i);
+            memory.release(i);
             // After a signal no model begins: the process sees it and needs no memory.
-            memory_.request(i, is_interrupted() ? 0 : message->at("memory").get<std::uint64_t>());
+            memory.request(i, is_interrupted() ? 0 : message->at("memory").get<std::uint64_t>());
             slot.is_waiting = true;
         } else if (message->contains("retry")) {
             retry_alone(i, message->at("overwrite"));
@@ -188,7 +186,7 @@ private:
 
     /// Continues with a model in a new process, as soon as it can have all memory.
     void retry_alone(std::size_t i, bool overwrite) {
-        Slot& slot = slots_[i];
+        Slot& slot = slots[i];
         slot.worker.reset();
         slot.alone = true;
         slot.overwrite = overwrite;
@@ -196,7 +194,7 @@ private:
     }
 
     void on_death(std::size_t i) {
-        Slot& slot = slots_[i];
+        Slot& slot = slots[i];
         const int status = slot.worker->wait();
         if (WIFSIGNALED(status)) {
             const int number = WTERMSIG(status);
@@ -207,7 +205,7 @@ private:
         } else if (WEXITSTATUS(status) != exit_no_memory) {
             on_end(i, "the process ended with code " + std::to_string(WEXITSTATUS(status)));
         } else if (slot.alone) {
-            end_model(i, line_without_result(exit_no_memory, "failed", "not enough memory"));
+            end_model(i, batch_line(exit_no_memory, "failed", "not enough memory"));
         } else {
             remove_leftovers_of(slot);
             retry_alone(i, slot.overwrite);
@@ -217,45 +215,37 @@ private:
     /// The process of a model has ended, or is to be killed, without a result.
     /// \param is_killed  by another process, as the kernel does when the memory of the machine is exhausted
     void on_end(std::size_t i, const std::string& how, bool is_killed = false) {
-        Slot& slot = slots_[i];
+        Slot& slot = slots[i];
         slot.worker.reset();
         remove_leftovers_of(slot);
-        Json line = line_without_result(exit_internal, "failed", files_[slot.model].in.string() + ": " + how);
+        Json line = batch_line(exit_internal, "failed", files[slot.model].in.string() + ": " + how);
         line["killed"] = is_killed;
         end_model(i, line);
     }
 
     void remove_leftovers_of(const Slot& slot) const {
-        detail::remove_leftovers(files_[slot.model].out.parent_path());
+        detail::remove_leftovers(files[slot.model].out.parent_path());
     }
 
     void end_model(std::size_t i, const Json& members) {
-        memory_.release(i);
-        Slot& slot = slots_[i];
-        const NextStep next = events_.ended(slot.model, members);
+        memory.release(i);
+        Slot& slot = slots[i];
+        const NextStep next = events.ended(slot.model, members);
         if (next == NextStep::again_alone) {
             slot.worker.reset();
             slot.has_begun = false;
             return begin_attempt(i, true);
         }
         slot.has_model = false;
-        if (next == NextStep::stop) next_ = files_.size();
+        if (next == NextStep::stop) next_model = files.size();
     }
-
-    const std::vector<BatchFile>& files_;
-    const BatchContext& work_;
-    const WorkerOptions& workers_;
-    const BatchEvents& events_;
-    MemoryQueue memory_;
-    std::vector<Slot> slots_;
-    std::size_t next_ = 0;  // the first model that was not begun
 };
 
 }  // namespace
 
 void process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
                    const WorkerOptions& workers, const BatchEvents& events) {
-    Supervisor(files, work, workers, events).run();
+    Supervisor{files, work, workers, events}.run();
 }
 
 }  // namespace faqem::cli

@@ -105,6 +105,4 @@ void return_freed_memory() {
 
 void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
-std::uint64_t peak_memory() { return status_bytes("VmHWM:"); }
-
 }  // namespace faqem::cli

@@ -35,10 +35,7 @@ void limit_process_memory(std::uint64_t bytes, std::uint64_t threads);
 /// missing for later models. Costs about 3% of the time of a model, for new pages.
 void return_freed_memory();
 
-/// Begins to measure peak_memory() anew, if the system can do this.
+/// Begins to measure process_memory() anew, if the system can do this.
 void reset_peak_memory();
-
-/// The most physical memory that the process has used, in bytes.
-std::uint64_t peak_memory();
 
 }  // namespace faqem::cli
