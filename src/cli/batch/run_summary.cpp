@@ -1,6 +1,9 @@
 #include "cli/batch/run_summary.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <unordered_map>
 #include <utility>
 
@@ -27,29 +30,6 @@ std::uint64_t short_key(const std::string& text) {
     for (std::size_t i = 0; i < 8; ++i) key = key << 8 | digest[i];
     return key;
 }
-
-/// Keeps the worst records.
-class WorstRecords {
-public:
-    void add(const Json& record) {
-        records_.emplace_back(badness(record), record);
-        if (records_.size() >= 2 * RunSummary::max_worst) sort();
-    }
-    std::vector<Json> take() {
-        sort();
-        std::vector<Json> result;
-        for (auto& [value, record] : records_) result.push_back(std::move(record));
-        return result;
-    }
-
-private:
-    void sort() {
-        std::ranges::stable_sort(records_, [](const auto& a, const auto& b) { return a.first > b.first; });
-        if (records_.size() > RunSummary::max_worst) records_.resize(RunSummary::max_worst);
-    }
-
-    std::vector<std::pair<double, Json>> records_;
-};
 
 }  // namespace
 
@@ -83,7 +63,7 @@ std::string array_options(const std::vector<Shard>& shards, std::uint64_t max_ar
 RunSummary merge_records(const fs::path& out_folder, const std::function<void(const Json&)>& take) {
     const RunIdentity run = read_run(out_folder);
     RunSummary summary;
-    WorstRecords worst;
+    std::multimap<double, Json, std::greater<>> worst;      // equal ones are in the order of their insertion
     std::unordered_map<std::uint64_t, std::string> owners;  // ids by output, for those that the list names
     for (Shard shard{0, run.shards}; shard.index < run.shards; ++shard.index) {
         if (!is_complete(out_folder, shard, run))
@@ -91,7 +71,8 @@ RunSummary merge_records(const fs::path& out_folder, const std::function<void(co
         for (const auto& [id, record] : last_records(out_folder, shard)) {
             take(record);
             ++summary.counts[record.value("event", "")];
-            worst.add(record);
+            worst.emplace(badness(record), record);
+            if (worst.size() > RunSummary::max_worst) worst.erase(std::prev(worst.end()));
             const std::string output = record.value("result", "");
             if (output.empty() || output == default_output(id, fs::path(output).extension().string()))
                 continue;
@@ -101,7 +82,7 @@ RunSummary merge_records(const fs::path& out_folder, const std::function<void(co
                                            " and " + id);
         }
     }
-    summary.worst = worst.take();
+    for (auto& [value, record] : worst) summary.worst.push_back(std::move(record));
     return summary;
 }
 
