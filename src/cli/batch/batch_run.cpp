@@ -130,7 +130,7 @@ private:
 
     void poison(const BatchFile& file, const std::string& reason) {
         ++poisoned_;
-        ledger_.end(file, "poisoned", {{"message", reason}});
+        ledger_.add(file, "poisoned", {{"message", reason}});
         print_(printed_line(file, {{"status", "poisoned"}, {"code", exit_internal}, {"message", reason}}));
     }
 
@@ -174,7 +174,7 @@ private:
         for (const char* other : {"record", "status", "killed"}) line.erase(other);
         line["input_bytes"] = file.bytes;
         if (more.is_object()) line.update(more);
-        ledger_.end(file, event, line);
+        ledger_.add(file, event, line);
     }
 
     const RunArguments& arguments_;

@@ -31,9 +31,18 @@ Json json_of(const RunIdentity& run) {
     return {{"shards", run.shards}, {"options", run.options}, {"version", run.version}, {"list", run.list}};
 }
 
-void write_json(const fs::path& file, const Json& json, Overwrite overwrite) {
-    const std::string text = json_line(json);
-    detail::write_file(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, overwrite);
+fs::path run_file(const fs::path& out_folder) { return records_folder(out_folder) / "run.json"; }
+
+fs::path completion_file(const fs::path& out_folder, const Shard& shard) {
+    return records_folder(out_folder) / shard.name() / "complete.json";
+}
+
+/// The first member in which a file differs from a run; empty if it has all.
+std::string differing_member(const fs::path& file, const Json& run) {
+    const Json other = Json::parse(detail::read_file(file), nullptr, false);
+    for (const auto& [name, value] : run.items())
+        if (!other.is_object() || other.value(name, Json()) != value) return name;
+    return {};
 }
 
 /// A name that no other attempt has, later than those before: time, process, and a random number.
@@ -58,7 +67,7 @@ std::vector<fs::path> attempts_in(const fs::path& folder) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
         if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
+    std::ranges::sort(files);
     return files;
 }
 
@@ -123,14 +132,10 @@ std::optional<EarlierResult> Ledger::earlier_result(const BatchFile& model) cons
 }
 
 void Ledger::begin(const BatchFile& model) {
-    append(model, "started", {{"replaced", modification_stamp({model.out})}});
+    add(model, "started", {{"replaced", modification_stamp({model.out})}});
 }
 
-void Ledger::end(const BatchFile& model, const std::string& event, const Json& details) {
-    append(model, event, details);
-}
-
-void Ledger::append(const BatchFile& model, const std::string& event, const Json& details) {
+void Ledger::add(const BatchFile& model, const std::string& event, const Json& details) {
     Json line = {{"event", event},       {"id", model.name},
                  {"sha256", model.hash}, {"options", model.options_id},
                  {"version", version()}, {"result", model.out_name}};
@@ -141,33 +146,31 @@ void Ledger::append(const BatchFile& model, const std::string& event, const Json
 }
 
 void join_run(const fs::path& out_folder, const RunIdentity& run, bool replaces) {
-    const fs::path file = records_folder(out_folder) / "run.json";
+    const fs::path file = run_file(out_folder);
     const Json own = json_of(run);
     make_folder(file.parent_path());
-    if (replaces) return write_json(file, own, Overwrite::yes);
+    if (replaces) return write_output(file, json_line(own), Overwrite::yes);
     if (!fs::exists(file)) {
         try {
-            return write_json(file, own, Overwrite::no);
+            return write_output(file, json_line(own), Overwrite::no);
         } catch (const WriteError&) {
             if (!fs::exists(file)) throw;  // otherwise another shard was faster
         }
     }
-    const Json other = Json::parse(detail::read_file(file), nullptr, false);
-    for (const auto& [name, value] : own.items())
-        if (!other.is_object() || other.value(name, Json()) != value)
-            throw OptionError(file.string() + ": the directory has the results of a run with other " + name +
-                              "; choose another directory, or --new-run");
+    if (const std::string name = differing_member(file, own); !name.empty())
+        throw OptionError(file.string() + ": the directory has the results of a run with other " + name +
+                          "; choose another directory, or --new-run");
 }
 
 void complete_shard(const fs::path& out_folder, const Shard& shard, const RunIdentity& run,
                     const Json& counts) {
     Json json = json_of(run);
     json.update(counts);
-    write_json(records_folder(out_folder) / shard.name() / "complete.json", json, Overwrite::yes);
+    write_output(completion_file(out_folder, shard), json_line(json), Overwrite::yes);
 }
 
 RunIdentity read_run(const fs::path& out_folder) {
-    const fs::path file = records_folder(out_folder) / "run.json";
+    const fs::path file = run_file(out_folder);
     try {
         const Json json = Json::parse(detail::read_file(file));
         RunIdentity run{json.at("shards"), json.at("options"), json.at("version"), json.at("list")};
@@ -178,13 +181,8 @@ RunIdentity read_run(const fs::path& out_folder) {
 }
 
 bool is_complete(const fs::path& out_folder, const Shard& shard, const RunIdentity& run) {
-    const fs::path file = records_folder(out_folder) / shard.name() / "complete.json";
-    if (!fs::exists(file)) return false;
-    const Json json = Json::parse(detail::read_file(file), nullptr, false);
-    const Json wanted = json_of(run);
-    return json.is_object() &&
-           std::all_of(wanted.items().begin(), wanted.items().end(),
-                       [&](const auto& one) { return json.value(one.key(), Json()) == one.value(); });
+    const fs::path file = completion_file(out_folder, shard);
+    return fs::exists(file) && differing_member(file, json_of(run)).empty();
 }
 
 std::map<std::string, Json> last_records(const fs::path& out_folder, const Shard& shard) {

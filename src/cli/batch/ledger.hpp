@@ -51,13 +51,12 @@ public:
 
     /// Records that a model begins. \throws WriteError
     void begin(const BatchFile& model);
-    /// Records the end of a model. \param event  `done`, `refused`, `crashed`, `poisoned` or `interrupted`
+    /// Records what has become of a model. \param event  `started`, `done`, `refused`, `crashed`, `poisoned` or `interrupted`
     /// \param details  more members of the line
     /// \throws WriteError
-    void end(const BatchFile& model, const std::string& event, const Json& details);
+    void add(const BatchFile& model, const std::string& event, const Json& details);
 
 private:
-    void append(const BatchFile& model, const std::string& event, const Json& details);
     void read_line(const Json& json, std::vector<std::string>& open);
 
     std::filesystem::path file_;
