@@ -27,12 +27,10 @@ void become_worker(pid_t parent) {
 
 }  // namespace
 
-Channel::~Channel() { ::close(descriptor_); }
-
 void Channel::send(const Json& message) {
     const std::string line = json_line(message);
     for (std::size_t sent = 0; sent < line.size();) {
-        const ssize_t count = ::send(descriptor_, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
+        const ssize_t count = ::send(descriptor(), line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
         if (count < 0 && errno != EINTR) return;
         if (count > 0) sent += static_cast<std::size_t>(count);
     }
@@ -48,7 +46,7 @@ std::optional<Json> Channel::receive() {
         }
         searched = unread_.size();
         char bytes[4096];
-        const ssize_t count = ::recv(descriptor_, bytes, sizeof bytes, 0);
+        const ssize_t count = ::recv(descriptor(), bytes, sizeof bytes, 0);
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) return std::nullopt;
         unread_.append(bytes, static_cast<std::size_t>(count));

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "asset/io/locked_file.hpp"
 #include "cli/process/json.hpp"
 
 namespace faqem::cli {
@@ -17,18 +18,15 @@ class Channel {
 public:
     /// \param descriptor  of a stream socket; owned
     explicit Channel(int descriptor) : descriptor_(descriptor) {}
-    ~Channel();
-    Channel(const Channel&) = delete;
-    Channel& operator=(const Channel&) = delete;
 
-    int descriptor() const { return descriptor_; }
+    int descriptor() const { return descriptor_.get(); }
     /// Sends an object. Nothing is sent if the other process has ended.
     void send(const Json& message);
     /// Waits for an object. \return nothing if the other process has ended
     std::optional<Json> receive();
 
 private:
-    int descriptor_;
+    detail::Descriptor descriptor_;
     std::string unread_;  // received bytes after the last returned line
 };
 
