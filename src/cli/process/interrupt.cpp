@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <initializer_list>
 #include <string_view>
 
 #include "asset/io/temporary_file.hpp"
@@ -43,27 +44,24 @@ void on_signal(int) {
     if (exit_requests != 0 || before != 0) exit_unless_replacing();
 }
 
+void set_handler(std::initializer_list<int> signals, void (*handler)(int)) {
+    struct sigaction action = {};
+    action.sa_handler = handler;
+    for (const int number : signals) sigaction(number, &action, nullptr);
+}
+
 }  // namespace
 
 void install_signal_handlers() {
-    struct sigaction action = {};
-    action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    set_handler({SIGINT, SIGTERM}, on_signal);
     // Ignored, so that a file larger than the limit of the shell (ulimit -f) is a failed write with an error
     // message.
-    action.sa_handler = SIG_IGN;
-    sigaction(SIGXFSZ, &action, nullptr);
+    set_handler({SIGXFSZ}, SIG_IGN);
 }
 
 void install_worker_signal_handlers() {
-    struct sigaction action = {};
-    action.sa_handler = on_worker_signal;
-    sigaction(worker_cancel_signal, &action, nullptr);
-    sigaction(worker_end_signal, &action, nullptr);
-    action.sa_handler = SIG_IGN;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    set_handler({worker_cancel_signal, worker_end_signal}, on_worker_signal);
+    set_handler({SIGINT, SIGTERM}, SIG_IGN);
 }
 
 bool is_interrupted() { return signal_count != 0; }
