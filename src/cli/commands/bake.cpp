@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "asset/file_format.hpp"
-#include "asset/io/set_folder.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"
@@ -43,11 +42,7 @@ int run(const BakeArguments& arguments) {
     BakedOnto baked;
     {
         ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
-        options.progress = [&bar](Phase phase, double fraction) {
-            bar.show(phase, fraction);
-            return is_interrupted() ? Continue::cancel : Continue::yes;
-        };
-        bar.show(Phase::load, 0);
+        options.progress = bar.callback();
         std::optional<ExitOnInterrupt> exit_on_interrupt(std::in_place);  // load() cannot be cancelled
         const Asset source = load_model(arguments.source, arguments.strictness()),
                     target = load_model(arguments.target, arguments.strictness());

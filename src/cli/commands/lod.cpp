@@ -138,66 +138,67 @@ void print_summary(const LodArguments& a, const Outputs& outputs, std::uint64_t 
 
 /// Creates the levels and writes each one under temporary names when it is ready, or all levels of one file
 /// at the end. All files of the folder get their names together, after the last one is written.
-class LodWriter {
-public:
-    LodWriter(const LodArguments& arguments, const Outputs& outputs, const Asset& source,
-              const std::vector<Level>& levels, const Options& options)
-        : arguments_(arguments), outputs_(outputs), source_(source), levels_(levels), options_(options) {}
+struct LodWriter {
+    const LodArguments& arguments;
+    const Outputs& outputs;
+    const Asset& source;
+    const std::vector<Level>& wanted;
+    const Options& options;
+    std::vector<std::string> warnings = {};
+    std::vector<WrittenLevel> written = {};
+    std::vector<SavedLevel> one_file_levels = {};  ///< of a file of all levels
+    detail::SceneSize size = {};
+    detail::FileSet set = {};
 
-    ExitCode operator()() {
-        size_ = detail::scene_size(source_);
-        warnings_ = source_.warnings;
-        append(warnings_, detail::idle_options(source_, options_, typed_names(arguments_.options),
-                                               detail::command_spelling));
-        const auto* first = std::get_if<Target>(&levels_.front());
+    ExitCode write_all() {
+        size = detail::scene_size(source);
+        warnings = source.warnings;
+        append(warnings, detail::idle_options(source, options, typed_names(arguments.options),
+                                              detail::command_spelling));
+        const auto* first = std::get_if<Target>(&wanted.front());
         if (first && first->kind == Target::Kind::faces && first->value <= 100)
-            warnings_.push_back("the first level has " + arguments_.levels.front() +
-                                " faces; a share has a percent sign: " + arguments_.levels.front() + "%");
-        const ExitCode code = arguments_.level_textures() == LevelTextures::shared
+            warnings.push_back("the first level has " + arguments.levels.front() +
+                               " faces; a share has a percent sign: " + arguments.levels.front() + "%");
+        const ExitCode code = arguments.level_textures() == LevelTextures::shared
                                   ? write_with_shared_texture()
                                   : write_with_separate_textures();
         if (code != exit_ok) return code;
-        if (outputs_.is_file) {
+        if (outputs.is_file) {
             const ExitOnInterrupt exit_on_interrupt;
-            const detail::CollectWrites collect(set_);
-            append(warnings_,
-                   save_levels(std::move(one_file_levels_), outputs_.models[0], arguments_.overwrite));
+            const detail::CollectWrites collect(set);
+            append(warnings, save_levels(std::move(one_file_levels), outputs.models[0], arguments.overwrite));
         }
-        Json manifest = lod_manifest(arguments_.in, size_.diagonal, arguments_.view_settings, written_);
-        manifest["warnings"] = warnings_;
+        Json manifest = lod_manifest(arguments.in, size.diagonal, arguments.view_settings, written);
+        manifest["warnings"] = warnings;
         {
             const ExitOnInterrupt exit_on_interrupt;
-            const detail::CollectWrites collect(set_);
-            write_output(outputs_.manifest,
+            const detail::CollectWrites collect(set);
+            write_output(outputs.manifest,
                          manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
-                         arguments_.overwrite);
+                         arguments.overwrite);
         }
-        commit_outputs(set_);
+        commit_outputs(set);
         return exit_ok;
     }
 
-    const std::vector<WrittenLevel>& written() const { return written_; }
-    const std::vector<std::string>& warnings() const { return warnings_; }
-
-private:
     /// Bakes and writes one level at a time, so that only the images of one level are in memory.
     ExitCode write_with_separate_textures() {
         std::vector<SimplifiedPartsLevel> levels = detail::with_file_in_errors(
-            arguments_.in, [&] { return simplify_parts_levels(source_, levels_, options_); });
+            arguments.in, [&] { return simplify_parts_levels(source, wanted, options); });
         const ExitCode rejection = check_reports(levels);
         if (rejection != exit_ok) return rejection;
-        if (!arguments_.history.empty()) {
+        if (!arguments.history.empty()) {
             const ExitOnInterrupt exit_on_interrupt;
-            const detail::CollectWrites collect(set_);
-            write_histories(arguments_, levels);
+            const detail::CollectWrites collect(set);
+            write_histories(arguments, levels);
         }
         write_original();
-        return detail::with_file_in_errors(arguments_.in, [&] { return bake_levels(std::move(levels)); });
+        return detail::with_file_in_errors(arguments.in, [&] { return bake_levels(std::move(levels)); });
     }
 
     ExitCode bake_levels(std::vector<SimplifiedPartsLevel> levels) try {
         ExitCode code = exit_ok;
-        detail::bake_levels(source_, std::move(levels), options_, [&](SimplifiedAssetLevel level) {
+        detail::bake_levels(source, std::move(levels), options, [&](SimplifiedAssetLevel level) {
             if (is_interrupted() || level.result.report.stop == StopReason::cancelled) {
                 code = exit_cancelled;
                 return Continue::cancel;
@@ -207,13 +208,12 @@ private:
         });
         return code;
     } catch (const ByteLimitError& error) {
-        throw ByteLimitError(outputs_.models[written_.size()].string() + ": " + error.what());
+        throw ByteLimitError(outputs.models[written.size()].string() + ": " + error.what());
     }
 
     ExitCode write_with_shared_texture() {
-        std::vector<SimplifiedAssetLevel> levels = detail::with_file_in_errors(arguments_.in, [&] {
-            return simplify_levels(source_, levels_, options_, LevelTextures::shared);
-        });
+        std::vector<SimplifiedAssetLevel> levels = detail::with_file_in_errors(
+            arguments.in, [&] { return simplify_levels(source, wanted, options, LevelTextures::shared); });
         const ExitCode rejection = check_reports(levels);
         if (rejection != exit_ok) return rejection;
         write_original();
@@ -228,10 +228,10 @@ private:
         if (is_interrupted() || levels.back().result.report.stop == StopReason::cancelled)
             return exit_cancelled;
         for (const LevelResult& level : levels) {
-            const ExitCode rejection = rejection_code(level.result.report, arguments_.strict_target);
+            const ExitCode rejection = rejection_code(level.result.report, arguments.strict_target);
             if (rejection == exit_ok) continue;
             std::cerr << "faqem: "
-                      << rejection_message(rejection, arguments_.in, arguments_.out, level.result.report)
+                      << rejection_message(rejection, arguments.in, arguments.out, level.result.report)
                       << "\n";
             return rejection;
         }
@@ -239,12 +239,12 @@ private:
     }
 
     void write_original() {
-        if (!arguments_.without_original) append(warnings_, write(Asset(source_), 0, 0));
+        if (!arguments.without_original) append(warnings, write(Asset(source), 0, 0));
     }
 
     void write_level(SimplifiedAsset simplified, double distance, double error) {
         append(simplified.report.warnings, write(std::move(simplified.asset), distance, error));
-        written_.back().report = std::move(simplified.report);
+        written.back().report = std::move(simplified.report);
     }
 
     static void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
@@ -254,41 +254,30 @@ private:
     /// Saves one level, or stores it for the file of all. \return warnings about data that the format cannot store
     std::vector<std::string> write(Asset&& asset, double distance, double error) {
         const ExitOnInterrupt exit_on_interrupt;
-        const detail::CollectWrites collect(set_);
-        const fs::path& file = outputs_.models[written_.size()];
-        WrittenLevel& level = written_.emplace_back();
+        const detail::CollectWrites collect(set);
+        const fs::path& file = outputs.models[written.size()];
+        WrittenLevel& level = written.emplace_back();
         level = {.file = file.filename().string(), .distance = distance, .error = error, .report = {}};
         for (const Part& part : asset.parts) {
             level.faces += part.triangles.size();
             level.vertices += part.positions.size();
         }
-        if (outputs_.is_file) {
-            one_file_levels_.push_back({std::move(asset), coverage(error)});
+        if (outputs.is_file) {
+            one_file_levels.push_back({std::move(asset), coverage(error)});
             return {};
         }
         detail::EncodedModel model = detail::encode_model(asset, file);
-        detail::write_model(model, file.parent_path(), arguments_.overwrite);
+        detail::write_model(model, file.parent_path(), arguments.overwrite);
         level.bytes = model.bytes();
         return std::move(model.losses);
     }
 
     /// Screen coverage below which the level is shown, for each part at its largest scale in the scene.
     std::vector<double> coverage(double error) const {
-        const ViewSettings& view_settings = arguments_.view_settings;
-        return detail::level_coverage(source_, size_, error,
+        const ViewSettings& view_settings = arguments.view_settings;
+        return detail::level_coverage(source, size, error,
                                       view_settings.pixel_error / view_settings.screen_height);
     }
-
-    const LodArguments& arguments_;
-    const Outputs& outputs_;
-    const Asset& source_;
-    const std::vector<Level>& levels_;
-    const Options& options_;
-    std::vector<std::string> warnings_;
-    std::vector<WrittenLevel> written_;
-    std::vector<SavedLevel> one_file_levels_;  // of a file of all levels
-    detail::SceneSize size_;
-    detail::FileSet set_;
 };
 
 int run(LodArguments arguments) {
@@ -307,21 +296,17 @@ int run(LodArguments arguments) {
     arguments.overwrite = prepare_outputs(arguments, outputs);
     install_signal_handlers();
     Asset source;
-    LodWriter writer(arguments, outputs, source, levels, options);
+    LodWriter writer{arguments, outputs, source, levels, options};
     ExitCode code;
     {
         ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
-        options.progress = [&bar](Phase phase, double fraction) {
-            bar.show(phase, fraction);
-            return is_interrupted() ? Continue::cancel : Continue::yes;
-        };
-        bar.show(Phase::load, 0);
+        options.progress = bar.callback();
         source = load_model(arguments.in, arguments.strictness());
-        code = writer();
+        code = writer.write_all();
     }
     if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";
     if (code == exit_ok && !arguments.quiet)
-        print_summary(arguments, outputs, source.file_bytes, writer.written(), writer.warnings());
+        print_summary(arguments, outputs, source.file_bytes, writer.written, writer.warnings);
     return code;
 }
 

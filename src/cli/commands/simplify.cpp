@@ -6,7 +6,6 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "asset/file_format.hpp"
@@ -176,11 +175,7 @@ int run(SimplifyCommandArguments arguments) {
     double diagonal = 0;
     {
         ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
-        options.progress = [&bar](Phase phase, double fraction) {
-            bar.show(phase, fraction);
-            return is_interrupted() ? Continue::cancel : Continue::yes;
-        };
-        bar.show(Phase::load, 0);
+        options.progress = bar.callback();
         simplified = simplified_model(arguments, options, diagonal);
         if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return cancelled();
     }

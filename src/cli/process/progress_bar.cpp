@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "cli/process/interrupt.hpp"
+
 namespace faqem::cli {
 
 namespace {
@@ -28,6 +30,14 @@ void ProgressBar::hide() {
 void ProgressBar::show(std::string_view text) {
     drawn_ = shown_;
     if (shown_) std::cerr << "\r\x1b[K" << text << std::flush;
+}
+
+Progress ProgressBar::callback() {
+    show(Phase::load, 0);
+    return [this](Phase phase, double fraction) {
+        show(phase, fraction);
+        return is_interrupted() ? Continue::cancel : Continue::yes;
+    };
 }
 
 void ProgressBar::show(Phase phase, double fraction) {

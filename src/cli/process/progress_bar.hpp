@@ -20,15 +20,18 @@ public:
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// Draws the bar if the phase or the percentage changed. \param fraction  completed share of the phase,
-    /// in [0, 1]
-    void show(Phase phase, double fraction);
+    /// Returns a callback for Options::progress that draws the bar, and cancels the run after a signal. It must not be
+    /// called after the end of the bar, which begins with Phase::load.
+    Progress callback();
     /// Draws a text instead.
     void show(std::string_view text);
     /// Clears the line, so that other text can be printed.
     void hide();
 
 private:
+    /// Draws the bar if the phase or the percentage changed.
+    void show(Phase phase, double fraction);
+
     bool drawn_ = false, shown_;
     Phase phase_ = Phase::load;
     int percent_ = -1;
