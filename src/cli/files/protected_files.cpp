@@ -31,44 +31,20 @@ std::optional<FileId> file_id(const fs::path& file) {
     return FileId(status.st_dev, status.st_ino);
 }
 
-class ProtectedFiles {
-public:
-    void add_input(const fs::path& input) {
-        const std::lock_guard guard(mutex_);
-        unread_inputs_.push_back(input);
-    }
-
-    void check(const fs::path& file) {
-        const std::optional<FileId> id = file_id(file);
-        if (!id) return;
-        const std::lock_guard guard(mutex_);
-        read_inputs();
-        if (const auto input = inputs_.find(*id); input != inputs_.end())
-            throw OptionError(file.string() + ": is the same file as the input " + input->second.string() +
-                              "; choose another output name");
-        if (const auto user = users_.find(*id); user != users_.end())
-            throw WriteError(file.string() + ": is needed by the input " + user->second.string() +
-                             "; choose another output name");
-    }
-
-private:
-    void read_inputs() {
-        for (const fs::path& input : std::exchange(unread_inputs_, {})) {
-            if (const std::optional<FileId> id = file_id(input)) inputs_.emplace(*id, input);
-            for (const fs::path& file : detail::referenced_files(input, detail::References::all))
-                if (const std::optional<FileId> id = file_id(file)) users_.emplace(*id, input);
-        }
-    }
-
-    std::mutex mutex_;
-    std::vector<fs::path> unread_inputs_;
-    std::map<FileId, fs::path> inputs_;
-    std::map<FileId, fs::path> users_;  // by referenced file, the first input that refers to it
+struct ProtectedFiles {
+    std::mutex mutex;
+    std::vector<fs::path> unread_inputs;
+    std::map<FileId, fs::path> inputs;
+    std::map<FileId, fs::path> users;  ///< by referenced file, the first input that refers to it
 };
+ProtectedFiles protected_files;
 
-ProtectedFiles& protected_files() {
-    static ProtectedFiles files;
-    return files;
+void read_inputs() {
+    for (const fs::path& input : std::exchange(protected_files.unread_inputs, {})) {
+        if (const std::optional<FileId> id = file_id(input)) protected_files.inputs.emplace(*id, input);
+        for (const fs::path& file : detail::referenced_files(input, detail::References::all))
+            if (const std::optional<FileId> id = file_id(file)) protected_files.users.emplace(*id, input);
+    }
 }
 
 /// The check of write_output() and save().
@@ -99,11 +75,24 @@ void check_owner(const fs::path& owner, std::span<const fs::path> files) {
 }  // namespace
 
 void protect_input(const fs::path& input) {
-    protected_files().add_input(input);
+    const std::lock_guard guard(protected_files.mutex);
+    protected_files.unread_inputs.push_back(input);
     detail::set_write_check(check_written_files);
 }
 
-void check_unprotected(const fs::path& file) { protected_files().check(file); }
+void check_unprotected(const fs::path& file) {
+    const std::optional<FileId> id = file_id(file);
+    if (!id) return;
+    const std::lock_guard guard(protected_files.mutex);
+    read_inputs();
+    const auto& [mutex, unread, inputs, users] = protected_files;
+    if (const auto input = inputs.find(*id); input != inputs.end())
+        throw OptionError(file.string() + ": is the same file as the input " + input->second.string() +
+                          "; choose another output name");
+    if (const auto user = users.find(*id); user != users.end())
+        throw WriteError(file.string() + ": is needed by the input " + user->second.string() +
+                         "; choose another output name");
+}
 
 void check_models_unprotected(const std::vector<fs::path>& models) {
     for (const fs::path& model : models) check_unprotected(model);
