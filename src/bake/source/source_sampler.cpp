@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
 #include "bake/source/color_regions.hpp"
 #include "faqem/engine/mesh/vector.hpp"

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "asset/image/image.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/scene/material_textures.hpp"
 
