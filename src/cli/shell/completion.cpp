@@ -7,22 +7,20 @@ namespace faqem::cli {
 
 namespace {
 
-using CLI::detail::join;
-
 std::string command_names(const CommandTree& tree, const char* between) {
-    return join(
+    return CLI::detail::join(
         tree.commands, [](const CommandInfo& command) { return command.name; }, between);
 }
 
 /// Returns the possible values of a command's positional argument, separated by spaces; empty for files.
 std::string positional_words(const CommandInfo& command) {
-    return command.positionals.empty() ? "" : join(choices_of(command.positionals.front()), " ");
+    return command.positionals.empty() ? "" : CLI::detail::join(choices_of(command.positionals.front()), " ");
 }
 
 std::string bash_case(const CommandInfo& command) {
     std::ostringstream text;
-    text << "        " << command.name << ")\n            options='" << join(names_of(command.options), " ")
-         << "'\n";
+    text << "        " << command.name << ")\n            options='"
+         << CLI::detail::join(names_of(command.options), " ") << "'\n";
     if (const std::string words = positional_words(command); !words.empty())
         text << "            words='" << words << "'\n";
     text << "            case $previous in\n";
@@ -30,7 +28,8 @@ std::string bash_case(const CommandInfo& command) {
         const std::vector<std::string> choices = choices_of(option);
         if (choices.empty()) continue;
         for (const std::string& name : option.names)
-            text << "                " << name << ") words='" << join(choices, " ") << "' options= ;;\n";
+            text << "                " << name << ") words='" << CLI::detail::join(choices, " ")
+                 << "' options= ;;\n";
     }
     text << "            esac ;;\n";
     return text.str();
@@ -53,7 +52,8 @@ std::string bash_completion(const CommandTree& tree) {
             "    done\n"
             "    case $command in\n"
             "        '') options='"
-         << join(names_of(tree.options), " ") << "' words='" << command_names(tree, " ") << "' ;;\n";
+         << CLI::detail::join(names_of(tree.options), " ") << "' words='" << command_names(tree, " ")
+         << "' ;;\n";
     for (const CommandInfo& command : tree.commands) text << bash_case(command);
     // If COMPREPLY is empty, readline completes file names (`-o default`).
     text << "    esac\n"
