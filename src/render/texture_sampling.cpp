@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <utility>
 
 #include "asset/image/srgb.hpp"
 #include "asset/image/texel_reading.hpp"

@@ -9,7 +9,6 @@
 #include "asset/model_files.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "bake/source/page_groups.hpp"
-#include "faqem/options.hpp"
 #include "result/best_picture.hpp"
 #include "scene/resolved_options.hpp"
 

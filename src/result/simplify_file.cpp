@@ -11,7 +11,6 @@
 #include "asset/io/encoded_model.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
-#include "faqem/error.hpp"
 #include "result/simplify.hpp"
 
 namespace faqem {

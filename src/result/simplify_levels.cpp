@@ -1,7 +1,6 @@
 #include <utility>
 
 #include "bake/scene/shared_texture.hpp"
-#include "faqem/bake_levels.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
 #include "result/simplify.hpp"
 #include "result/simplify_levels.hpp"

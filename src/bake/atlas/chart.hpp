@@ -3,7 +3,6 @@
 /// The triangles of a page, and the charts that are made from them.
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "bake/atlas/point2.hpp"

@@ -9,7 +9,6 @@
 
 #include "bake/atlas/parametrization.hpp"
 #include "bake/atlas/segmentation.hpp"
-#include "faqem/detail/base/parallel.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -3,9 +3,7 @@
 /// Overlap test for triangles in the plane.
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <utility>
 
 #include "bake/atlas/point2.hpp"
 

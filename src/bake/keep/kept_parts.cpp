@@ -2,7 +2,6 @@
 
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"

@@ -3,7 +3,6 @@
 /// The mesh that bake_onto() textures: as one part in scene space, and with the result in its own parts.
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "bake/parts/corners.hpp"

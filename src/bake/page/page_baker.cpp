@@ -1,12 +1,8 @@
 #include "bake/page/page_baker.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <utility>
-#include <vector>
 
-#include "bake/page/page_canvas.hpp"
 #include "bake/page/texel_projector.hpp"
 #include "bake/page/texel_values.hpp"
 #include "faqem/engine/mesh/vector.hpp"

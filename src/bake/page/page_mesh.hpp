@@ -3,7 +3,6 @@
 /// The faces of a page, flattened from the parts that they are in.
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 

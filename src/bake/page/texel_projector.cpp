@@ -1,7 +1,6 @@
 #include "bake/page/texel_projector.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 

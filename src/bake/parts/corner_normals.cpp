@@ -6,7 +6,6 @@
 #include "bake/parts/corner_points.hpp"
 #include "bake/source/facets.hpp"
 #include "bake/source/source_normals.hpp"
-#include "faqem/detail/base/parallel.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "asset/scene/value_numbers.hpp"
-#include "bake/source/source_normals.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"

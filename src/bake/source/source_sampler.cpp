@@ -2,12 +2,10 @@
 
 #include "asset/scene/messages.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "asset/image/srgb.hpp"
 #include "bake/source/color_regions.hpp"

@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 
-#include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "bake/texture/picture_difference.hpp"
 #include "faqem/asset.hpp"

@@ -9,13 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "asset/image/image.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "bake/texture/image_choice.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::detail {

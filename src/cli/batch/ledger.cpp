@@ -8,7 +8,6 @@
 #include <ctime>
 #include <fstream>
 #include <random>
-#include <vector>
 
 #include "asset/io/file.hpp"
 #include "asset/io/file_set.hpp"

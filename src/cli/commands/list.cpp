@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "asset/file_format.hpp"
 #include "cli/batch/model_list.hpp"
 #include "cli/batch/plan.hpp"
 #include "cli/commands/commands.hpp"

@@ -12,7 +12,6 @@
 #include <set>
 #include <span>
 #include <sstream>
-#include <string>
 
 #include "asset/file_format.hpp"
 #include "asset/io/file.hpp"

@@ -6,7 +6,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <system_error>
 #include <utility>
 

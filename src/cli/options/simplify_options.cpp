@@ -1,7 +1,5 @@
 #include "cli/options/simplify_options.hpp"
 
-#include <string_view>
-
 #include "cli/options/bound_options.hpp"
 #include "faqem/error.hpp"
 

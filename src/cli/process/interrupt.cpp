@@ -1,6 +1,5 @@
 #include "cli/process/interrupt.hpp"
 
-#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>

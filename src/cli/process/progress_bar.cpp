@@ -6,7 +6,6 @@
 #include <array>
 #include <iostream>
 #include <string>
-#include <string_view>
 
 #include "cli/process/interrupt.hpp"
 

@@ -1,7 +1,6 @@
 #include "cli/process/rejection.hpp"
 
 #include <sstream>
-#include <vector>
 
 #include "asset/scene/messages.hpp"
 
