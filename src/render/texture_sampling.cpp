@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "asset/image/srgb.hpp"
-#include "asset/image/texel_reading.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -50,6 +49,17 @@ private:
     std::array<std::int16_t, 13 * 512> bytes_;  // of the interval; -1 - b if it has b and b + 1
     std::array<double, 255> ends_;              // of the values with each byte
 };
+
+// Linear light of each sRGB byte.
+const std::array<float, 256>& linear_from_srgb_byte() {
+    static const auto table = [] {
+        std::array<float, 256> t{};
+        for (std::size_t i = 0; i < t.size(); ++i)
+            t[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / 255));
+        return t;
+    }();
+    return table;
+}
 
 // RGBA as in LinearColor, in a vector register. Eigen's arrays are made in memory, from which a register cannot be
 // loaded as long as the four values are not stored.

@@ -2,6 +2,7 @@
 /// \file
 /// Texture sampling with wrap modes, bilinear filtering and mip levels.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -84,6 +85,22 @@ UvTransform uv_transform(const TextureRef& texture_ref);
 /// Area of a triangle in UV space.
 /// \param uvs  by vertex
 double uv_area(const std::vector<Vec2f>& uvs, const Triangle& t);
+
+/// wrapped_texel() of a coordinate outside the image.
+inline std::uint32_t wrapped_outside(std::int64_t i, std::int64_t n, Wrap wrap) {
+    if (wrap == Wrap::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, n - 1));
+    const std::int64_t period = wrap == Wrap::mirror ? 2 * n : n;
+    std::int64_t r = i % period;
+    if (r < 0) r += period;
+    return static_cast<std::uint32_t>(r < n ? r : period - 1 - r);
+}
+
+/// The column or row that a coordinate reads.
+/// \param i  any
+/// \param n  number of columns or rows, > 0
+inline std::uint32_t wrapped_texel(std::int64_t i, std::int64_t n, Wrap wrap) {
+    return i >= 0 && i < n ? static_cast<std::uint32_t>(i) : wrapped_outside(i, n, wrap);
+}
 
 /// Encodes linear light in [0, 1] as an sRGB byte. Other values are clamped; NaN gives 0.
 std::uint8_t srgb_byte(double linear);

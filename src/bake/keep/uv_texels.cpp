@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "asset/image/texel_reading.hpp"
 #include "bake/atlas/point2.hpp"
+#include "render/texture_sampling.hpp"
 
 namespace faqem::detail {
 namespace {
