@@ -19,6 +19,9 @@ using engine::Vector3;
 // SuccessiveProjection.
 constexpr double min_facing_cosine = 0.17;
 
+// Minimum cosine between a normal of the mesh and the way to a visible face above a hidden one.
+constexpr double min_upward_cosine = 0.7;
+
 Vector3 point_on(const TriangleMesh& mesh, Index face, const Vec3& w) {
     Vector3 p = Vector3::Zero();
     for (std::size_t i = 0; i < 3; ++i) p += w[i] * to_eigen(mesh.positions[mesh.triangles[face][i]]);
@@ -125,7 +128,8 @@ SurfacePoint OntoMap::find(Index face, const Vec3& barycentric, const SurfacePoi
             engine::to_array(p),
             [&](Index f) { return !is_hidden_[f] && normals_[f].dot(normal) >= min_facing_cosine; },
             std::min(max_distance_squared_, half_edge_squared(face)));
-        if (seen.face != no_index) hit = seen;
+        const Vector3 way = to_eigen(seen.point) - p;
+        if (seen.face != no_index && way.dot(normal) >= min_upward_cosine * way.norm()) hit = seen;
     }
     is_matched_[face].store(1, std::memory_order_relaxed);
     raise(largest_distance_, std::sqrt(hit.distance_squared));

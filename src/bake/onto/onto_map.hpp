@@ -15,7 +15,8 @@
 namespace faqem::detail {
 
 /// Maps points of a mesh to the closest points of a source that is turned to the same side. If a face of the mesh is seen
-/// from outside, visible faces of the source come first, up to a distance of half the longest edge of the face.
+/// from outside, visible faces of the source above it come before hidden ones, up to a distance of half the longest
+/// edge of the face.
 class OntoMap final : public PointMap {
 public:
     /// \param source        its first part, with faces; must outlive this
