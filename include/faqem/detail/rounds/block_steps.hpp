@@ -36,7 +36,6 @@ struct BlockSteps {
     std::array<std::uint64_t, refusal_kinds> refusals = {};
     std::array<std::uint64_t, rung_kinds> rungs = {};
     std::uint64_t collapses = 0;  ///< number of steps, including those that were not recorded
-    std::uint64_t faces = 0;      ///< number of faces removed, in rounds
     bool is_cancelled = false;
 };
 

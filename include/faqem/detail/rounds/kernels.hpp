@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "faqem/export.hpp"
 
@@ -22,8 +21,6 @@ inline Vector cross(const Vector& a, const Vector& b) {
 }
 
 inline float length(const Vector& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
-
-inline constexpr float never = std::numeric_limits<float>::infinity();
 
 /// Values that are computed at once: as many as a vector register of AVX2 has.
 inline constexpr int lanes = 8;
@@ -132,25 +129,12 @@ inline void solve(EdgeBatch& b) {
     for (int i = 0; i < EdgeBatch::size; ++i) choose(b, i);
 }
 
-/// Where the new vertex of an edge may be.
-enum class Place { anywhere, at_first, at_second, between, nowhere };
-
-/// Changes position and cost of edge i after solve(). `between`: the best of both ends and the midpoint
-inline void restrict_to(Place place, EdgeBatch& b, int i) {
-    if (place == Place::anywhere) return;
-    float part = place == Place::at_second ? 1 : 0, best = part > 0 ? b.at_second[i] : b.at_first[i];
-    if (place == Place::between && b.at_second[i] < best) part = 1, best = b.at_second[i];
-    if (place == Place::between && b.at_middle[i] < best) part = 0.5f, best = b.at_middle[i];
-    for (int k = 0; k < 3; ++k) b.x[k][i] = part * b.t[k][i];
-    b.cost[i] = place == Place::nowhere ? never : best > 1e-37f ? best : 1e-37f;
-}
-
 /// The faces around a pair that remain after its collapse: face i has the corners centre, ring[i] and ring[i + 1],
-/// counterclockwise; ring[size] is ring[0] if no border is there. Positions are relative to the first vertex of the pair.
+/// counterclockwise. Positions are relative to the first vertex of the pair.
 struct Star {
     static constexpr int most = 56;
     static constexpr int room = 64;
-    float ring[3][room + 1];
+    float ring[3][room + 1];                ///< ring[size] is ring[0]
     float centre[3][room];                  ///< before the collapse, per face
     float before[6][room], after[6][room];  ///< planes
     float normal[3][room];                  ///< after the collapse, times twice the area
@@ -210,17 +194,13 @@ inline bool turns(const Star& s, int count, float least_cosine) {
 /// The cosine below which the normals of two faces at an edge make it a fold.
 inline constexpr float fold_cosine = -0.9f;
 
-/// Likewise for edges that have planes of their own.
-inline constexpr float crease_cosine = -0.5f;
-
-/// Whether normals at an edge of the new vertex have a smaller cosine.
-/// \param is_open  whether faces 0 and count - 1 have no common edge
-inline bool folds_inside(const Star& s, int count, bool is_open, float cosine) {
-    int last = is_open ? 0 : count - 1;
-    for (int i = is_open; i < count; last = i++) {
+/// Whether an edge of the new vertex is a fold.
+inline bool folds_inside(const Star& s, int count) {
+    int last = count - 1;
+    for (int i = 0; i < count; last = i++) {
         const float along = s.normal[0][i] * s.normal[0][last] + s.normal[1][i] * s.normal[1][last] +
                             s.normal[2][i] * s.normal[2][last];
-        if (along < cosine * s.after_length[i] * s.after_length[last]) return true;
+        if (along < fold_cosine * s.after_length[i] * s.after_length[last]) return true;
     }
     return false;
 }

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "faqem/detail/base/parallel.hpp"
@@ -20,25 +20,25 @@ FAQEM_NAMESPACE_BEGIN
 namespace detail {
 namespace rounds {
 
-/// Why vertices do not move: at `unfit` ones straight borders meet, or the surface is not a manifold.
+inline constexpr float never = std::numeric_limits<float>::infinity();
+
+/// Why vertices do not move: `unfit` ones are on a border, or the surface is not a manifold there.
 inline constexpr std::uint32_t user_lock = 1, unfit = 2;
 
 /// One cache line.
 struct alignas(64) Vertex {
-    std::array<double, 3> p;         ///< engine units
-    Planes planes;                   ///< of its faces; they pass through the vertex
-    std::uint32_t cell;              ///< in sum_planes() the first corner, in compact() the place to move to
-    std::uint32_t lock : 2 = 0;      ///< user_lock, unfit, both, or 0: it may move
-    std::uint32_t bent : 1 = 0;      ///< has planes along edges; see add_edge_planes()
-    std::uint32_t straight : 1 = 0;  ///< on a straight or planar part of a border
-    std::uint32_t degree : 28 = 0;   ///< used in sum_planes()
-    Index slot;                      ///< of the input; no_index: removed
-    Index source;                    ///< the slot of the input with the same position, or no_index
+    std::array<double, 3> p;        ///< engine units
+    Planes planes;                  ///< of its faces; they pass through the vertex
+    std::uint32_t cell;             ///< in sum_planes() the first corner, in compact() the place to move to
+    std::uint32_t lock : 2 = 0;     ///< user_lock, unfit, both, or 0: it may move
+    std::uint32_t degree : 30 = 0;  ///< used in sum_planes()
+    Index slot;                     ///< of the input; no_index: removed
+    Index source;                   ///< the slot of the input with the same position, or no_index
 };
 
 struct Face {
     std::array<Index, 3> v;   ///< no_index in the first: removed
-    std::array<Corner, 3> o;  ///< the corner across the edge opposite corner k, or no_index at a border
+    std::array<Corner, 3> o;  ///< the corner across the edge opposite corner k, or no_index
     Index slot;               ///< of the input
     Index place;              ///< in compact(): to move to
 };
@@ -48,9 +48,7 @@ struct Mesh {
     std::vector<Face> faces;
     std::vector<float> keys;  ///< three per face; see key()
     std::size_t alive = 0;    ///< number of faces
-    std::size_t unfit_vertices = 0;
     double area = 0;
-    std::span<const Index> parts;  ///< per slot of the input: the part of a border, see engine::PlanarBorders
 
     /// Cost of the edge opposite a corner, at the smaller of its two corners; `never` at the other one, at edges
     /// with a locked end, and at edges that were refused since an end moved.
@@ -61,29 +59,6 @@ struct Mesh {
         const auto &a = vertices[from].p, &b = vertices[to].p;
         return {static_cast<float>(b[0] - a[0]), static_cast<float>(b[1] - a[1]),
                 static_cast<float>(b[2] - a[2])};
-    }
-
-    /// Where an edge may collapse to, so that parts of borders stay straight.
-    Place place(const Vertex& u, const Vertex& v) const {
-        if (!u.straight && !v.straight) return Place::anywhere;
-        if (u.straight && v.straight) return parts[u.slot] == parts[v.slot] ? Place::between : Place::nowhere;
-        return u.straight ? Place::at_first : Place::at_second;
-    }
-
-    /// The corner of the next face around the vertex of corner c, counterclockwise; no_index at a border.
-    Corner turned(Corner c) const {
-        const Corner across = faces[c >> 2].o[next(c & 3)];
-        return across == no_index ? across : (across & ~3u) | next(across & 3);
-    }
-
-    /// The most clockwise corner around the vertex of corner c; c itself if there is no border.
-    Corner first_of_fan(Corner c) const {
-        for (Corner at = c;;) {
-            const Corner across = faces[at >> 2].o[previous(at & 3)];
-            if (across == no_index) return at;
-            at = (across & ~3u) | previous(across & 3);
-            if (at == c) return c;
-        }
     }
 };
 
@@ -99,73 +74,13 @@ inline Vector root_of(const Mesh& mesh, const Face& f) {
     return {w * n[0], w * n[1], w * n[2]};
 }
 
-/// root_of() by index.
-struct Roots {
-    const Mesh& mesh;
-    Vector operator()(Index f) const { return root_of(mesh, mesh.faces[f]); }
-};
-
 inline void add_square(const Vector& n, Planes& q) {
     q[0] += n[0] * n[0], q[1] += n[0] * n[1], q[2] += n[0] * n[2];
     q[3] += n[1] * n[1], q[4] += n[1] * n[2], q[5] += n[2] * n[2];
 }
 
-/// Adds the planes along the edge opposite a corner, perpendicular to its faces: at a border, or at a fold with
-/// normals more than 120 degrees apart, as at the rim of a thin blade. Factors are those of MemorylessWeights.
-/// \param a, b  normals, of any length, of the face of the corner and of the face across the edge if there is one
-/// \return whether there are such planes
-inline bool add_edge_planes(const Mesh& mesh, Corner c, const Vector& a, const Vector& b, Planes& q) {
-    const Face& f = mesh.faces[c >> 2];
-    const Corner across = f.o[c & 3];
-    const auto add = [&](const Vector& n, float weight) {
-        const Vector e = mesh.difference(f.v[next(c & 3)], f.v[previous(c & 3)]), m = cross(e, n);
-        const float w = std::sqrt(weight) * length(e) / std::max(length(m), 1e-30f);
-        add_square({w * m[0], w * m[1], w * m[2]}, q);
-    };
-    if (across == no_index) return add(a, 1), true;
-    const float along = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    if (!(along < 0 && along < crease_cosine * length(a) * length(b))) return false;
-    return add(a, 0.2f), add(b, 0.2f), true;
-}
-
-/// \param root_of  gives root_of() of a face
-template <class RootOf>
-bool add_edge_planes(const Mesh& mesh, Corner c, const RootOf& root_of, Planes& q) {
-    const Corner across = mesh.faces[c >> 2].o[c & 3];
-    return add_edge_planes(mesh, c, root_of(c >> 2), root_of((across == no_index ? c : across) >> 2), q);
-}
-
-/// The faces around a vertex that are reached across edges with two faces, counterclockwise.
-struct Fan {
-    Planes planes = {};
-    std::uint32_t size = 0;
-    bool bent = false;     ///< planes along edges are among the planes
-    bool is_slit = false;  ///< it is open, and both ends are the same edge
-};
-
-/// \param start    see first_of_fan()
-/// \param root_of  gives root_of() of a face
-template <class RootOf>
-Fan fan_of(const Mesh& mesh, Corner start, const RootOf& root_of) {
-    Fan fan;
-    Corner c = start, last;
-    Vector root = root_of(start >> 2);
-    do {
-        ++fan.size;
-        add_square(root, fan.planes);
-        last = c;
-        c = mesh.turned(c);
-        const Vector ahead = root_of((c == no_index ? last : c) >> 2);
-        fan.bent |= add_edge_planes(mesh, (last & ~3u) | next(last & 3), root, ahead, fan.planes);
-        root = ahead;
-    } while (c != no_index && c != start);
-    if (c == start) return fan;
-    fan.bent |= add_edge_planes(mesh, (start & ~3u) | previous(start & 3), root_of, fan.planes);
-    fan.is_slit = mesh.faces[start >> 2].v[next(start & 3)] == mesh.faces[last >> 2].v[previous(last & 3)];
-    return fan;
-}
-
-/// Sums the planes of all vertices that are not locked, and locks those around which the faces are not one fan.
+/// Sums the planes of all vertices that are not locked, and locks those around which the faces are not
+/// one closed fan.
 /// \return root_of() of all faces
 inline std::vector<Vector> sum_planes(Mesh& mesh, const RunContext& context) {
     std::vector<Vector> roots(mesh.faces.size());
@@ -181,20 +96,24 @@ inline std::vector<Vector> sum_planes(Mesh& mesh, const RunContext& context) {
             ++at.degree;
         }
     }
-    parallel_blocks(
-        mesh.vertices.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
-            for (std::size_t v = first; v < end; ++v) {
-                Vertex& at = mesh.vertices[v];
-                if (!at.lock && at.degree > 0) {
-                    const Fan fan =
-                        fan_of(mesh, mesh.first_of_fan(at.cell), [&](Index f) { return roots[f]; });
-                    at.planes = fan.planes;
-                    at.bent = fan.bent;
-                    if (fan.size < at.degree || fan.is_slit) at.lock = unfit;
-                }
-                at.degree = 0;
-            }
-        });
+    parallel_blocks(mesh.vertices.size(), elements_per_block, context,
+                    [&](std::size_t first, std::size_t end) {
+                        for (std::size_t v = first; v < end; ++v) {
+                            Vertex& at = mesh.vertices[v];
+                            at.planes = {};
+                            Corner c = at.lock ? no_index : at.cell;
+                            while (c != no_index) {
+                                --at.degree;
+                                add_square(roots[c >> 2], at.planes);
+                                const Corner across = mesh.faces[c >> 2].o[next(c & 3)];
+                                c = across == no_index ? no_index : (across & ~3u) | next(across & 3);
+                                if (c == at.cell) break;
+                            }
+                            if (!at.lock && (c == no_index || at.degree > 0))
+                                at.lock = unfit;  // a border, or several fans
+                            at.degree = 0;
+                        }
+                    });
     return roots;
 }
 
@@ -205,12 +124,7 @@ inline void evaluate_edges(Mesh& mesh, const std::vector<Vector>& roots, Index f
     int count = 0;
     const auto flush = [&] {
         solve(batch);
-        for (int i = 0; i < count; ++i) {
-            const Face& f = mesh.faces[waiting[i] >> 2];
-            const unsigned k = waiting[i] & 3;
-            restrict_to(mesh.place(mesh.vertices[f.v[next(k)]], mesh.vertices[f.v[previous(k)]]), batch, i);
-            mesh.key(waiting[i]) = batch.cost[i];
-        }
+        for (int i = 0; i < count; ++i) mesh.key(waiting[i]) = batch.cost[i];
         count = 0;
     };
     for (Index f = first; f < end; ++f) {
@@ -222,10 +136,7 @@ inline void evaluate_edges(Mesh& mesh, const std::vector<Vector>& roots, Index f
             if (across < c || u.lock || v.lock) continue;
             Planes shared = {};
             add_square(roots[f], shared);
-            if (across != no_index) add_square(roots[across >> 2], shared);
-            if (u.bent && v.bent)
-                add_edge_planes(
-                    mesh, c, [&](Index g) { return roots[g]; }, shared);
+            add_square(roots[across >> 2], shared);
             const auto t = mesh.difference(face.v[next(k)], face.v[previous(k)]);
             put(batch, count, u.planes, v.planes, shared, t);
             waiting[count++] = c;
@@ -235,11 +146,11 @@ inline void evaluate_edges(Mesh& mesh, const std::vector<Vector>& roots, Index f
     flush();
 }
 
-/// Makes the mesh, with the costs of all edges. Locked are the vertices that `input` locks, those at which straight borders
-/// meet, and those at which the surface is not a manifold with consistent windings. Releases the arrays of the input.
+/// Makes the mesh, with the costs of all edges. Locked are the vertices that `input` locks, those on a border, and
+/// those at which the surface is not a manifold with consistent windings. Releases the arrays of the input.
 /// \return no mesh, and positions and triangles as they were, if more than `most_unfit` vertices are locked that the
 ///     input does not lock
-inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit, const RunContext& context) {
+inline std::optional<Mesh> load(const RoundInput& input, double most_unfit, const RunContext& context) {
     std::optional<Mesh> made(std::in_place);
     Mesh& mesh = *made;
     mesh.alive = input.triangles.size();
@@ -252,22 +163,21 @@ inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit,
     release(input.links);
     release(input.triangles);
     mesh.vertices.resize(input.positions.size());
-    if (input.borders) mesh.parts = input.borders->at;
+    const bool has_borders = input.borders && !input.borders->at.empty();
     parallel_blocks(mesh.vertices.size(), elements_per_block, context,
                     [&](std::size_t first, std::size_t end) {
                         for (std::size_t v = first; v < end; ++v) {
                             Vertex& at = mesh.vertices[v];
                             at.p = engine::to_array(input.positions[v]);
-                            const Index part = mesh.parts.empty() ? no_index : mesh.parts[v];
-                            at.straight = part != no_index;
-                            if (part == engine::PlanarBorders::corner) at.lock = unfit;
+                            if (has_borders && input.borders->at[v] != no_index) at.lock = unfit;
                             if (input.locked[v]) at.lock |= user_lock;
                             at.slot = at.source = static_cast<Index>(v);
                         }
                     });
     const std::vector<Vector> roots = sum_planes(mesh, context);
-    for (const Vertex& v : mesh.vertices) mesh.unfit_vertices += v.lock == unfit;
-    if (mesh.unfit_vertices > most_unfit) {
+    const auto stuck = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
+                                     [](const Vertex& v) { return v.lock == unfit; });
+    if (static_cast<double>(stuck) > most_unfit) {
         input.triangles.reserve(mesh.alive);
         for (const Face& f : mesh.faces) input.triangles.push_back(f.v);
         return {};

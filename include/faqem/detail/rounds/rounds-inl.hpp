@@ -18,15 +18,12 @@ namespace rounds {
 
 inline constexpr double vertices_per_cell = 4096;
 
-// Surfaces with fewer faces are one cell, so that the order of costs is that of the whole surface.
-inline constexpr std::size_t most_alone = 26'000;
-
 // Of the faces that are kept at least. The engine takes the rest exactly in the order of its costs, and collapses what
 // rounds refuse.
 inline constexpr double spare_faces = 1.25;
 
-// Faces that are kept at least for each vertex that rounds cannot move: the neighbourhoods of these stay dense.
-inline constexpr std::size_t faces_per_unfit = 16;
+// Vertices that rounds cannot move, as a part of the faces that are kept at least: their neighbourhoods stay dense.
+inline constexpr double most_unfit = 1.0 / 16;
 
 // Rounds that gain little end the work; so does their number.
 inline constexpr std::uint64_t most_rounds = 40;
@@ -45,12 +42,8 @@ inline float threshold(const Mesh& mesh, std::size_t edges) {
     return *at;
 }
 
-/// Assigns cells to all vertices. \return their number; small surfaces are one
+/// Assigns cells to all vertices. \return their number
 inline std::size_t assign_cells(Mesh& mesh, double area, std::uint64_t round, const RunContext& context) {
-    if (mesh.alive <= most_alone) {
-        for (Vertex& v : mesh.vertices) v.cell = 0;
-        return 1;
-    }
     const double share = vertices_per_cell / (0.5 * static_cast<double>(mesh.alive));
     const double side = std::clamp(std::sqrt(area * share), 1.0 / 64, 2.0);
     std::array<double, 3> shift;
@@ -109,7 +102,6 @@ inline Buckets<Corner> candidates(const Mesh& mesh, std::size_t cells, float lim
 
 inline void append(const BlockSteps& from, BlockSteps& to) {
     to.collapses += from.collapses;
-    to.faces += from.faces;
     to.steps.insert(to.steps.end(), from.steps.begin(), from.steps.end());
     for (std::size_t i = 0; i < refusal_kinds; ++i) to.refusals[i] += from.refusals[i];
     for (const std::size_t at : from.patch_begin) to.patch_begin.push_back(at + to.patch_faces.size());
@@ -123,18 +115,17 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
                                                              BlockSteps& result) {
     using namespace rounds;
     const std::size_t slots = input.positions.size(), faces = input.triangles.size();
-    auto least = static_cast<std::size_t>(spare_faces * static_cast<double>(target));
+    const auto least = static_cast<std::size_t>(spare_faces * static_cast<double>(target));
     if (4 * least > 3 * faces) return {};
     const RunContext untimed = context.untimed();
-    std::optional<Mesh> made = load(input, 3 * faces / (4 * faces_per_unfit), untimed);
+    std::optional<Mesh> made = load(input, most_unfit * static_cast<double>(least), untimed);
     if (!made) return {};
     Mesh& mesh = *made;
-    least = std::max(least, faces_per_unfit * mesh.unfit_vertices);
     if (patches == Recording::on) result.steps.reserve((faces - least) / 2);
     unsigned idle = 0;
     for (std::uint64_t round = 1; round <= most_rounds && idle < most_idle_rounds; ++round) {
-        const std::size_t need = mesh.alive - std::min(mesh.alive, least);
-        if (need < 1 + least / 64 || context.is_late()) break;
+        const std::size_t need = mesh.alive - least;
+        if (need < least / 64 || context.is_late()) break;
         if (2 * mesh.alive < mesh.faces.size()) compact(mesh, untimed);
         const float limit = threshold(mesh, need);
         const std::size_t cells = assign_cells(mesh, mesh.area, round, untimed);
@@ -155,7 +146,7 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
         });
         const std::size_t before = mesh.alive;
         for (BlockSteps& cell : steps) {
-            mesh.alive -= cell.faces;
+            mesh.alive -= 2 * cell.collapses;
             append(cell, result);
         }
         idle = 16 * (before - mesh.alive) < need ? idle + 1 : 0;

@@ -25,21 +25,21 @@ struct RoundInput {
     const engine::PlanarBorders* borders = nullptr;  ///< of this surface; null: none
 };
 
-/// Smaller surfaces and targets are left to the engine, whose rules for small features matter there.
-inline constexpr std::size_t min_vertices_of_rounds = 8192, min_target_of_rounds = 4096;
+/// Targets below this are left to the engine: a surface of one or two cells of rounds has only local orders of costs.
+inline constexpr std::size_t min_target_of_rounds = 13000;
 
 /// Simplifies the whole surface in parallel.
 ///
 /// In each round the surface is divided into the cells of a grid that is shifted at random. Each cell collapses its
-/// cheapest edges, if all faces around them are in the cell. Vertices at which straight borders meet, or the surface
-/// is not a manifold with consistent windings, do not move.
+/// cheapest edges, if all faces around them are in the cell. Border vertices and those at which the surface is
+/// not a manifold with consistent windings do not move.
 /// \param input    the surface
 /// \param target   number of faces of the result; rounds keep a quarter more at least
 /// \param patches  whether steps are recorded, with patch_faces and patch_begin
 /// \param context  reports Phase::simplify; the result does not depend on the number of threads
 /// \param found    the number of collapses, refusals, and the steps
-/// \return the surface after the steps; none if less than a quarter of the faces could be removed, also because there
-///     should be 16 faces for each vertex that cannot move
+/// \return the surface after the steps; none if less than a quarter of the faces could be removed, or if vertices that
+///     cannot move would be a large part of the result
 /// \throws engine::Cancelled  if the progress callback cancels; also whatever it throws
 /// Complexity: O(n) time, distributed over the threads; O(n) memory
 std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t target,

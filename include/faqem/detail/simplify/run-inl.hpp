@@ -238,7 +238,7 @@ private:
                                               progress_at(done_in_blocks_ + share));
         BlockSteps found;
         std::optional<CompactedMesh> left;
-        if (!state_.original() && now.positions.size() > min_vertices_of_rounds)
+        if (!state_.original() && now.positions.size() > few)
             left = simplify_in_rounds(
                 {now.positions, now.triangles, state_.links(), state_.locked(), &state_.borders()},
                 std::max(least, min_target_of_rounds), options_.history, step, found);
