@@ -12,9 +12,9 @@ import sys
 
 import pages
 
-MODELS = ["model.glb", "statue.glb", "ref.glb", "generated.glb", "model.obj", "crate.obj", "car.obj", "scan.ply",
-          "part.stl", "soup.stl", "tile.stl", "tiled.gltf", "models/urn.glb", "models/deep/crate.obj", "scans/a.ply",
-          "parts/b.stl", "photos.obj", "robot/meshes/arm.stl"]
+MODELS = ["model.glb", "statue.glb", "ref.glb", "generated.glb", "scan.glb", "remeshed.glb", "original.glb",
+          "model.obj", "crate.obj", "car.obj", "scan.ply", "part.stl", "soup.stl", "tile.stl", "tiled.gltf",
+          "models/urn.glb", "models/deep/crate.obj", "scans/a.ply", "parts/b.stl", "photos.obj", "robot/meshes/arm.stl"]
 
 
 def run(command, folder, environment):

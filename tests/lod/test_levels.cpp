@@ -204,7 +204,7 @@ TEST_CASE(
     "levels: a level of a distance equals the result of simplify() within that error, after any others") {
     const TriangleMesh mesh = test::lump(4);
     for (const Preset preset : {Preset::fast, Preset::best}) {
-        Options options = with(preset, Recording::on);
+        Options options = with(preset);
         const auto levels =
             simplify_levels(mesh.view(), {ratio(0.5), model_units(0.03), model_units(0.1)}, options);
         for (const std::size_t i : {1u, 2u}) {

@@ -82,8 +82,8 @@ CommandInfo bake_command() {
     source.is_required = true;
     const OptionInfo max_distance =
         text_option("--max-distance", "LENGTH", arguments->max_distance,
-                    "Texels farther from the source show the texels around them: scene units, or % of its "
-                    "diagonal (default 5%)");
+                    "Largest distance from the source, default 5%; texels beyond show those around them; "
+                    "scene units, or % of the diagonal of the source");
     const OptionInfo uvs = text_option("--uvs", "auto|keep|new", arguments->uvs,
                                        "UVs of the result; auto (keep if they are in [0, 1] and do not "
                                        "overlap), keep, new");

@@ -89,7 +89,8 @@ private:
         Options search = options_;
         search.max_error = model_units(level_targets_[i].allowed);
         RunWithin<Attempt<Result>> within;
-        if (within_) {
+        // One history has all levels of a run.
+        if (within_ && options_.history == Recording::off) {
             within = [&](double allowed, const Options& own,
                          const RunContext& of_run) -> std::optional<Attempt<Result>> {
                 std::optional<Result> result = within_(allowed, own, of_run);
@@ -186,7 +187,8 @@ private:
 };
 
 /// Runs the simplification for all levels and measures each level against the original. Levels of a distance come first,
-/// each simplified from the original by `within` or found by a search for its face count; then one run produces the others.
+/// each simplified from the original by `within` or, with Options::history, found by a search for its face count; then one
+/// run produces the others.
 /// \tparam Out           a type with the members of SimplifiedLevel
 /// \param level_targets  as returned by level_targets()
 /// \param options        options of the runs
