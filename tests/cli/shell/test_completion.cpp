@@ -40,8 +40,8 @@ using WordSet = std::set<std::string>;
 }  // namespace
 
 TEST_CASE("bash completes commands, options and values") {
-    CHECK(in_bash("''", 1) == WordSet{"simplify", "lod", "truncate", "batch", "list", "info", "compare",
-                                      "render", "report", "profiles", "completion"});
+    CHECK(in_bash("''", 1) == WordSet{"simplify", "lod", "truncate", "bake", "batch", "list", "info",
+                                      "compare", "render", "report", "profiles", "completion"});
     CHECK(in_bash("co", 1) == WordSet{"compare", "completion"});
     CHECK(in_bash("--v", 1) == WordSet{"--version"});
     CHECK(in_bash("simplify a.glb --textu", 3) == WordSet{"--texture-size"});
