@@ -70,7 +70,10 @@ public:
         const double most = engine::DistanceLimit::share_inside * limit_.distance;
         limit_.untracked_share = 0;
         limit_.is_near = [&tree, most](const engine::Vector3& p) {
-            return tree.closest(engine::to_array(p), most * most).face != no_index;
+            bool any = false;  // ends the search: no matter which face it is
+            const auto reject = [&](Index) { return !(any = true); };
+            tree.closest_if(engine::to_array(p), reject, most * most, 1);
+            return any;
         };
         UndoableSteps steps;
         EngineInput work(state_.mesh());
