@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/run_recorder.hpp"
@@ -33,6 +34,14 @@ inline constexpr std::size_t max_exact_pairs = 1 << 17;
 
 using engine::CollapseMesh;
 using engine::RunContext;
+
+// Whether a point is within a distance of a surface. Ends at the first near face, which need not be the nearest.
+inline bool is_near(const Bvh& tree, const engine::Vector3& p, double distance) {
+    bool any = false;
+    const auto reject = [&](Index) { return !(any = true); };
+    tree.closest_if(engine::to_array(p), reject, distance * distance, 1);
+    return any;
+}
 
 // The data that one engine works on, indexed by slots.
 struct EngineInput {

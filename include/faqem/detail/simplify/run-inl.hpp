@@ -69,12 +69,7 @@ public:
         const Bvh tree(surface.positions, surface.triangles, untimed_);
         const double most = engine::DistanceLimit::share_inside * limit_.distance;
         limit_.untracked_share = 0;
-        limit_.is_near = [&tree, most](const engine::Vector3& p) {
-            bool any = false;  // ends the search: no matter which face it is
-            const auto reject = [&](Index) { return !(any = true); };
-            tree.closest_if(engine::to_array(p), reject, most * most, 1);
-            return any;
-        };
+        limit_.is_near = [&tree, most](const engine::Vector3& p) { return is_near(tree, p, most); };
         UndoableSteps steps;
         EngineInput work(state_.mesh());
         RunRecorder recorder(work.collapse_mesh.vertex_slots(), nullptr, nullptr, &steps);
