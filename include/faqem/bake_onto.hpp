@@ -18,7 +18,7 @@ namespace faqem {
 enum class OntoUvs {
     automatic,  ///< as `keep` if that is possible, otherwise as `created`
     keep,       ///< those of its first set, which must lie in [0, 1] and must not overlap
-    created,
+    created,    ///< those of a new atlas
 };
 
 /// What bake_onto() has beside Options.
@@ -44,10 +44,10 @@ struct BakedOnto : SimplifiedAsset {
 };
 
 /// Bakes the appearance of one asset onto the surface of another one, which need not be made from it: textures,
-/// materials, UVs as OntoOptions::uvs says, and vertex normals where a normal map needs them. Both are compared in scene space, in their poses at rest;
-/// a part with several instances gets the appearance at its first one. A point of the target shows the closest point of
-/// the source on a face that is turned to the same side, or on a double-sided one if there is none; where both have
-/// surface that is seen from outside, rather on that of the source.
+/// materials, UVs as OntoOptions::uvs says, and vertex normals where a normal map needs them. Both are taken in scene
+/// space, in their poses at rest; a part with several instances gets the appearance at its first one. A point of the target shows the closest point of
+/// the source on a face that is turned to the same side, or else on the back of a double-sided one. Where the target is
+/// visible from outside, a visible face of the source above the point comes before a hidden one.
 /// The target keeps its nodes, names, skins, morph targets and animations; its materials and vertex colours are
 /// replaced. Extensions of materials of the source, except for unlit ones, are left out, with a warning.
 /// \param source   the appearance

@@ -32,6 +32,8 @@ struct FlatTarget {
     Part flat;
 };
 
+/// Puts the first instance of each part into world space.
+/// \throws InputError  there are more faces or vertices than an Index can count
 FlatTarget flat_target(const Asset& target);
 
 /// By corner of the flat part: the UVs of the first set of the target. Empty if a part has none, if any is outside of

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "asset/file_format.hpp"
+#include "asset/io/encoded_model.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"
@@ -75,8 +76,7 @@ void print_bytes(std::ostream& out, const Report& report) {
     images = std::min(images, report.bytes_out);
     std::uint64_t geometry = report.buffer_views.empty() ? report.bytes_out - images : 0, animation = 0;
     for (const ResultView& view : report.buffer_views) {
-        const bool is_animation = view.content.find("animation") != std::string::npos;
-        (is_animation ? animation : geometry) += view.bytes;
+        (detail::is_animation(view) ? animation : geometry) += view.bytes;
     }
     out << shown_bytes(report.bytes_in) << " -> " << shown_bytes(report.bytes_out) << " (geometry "
         << shown_bytes(geometry) << ", images " << shown_bytes(images);
