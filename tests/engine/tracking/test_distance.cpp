@@ -1,5 +1,9 @@
 #include "faqem/engine/tracking/distance.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <vector>
+
 #include "faqem/detail/geometry/triangle.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
@@ -39,9 +43,42 @@ TEST_CASE("distance: the nearest of several triangles is found, the first of equ
     const Vector3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), up(0, 0, 1);
     const std::vector<TriangleDistance> layers = {
         {a, b, c}, {a + up, b + up, c + up}, {a + up, b + up, c + up}};
-    CHECK(engine::nearest_index(layers, {0.2, 0.2, 0.4}) == 0);
-    CHECK(engine::nearest_index(layers, {0.2, 0.2, 0.6}) == 1);
-    CHECK(engine::nearest_index(std::vector<TriangleDistance>(), a) == 0);
+    engine::PointBatches points;
+    std::vector<std::size_t> expected, found;
+    for (int i = 0; i < 19; ++i) {
+        points.add({0.2, 0.2, i % 3 == 0 ? 0.4 : 0.6});
+        expected.push_back(i % 3 == 0 ? 0 : 1);
+    }
+    for_each_nearest(points, layers, [&](std::size_t i, std::size_t k) {
+        CHECK(i == found.size());
+        found.push_back(k);
+    });
+    CHECK(found == expected);
+}
+
+TEST_CASE("distance: batches of points agree with single points") {
+    test::Random random(9);
+    const auto point = [&] { return Vector3(random.unit(), random.unit(), random.unit()); };
+    for (std::size_t count = 0; count < 40; ++count) {
+        std::vector<TriangleDistance> triangles;
+        for (std::size_t k = 0; k < 1 + count % 7; ++k) triangles.emplace_back(point(), point(), point());
+        engine::PointBatches points;
+        const Vector3 centre = point();
+        double farthest = 0, nearest_to_centre = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vector3 p = 2 * point();
+            points.add(p);
+            double nearest = std::numeric_limits<double>::infinity();
+            for (const TriangleDistance& distance : triangles) nearest = std::min(nearest, distance(p));
+            farthest = std::max(farthest, nearest);
+            nearest_to_centre = std::min(nearest_to_centre, (p - centre).squaredNorm());
+        }
+        CHECK(farthest_squared(points, triangles, 0) == farthest);
+        CHECK(farthest_squared(points, triangles, 0.01) == std::max(0.01, farthest));
+        const auto [squared, at] = points.nearest(centre);
+        CHECK(squared == Approx(nearest_to_centre));
+        CHECK((at < count) == (count > 0));
+    }
 }
 
 TEST_CASE("distance: a segment is equivalent to a triangle with two equal corners") {
@@ -53,7 +90,7 @@ TEST_CASE("distance: a segment is equivalent to a triangle with two equal corner
     }
 }
 
-TEST_CASE("distance: the farthest point has the largest distance from its nearest shape") {
+TEST_CASE("distance: the farthest point has the largest distance from its nearest segment") {
     test::Random random(7);
     const auto point = [&] { return Vector3(random.unit(), random.unit(), random.unit()); };
     for (int i = 0; i < 100; ++i) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "faqem/engine/util/vectorised.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -24,23 +25,6 @@ inline float length(const Vector& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1
 
 /// Values that are computed at once: as many as a vector register of AVX2 has.
 inline constexpr int lanes = 8;
-
-#if defined(__GNUC__) && defined(__x86_64__)
-template <class Work>
-[[gnu::target("avx2"), gnu::flatten, gnu::noinline]] void with_avx2(const Work& work) {
-    work();
-}
-#endif
-
-/// Calls work(), with AVX2 where the processor has it. Results are the same: operations are neither fused nor
-/// reordered.
-template <class Work>
-void vectorised(const Work& work) {
-#if defined(__GNUC__) && defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return with_avx2(work);
-#endif
-    work();
-}
 
 /// Edges whose costs are computed at once.
 struct EdgeBatch {

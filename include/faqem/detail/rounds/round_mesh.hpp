@@ -185,7 +185,8 @@ inline std::optional<Mesh> load(const RoundInput& input, double most_unfit, cons
     release(input.positions);
     mesh.keys.resize(3 * mesh.alive);
     parallel_blocks(mesh.alive, elements_per_block, context, [&](std::size_t first, std::size_t end) {
-        vectorised([&] { evaluate_edges(mesh, roots, static_cast<Index>(first), static_cast<Index>(end)); });
+        engine::vectorised(
+            [&] { evaluate_edges(mesh, roots, static_cast<Index>(first), static_cast<Index>(end)); });
     });
     return made;
 }

@@ -142,7 +142,8 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
             if (context.is_late()) return;
             const std::span<const Corner> edges = sorted[used[i]];
             const auto most = static_cast<std::size_t>(quota * static_cast<double>(edges.size()));
-            vectorised([&] { CellCollapser(mesh, used[i], limit, patches, steps[i]).run(edges, most); });
+            engine::vectorised(
+                [&] { CellCollapser(mesh, used[i], limit, patches, steps[i]).run(edges, most); });
         });
         const std::size_t before = mesh.alive;
         for (BlockSteps& cell : steps) {

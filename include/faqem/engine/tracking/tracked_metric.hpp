@@ -110,9 +110,10 @@ public:
         if (is_tracking_) {
             gather_faces_after(mesh, u, v, candidate.point);
             if (!faces_after_.empty()) {
-                const double to_result = squared_distance_to_result();
+                farthest = std::max(farthest, squared_distance_to_original(candidate.point));
+                const double to_result = squared_distance_to_result(std::min(farthest, most));
                 if (to_result > most) return infinity;
-                farthest = std::max({farthest, to_result, squared_distance_to_original(candidate.point)});
+                farthest = std::max(farthest, to_result);
             } else if (limit_.is_finite()) {
                 return infinity;
             }
@@ -139,17 +140,14 @@ public:
         if (limit_.is_finite()) return std::numeric_limits<double>::infinity();
         if (!is_tracking_ || contraction.remaining().empty()) return candidate.cost;
         faces_after_.clear();
-        bound_.clear();
-        const auto gather_bound = [&](Index f) {
-            bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
-        };
+        clear_bound();
         for (const Index f : contraction.vanishing()) gather_bound(f);
         for (const auto& [f, a, b] : contraction.remaining()) {
             gather_bound(f);
             faces_after_.emplace_back(candidate.point, mesh.position(a), mesh.position(b));
         }
-        return candidate.cost + weight_ * std::max(squared_distance_to_result(),
-                                                   squared_distance_to_original(candidate.point));
+        return candidate.cost +
+               weight_ * squared_distance_to_result(squared_distance_to_original(candidate.point));
     }
 
     void before_collapse(const CollapseMesh& mesh, const PairTable& pairs, Index survivor, Index removed,
@@ -157,11 +155,11 @@ public:
         memoryless_.before_collapse(mesh, pairs, survivor, removed, p);
         boundary_bindings_->before_collapse(pairs, survivor, removed);
         if (!is_tracking_) return bindings_->merge(survivor, removed);
-        bound_.clear();
+        clear_bound();
         faces_.clear();
         tracked_all_ = tracks_all_faces(mesh, survivor, removed);
         for_each_tracked_face(mesh, survivor, removed, [&](Index f, unsigned) {
-            bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
+            gather_bound(f);
             bindings_->unbind_all(f);
             if (!tracked_all_ && !(mesh.has_corner(f, survivor) && mesh.has_corner(f, removed)))
                 faces_.push_back(f);
@@ -180,9 +178,9 @@ public:
             const Triangle& t = mesh.triangle(f);
             faces_after_.emplace_back(mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2]));
         }
-        for_each_bound([&](Index x) {
-            bindings_->bind(x, faces_[nearest_index(faces_after_, bindings_->position(x))]);
-        });
+        context_.count(bound_.size());
+        for_each_nearest(points_, faces_after_,
+                         [&](std::size_t i, std::size_t k) { bindings_->bind(bound_[i], faces_[k]); });
     }
 
     Reevaluation reevaluation(const PairTable::Change& change) const {
@@ -223,9 +221,9 @@ private:
     void gather_faces_after(const CollapseMesh& mesh, Index u, Index v, const Vector3& p) {
         faces_after_.clear();
         opposite_.clear();
-        bound_.clear();
+        clear_bound();
         for_each_tracked_face(mesh, u, v, [&](Index f, unsigned corner) {
-            bindings_->for_each_bound(f, [&](Index x) { bound_.push_back(x); });
+            gather_bound(f);
             if (mesh.has_corner(f, u) && mesh.has_corner(f, v)) return;
             const Triangle& t = mesh.triangle(f);
             const Vector3 &a = mesh.position(t[(corner + 1) % 3]), &b = mesh.position(t[(corner + 2) % 3]);
@@ -234,29 +232,26 @@ private:
         });
     }
 
-    // Calls visit(i) for each vertex in bound_, which may be most of the original vertices.
-    template <class Visit>
-    void for_each_bound(Visit&& visit) const {
-        context_.count(bound_.size());
-        for (const Index x : bound_) visit(x);
+    void clear_bound() { bound_.clear(), points_.clear(); }
+
+    // Appends the vertices bound to face f, which may be most of the original vertices.
+    void gather_bound(Index f) {
+        bindings_->for_each_bound(f, [&](Index x) {
+            bound_.push_back(x);
+            points_.add(bindings_->position(x));
+        });
     }
 
-    // Largest squared distance from the vertices in bound_ to the faces after the collapse.
-    double squared_distance_to_result() const {
-        FarthestPoint farthest(faces_after_);
-        for_each_bound([&](Index i) { farthest.add(bindings_->position(i)); });
-        return farthest.squared_distance();
+    // The largest of `at_least` and the squared distances from the vertices in bound_ to the faces after the collapse.
+    double squared_distance_to_result(double at_least) const {
+        context_.count(bound_.size());
+        return farthest_squared(points_, faces_after_, at_least);
     }
 
     // Squared distance from p to the original faces of the nearest vertex in bound_; 0 if bound_ is empty.
     double squared_distance_to_original(const Vector3& p) const {
-        Index at = no_index;
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const Index i : bound_) {
-            const double d = (bindings_->position(i) - p).squaredNorm();
-            if (d < nearest) nearest = d, at = i;
-        }
-        return at == no_index ? 0 : bindings_->squared_distance_to_ring(at, p, nearest);
+        const auto [nearest, at] = points_.nearest(p);
+        return at == no_index ? 0 : bindings_->squared_distance_to_ring(bound_[at], p, nearest);
     }
 
     const RunContext& context_;
@@ -274,6 +269,7 @@ private:
     std::vector<TriangleDistance> faces_after_;     // faces at the new vertex
     std::vector<Index> faces_;                      // those that are tracked after a collapse
     std::vector<Index> bound_;                      // tracked vertices bound around the pair
+    PointBatches points_;                           // their positions
 };
 
 static_assert(CollapseMetric<TrackedMetric>);

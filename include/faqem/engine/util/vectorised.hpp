@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// Loops for the widest vector registers of the processor.
+
+#include "faqem/export.hpp"
+
+FAQEM_NAMESPACE_BEGIN
+namespace engine {
+
+#if defined(__GNUC__) && defined(__x86_64__)
+template <class Work>
+[[gnu::target("avx2"), gnu::flatten, gnu::noinline]] void with_avx2(const Work& work) {
+    work();
+}
+#endif
+
+/// Calls work(), with AVX2 where the processor has it. Results are the same: operations are neither fused nor
+/// reordered.
+template <class Work>
+void vectorised(const Work& work) {
+#if defined(__GNUC__) && defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) return with_avx2(work);
+#endif
+    work();
+}
+
+}  // namespace engine
+FAQEM_NAMESPACE_END
