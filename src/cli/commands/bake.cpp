@@ -49,10 +49,7 @@ int run(const BakeArguments& arguments) {
         exit_on_interrupt.reset();
         baked = bake_onto(source, target, options, onto);
     }
-    if (is_interrupted() || baked.report.stop == StopReason::cancelled) {
-        std::cerr << "faqem: cancelled\n";
-        return exit_cancelled;
-    }
+    require_not_cancelled(baked.report);
     const ExitOnInterrupt exit_on_interrupt;
     detail::FileSet set;
     {

@@ -150,7 +150,7 @@ struct LodWriter {
     detail::SceneSize size = {};
     detail::FileSet set = {};
 
-    ExitCode write_all() {
+    void write_all() {
         size = detail::scene_size(source);
         warnings = source.warnings;
         append(warnings, detail::idle_options(source, options, typed_names(arguments.options),
@@ -159,10 +159,10 @@ struct LodWriter {
         if (first && first->kind == Target::Kind::faces && first->value <= 100)
             warnings.push_back("the first level has " + arguments.levels.front() +
                                " faces; a share has a percent sign: " + arguments.levels.front() + "%");
-        const ExitCode code = arguments.level_textures() == LevelTextures::shared
-                                  ? write_with_shared_texture()
-                                  : write_with_separate_textures();
-        if (code != exit_ok) return code;
+        if (arguments.level_textures() == LevelTextures::shared)
+            write_with_shared_texture();
+        else
+            write_with_separate_textures();
         if (outputs.is_file) {
             const ExitOnInterrupt exit_on_interrupt;
             const detail::CollectWrites collect(set);
@@ -178,64 +178,47 @@ struct LodWriter {
                          arguments.overwrite);
         }
         commit_outputs(set);
-        return exit_ok;
     }
 
     /// Bakes and writes one level at a time, so that only the images of one level are in memory.
-    ExitCode write_with_separate_textures() {
+    void write_with_separate_textures() {
         std::vector<SimplifiedPartsLevel> levels = detail::with_file_in_errors(
             arguments.in, [&] { return simplify_parts_levels(source, wanted, options); });
-        const ExitCode rejection = check_reports(levels);
-        if (rejection != exit_ok) return rejection;
+        check_reports(levels);
         if (!arguments.history.empty()) {
             const ExitOnInterrupt exit_on_interrupt;
             const detail::CollectWrites collect(set);
             write_histories(arguments, levels);
         }
         write_original();
-        return detail::with_file_in_errors(arguments.in, [&] { return bake_levels(std::move(levels)); });
+        detail::with_file_in_errors(arguments.in, [&] { bake_levels(std::move(levels)); });
     }
 
-    ExitCode bake_levels(std::vector<SimplifiedPartsLevel> levels) try {
-        ExitCode code = exit_ok;
+    void bake_levels(std::vector<SimplifiedPartsLevel> levels) try {
         detail::bake_levels(source, std::move(levels), options, [&](SimplifiedAssetLevel level) {
-            if (is_interrupted() || level.result.report.stop == StopReason::cancelled) {
-                code = exit_cancelled;
-                return Continue::cancel;
-            }
+            require_not_cancelled(level.result.report);
             write_level(std::move(level.result), level.distance, level.error);
             return Continue::yes;
         });
-        return code;
     } catch (const ByteLimitError& error) {
         throw ByteLimitError(outputs.models[written.size()].string() + ": " + error.what());
     }
 
-    ExitCode write_with_shared_texture() {
+    void write_with_shared_texture() {
         std::vector<SimplifiedAssetLevel> levels = detail::with_file_in_errors(
             arguments.in, [&] { return simplify_levels(source, wanted, options, LevelTextures::shared); });
-        const ExitCode rejection = check_reports(levels);
-        if (rejection != exit_ok) return rejection;
+        check_reports(levels);
         write_original();
         for (SimplifiedAssetLevel& level : levels)
             write_level(std::move(level.result), level.distance, level.error);
-        return exit_ok;
     }
 
-    /// Returns exit_ok if the levels may be written, otherwise prints the reason and returns the exit code.
+    /// \throws CommandError  the levels must not be written
     template <class LevelResult>
-    ExitCode check_reports(const std::vector<LevelResult>& levels) {
-        if (is_interrupted() || levels.back().result.report.stop == StopReason::cancelled)
-            return exit_cancelled;
-        for (const LevelResult& level : levels) {
-            const ExitCode rejection = rejection_code(level.result.report, arguments.strict_target);
-            if (rejection == exit_ok) continue;
-            std::cerr << "faqem: "
-                      << rejection_message(rejection, arguments.in, arguments.out, level.result.report)
-                      << "\n";
-            return rejection;
-        }
-        return exit_ok;
+    void check_reports(const std::vector<LevelResult>& levels) {
+        require_not_cancelled(levels.back().result.report);
+        for (const LevelResult& level : levels)
+            require_accepted(level.result.report, arguments.strict_target, arguments.in, arguments.out);
     }
 
     void write_original() {
@@ -297,17 +280,15 @@ int run(LodArguments arguments) {
     install_signal_handlers();
     Asset source;
     LodWriter writer{arguments, outputs, source, levels, options};
-    ExitCode code;
     {
         ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
         options.progress = bar.callback();
         source = load_model(arguments.in, arguments.strictness());
-        code = writer.write_all();
+        writer.write_all();
     }
-    if (code == exit_cancelled) std::cerr << "faqem: cancelled\n";
-    if (code == exit_ok && !arguments.quiet)
+    if (!arguments.quiet)
         print_summary(arguments, outputs, source.file_bytes, writer.written, writer.warnings);
-    return code;
+    return exit_ok;
 }
 
 /// The options that only this command has.

@@ -114,11 +114,6 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
     std::cout << out.str();
 }
 
-int cancelled() {
-    std::cerr << "faqem: cancelled\n";
-    return exit_cancelled;
-}
-
 /// Adds the model, the history and the correspondence to the set of files. The model is first: save() rejects
 /// names of images that would overwrite files of the input. The report is added later, because it has the
 /// time that saving took.
@@ -177,11 +172,11 @@ int run(SimplifyCommandArguments arguments) {
         ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
         options.progress = bar.callback();
         simplified = simplified_model(arguments, options, diagonal);
-        if (is_interrupted() || simplified.report.stop == StopReason::cancelled) return cancelled();
+        require_not_cancelled(simplified.report);
     }
-    const ExitCode rejection = rejection_code(simplified.report, arguments.strict_target);
     detail::FileSet set;
-    if (rejection == exit_ok) save_files(arguments, options, simplified, set);
+    if (rejection_code(simplified.report, arguments.strict_target) == exit_ok)
+        save_files(arguments, options, simplified, set);
     simplified.report.seconds.total = watch.seconds();
     if (!arguments.report.empty()) {
         const ExitOnInterrupt exit_on_interrupt;
@@ -190,10 +185,8 @@ int run(SimplifyCommandArguments arguments) {
     }
     commit_outputs(set);
     if (!arguments.quiet) print_summary(arguments, simplified.report, diagonal);
-    if (rejection != exit_ok)
-        std::cerr << "faqem: " << rejection_message(rejection, arguments.in, arguments.out, simplified.report)
-                  << "\n";
-    return rejection;
+    require_accepted(simplified.report, arguments.strict_target, arguments.in, arguments.out);
+    return exit_ok;
 }
 
 std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {

@@ -90,13 +90,7 @@ int run(const TruncateArguments& arguments) {
     SimplifiedParts simplified_parts =
         detail::parts_from_histories(truncate_to_faces(read_histories(arguments.history), arguments.faces));
     simplified_parts.report.target_faces = arguments.faces;
-    const ExitCode rejection = rejection_code(simplified_parts.report, true);
-    if (rejection != exit_ok) {
-        std::cerr << "faqem: "
-                  << rejection_message(rejection, arguments.history, arguments.out, simplified_parts.report)
-                  << "\n";
-        return rejection;
-    }
+    require_accepted(simplified_parts.report, true, arguments.history, arguments.out);
     const SimplifiedAsset result = arguments.source.empty()
                                        ? geometry_only(simplified_parts)
                                        : baked_model(arguments, simplified_parts, options);

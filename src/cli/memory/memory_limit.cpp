@@ -78,8 +78,9 @@ std::uint64_t process_memory() { return status_bytes("VmHWM:"); }
 
 void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed) {
     if (needed <= allowed) return;
-    throw MemoryError(file.string() + ": may need " + megabytes(needed) + " of memory, but only " +
-                      megabytes(allowed) + " are allowed (--max-memory)");
+    throw CommandError(exit_no_memory, file.string() + ": may need " + megabytes(needed) +
+                                           " of memory, but only " + megabytes(allowed) +
+                                           " are allowed (--max-memory)");
 }
 
 void limit_process_memory(std::uint64_t bytes, std::uint64_t threads) {

@@ -11,7 +11,7 @@ namespace faqem::cli {
 /// Checks an estimate against the limit.
 /// \param file             file name for the message
 /// \param needed, allowed  bytes
-/// \throws MemoryError  `needed` exceeds `allowed`; the message has the file name and both numbers
+/// \throws CommandError  exit_no_memory: `needed` exceeds `allowed`; the message has the file name and both numbers
 void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed);
 
 /// Peak resident memory of the process so far, bytes. Memory that was returned to the heap is assumed to be reused.

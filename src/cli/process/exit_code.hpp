@@ -27,10 +27,12 @@ enum ExitCode : int {
     exit_try_again = 75,  ///< EX_TEMPFAIL of sysexits.h
 };
 
-/// Thrown if the estimated memory exceeds the limit. The command exits with code 11.
-class MemoryError : public Error {
+/// Thrown to end the command with an exit code that no error of the library stands for.
+class CommandError : public Error {
 public:
-    using Error::Error;
+    CommandError(ExitCode exit_code, const std::string& message) : Error(message), code(exit_code) {}
+
+    ExitCode code;
 };
 
 /// Returns the exit code for an exception; exit_internal for unknown types.

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "asset/scene/messages.hpp"
+#include "cli/process/interrupt.hpp"
 
 namespace faqem::cli {
 
@@ -34,6 +35,17 @@ std::string rejection_message(ExitCode rejection, const std::filesystem::path& i
     }
     text << out.string() << " was not written";
     return text.str();
+}
+
+void require_not_cancelled(const Report& report) {
+    if (is_interrupted() || report.stop == StopReason::cancelled)
+        throw CommandError(exit_cancelled, "cancelled");
+}
+
+void require_accepted(const Report& report, bool strict_target, const std::filesystem::path& in,
+                      const std::filesystem::path& out) {
+    const ExitCode rejection = rejection_code(report, strict_target);
+    if (rejection != exit_ok) throw CommandError(rejection, rejection_message(rejection, in, out, report));
 }
 
 }  // namespace faqem::cli

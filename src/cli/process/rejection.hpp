@@ -24,4 +24,11 @@ ExitCode rejection_code(const Report& report, bool strict_target);
 std::string rejection_message(ExitCode rejection, const std::filesystem::path& in,
                               const std::filesystem::path& out, const Report& report);
 
+/// \throws CommandError  exit_cancelled: a signal or the progress callback has ended the run
+void require_not_cancelled(const Report& report);
+
+/// \throws CommandError  the result is rejected, see rejection_code() and rejection_message()
+void require_accepted(const Report& report, bool strict_target, const std::filesystem::path& in,
+                      const std::filesystem::path& out);
+
 }  // namespace faqem::cli

@@ -154,7 +154,7 @@ TEST_CASE("require_memory reports the file, the estimate and the limit") {
     CHECK_NOTHROW(require_memory("a.glb", 100, 100));
     CHECK_THROWS_WITH(require_memory("a.glb", 3'000'001, 2'000'000),
                       "a.glb: may need 4 MB of memory, but only 2 MB are allowed (--max-memory)");
-    CHECK_THROWS_AS(require_memory("a.glb", 101, 100), MemoryError);
-    CHECK(exit_code_of(MemoryError("")) == exit_no_memory);
+    CHECK_THROWS_AS(require_memory("a.glb", 101, 100), CommandError);
+    CHECK(exit_code_of(CommandError(exit_no_memory, "")) == exit_no_memory);
     CHECK(exit_code_of(std::bad_alloc()) == exit_no_memory);
 }
