@@ -81,7 +81,10 @@ public:
           ledger_(arguments.out_folder, has_list_ ? arguments.shard.name() : "directory",
                   has_list_ ? !arguments.redoes : arguments.resumes) {
         if (has_list_) {
-            run_ = {arguments.shard.count, work.options_key, std::string(version()), arguments.list_hash};
+            run_ = {{"shards", arguments.shard.count},
+                    {"options", work.options_key},
+                    {"version", version()},
+                    {"list", arguments.list_hash}};
             join_run(arguments.out_folder, run_, arguments.replaces_run);
         }
         for (BatchFile file : files) {

@@ -26,10 +26,6 @@ namespace fs = std::filesystem;
 /// The folder with the records of an output directory.
 fs::path records_folder(const fs::path& out_folder) { return out_folder / ".faqem-batch"; }
 
-Json json_of(const RunIdentity& run) {
-    return {{"shards", run.shards}, {"options", run.options}, {"version", run.version}, {"list", run.list}};
-}
-
 fs::path run_file(const fs::path& out_folder) { return records_folder(out_folder) / "run.json"; }
 
 fs::path completion_file(const fs::path& out_folder, const Shard& shard) {
@@ -146,24 +142,23 @@ void Ledger::add(const BatchFile& model, const std::string& event, const Json& d
 
 void join_run(const fs::path& out_folder, const RunIdentity& run, bool replaces) {
     const fs::path file = run_file(out_folder);
-    const Json own = json_of(run);
     make_folder(file.parent_path());
-    if (replaces) return write_output(file, json_line(own), Overwrite::yes);
+    if (replaces) return write_output(file, json_line(run), Overwrite::yes);
     if (!fs::exists(file)) {
         try {
-            return write_output(file, json_line(own), Overwrite::no);
+            return write_output(file, json_line(run), Overwrite::no);
         } catch (const WriteError&) {
             if (!fs::exists(file)) throw;  // otherwise another shard was faster
         }
     }
-    if (const std::string name = differing_member(file, own); !name.empty())
+    if (const std::string name = differing_member(file, run); !name.empty())
         throw OptionError(file.string() + ": the directory has the results of a run with other " + name +
                           "; choose another directory, or --new-run");
 }
 
 void complete_shard(const fs::path& out_folder, const Shard& shard, const RunIdentity& run,
                     const Json& counts) {
-    Json json = json_of(run);
+    Json json = run;
     json.update(counts);
     write_output(completion_file(out_folder, shard), json_line(json), Overwrite::yes);
 }
@@ -171,9 +166,9 @@ void complete_shard(const fs::path& out_folder, const Shard& shard, const RunIde
 RunIdentity read_run(const fs::path& out_folder) {
     const fs::path file = run_file(out_folder);
     try {
-        const Json json = Json::parse(detail::read_file(file));
-        RunIdentity run{json.at("shards"), json.at("options"), json.at("version"), json.at("list")};
-        if (run.shards > 0) return run;
+        RunIdentity run = Json::parse(detail::read_file(file));
+        for (const char* text : {"options", "version", "list"}) run.at(text).get<std::string>();
+        if (run.at("shards").get<std::uint64_t>() > 0) return run;
     } catch (const Json::exception&) {
     }
     throw InputError(file.string(), "", "is damaged");
@@ -181,7 +176,7 @@ RunIdentity read_run(const fs::path& out_folder) {
 
 bool is_complete(const fs::path& out_folder, const Shard& shard, const RunIdentity& run) {
     const fs::path file = completion_file(out_folder, shard);
-    return fs::exists(file) && differing_member(file, json_of(run)).empty();
+    return fs::exists(file) && differing_member(file, run).empty();
 }
 
 std::map<std::string, Json> last_records(const fs::path& out_folder, const Shard& shard) {

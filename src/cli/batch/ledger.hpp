@@ -16,13 +16,10 @@
 
 namespace faqem::cli {
 
-/// What the results of a run depend on besides the models. All shards of an output directory have the same.
-struct RunIdentity {
-    std::uint64_t shards = 1;
-    std::string options;  ///< BatchContext::options_key
-    std::string version;
-    std::string list;  ///< hash of the file
-};
+/// What the results of a run depend on besides the models, as the members of a JSON object: `shards` (their number, > 0),
+/// `options` (BatchContext::options_key), `version`, and `list` (hash of the file). All shards of an output directory have
+/// the same.
+using RunIdentity = Json;
 
 /// What has become of a model in all attempts, for its present hash and options.
 struct ModelHistory {

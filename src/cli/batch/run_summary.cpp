@@ -36,7 +36,7 @@ std::uint64_t short_key(const std::string& text) {
 std::vector<Shard> incomplete_shards(const fs::path& out_folder) {
     const RunIdentity run = read_run(out_folder);
     std::vector<Shard> shards;
-    for (Shard shard{0, run.shards}; shard.index < run.shards; ++shard.index)
+    for (Shard shard{0, run["shards"]}; shard.index < shard.count; ++shard.index)
         if (!is_complete(out_folder, shard, run)) shards.push_back(shard);
     return shards;
 }
@@ -65,7 +65,7 @@ RunSummary merge_records(const fs::path& out_folder, const std::function<void(co
     RunSummary summary;
     std::multimap<double, Json, std::greater<>> worst;      // equal ones are in the order of their insertion
     std::unordered_map<std::uint64_t, std::string> owners;  // ids by output, for those that the list names
-    for (Shard shard{0, run.shards}; shard.index < run.shards; ++shard.index) {
+    for (Shard shard{0, run["shards"]}; shard.index < shard.count; ++shard.index) {
         if (!is_complete(out_folder, shard, run))
             summary.problems.push_back("shard " + shard.name() + " is not complete");
         for (const auto& [id, record] : last_records(out_folder, shard)) {
