@@ -21,9 +21,6 @@ namespace fs = std::filesystem;
 /// the fault of the model.
 constexpr std::uint32_t max_crashes = 2, max_unended = 5;
 
-/// Identifies the options of a model in a record.
-std::string short_hash(std::string_view text) { return hexadecimal(sha256(text)).substr(0, 16); }
-
 /// Adds the options of a model, with the names of the command.
 void set_own_options(BatchFile& file, const ListedModel& model, GivenOptions given) {
     for (const auto& [name, value] : model.options.items()) {
@@ -88,8 +85,8 @@ public:
             join_run(arguments.out_folder, run_, arguments.replaces_run);
         }
         for (BatchFile file : files) {
-            file.options_id =
-                short_hash(work.options_key + (file.options ? detail::options_key(*file.options) : ""));
+            const std::string own = file.options ? detail::options_key(*file.options) : "";
+            file.options_id = sha256(work.options_key + own).substr(0, 16);
             has_list_ ? add_by_history(std::move(file)) : add(std::move(file));
         }
     }

@@ -124,7 +124,7 @@ std::string read_list(const fs::path& list, const std::function<bool(const std::
         }
     }
     if (in.bad()) throw ReadError(list.string(), "", "cannot read");
-    return hexadecimal(hash.finish());
+    return hash.finish();
 }
 
 std::string list_line(const ListedModel& model, const fs::path& folder) {

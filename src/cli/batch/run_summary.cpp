@@ -23,14 +23,6 @@ double badness(const Json& record) {
     return record.value("bytes", 0.0) / std::max(record.value("input_bytes", 0.0), 1.0);
 }
 
-/// The first bytes of the SHA-256 of a text, by which outputs are compared.
-std::uint64_t short_key(const std::string& text) {
-    const Digest digest = sha256(text);
-    std::uint64_t key = 0;
-    for (std::size_t i = 0; i < 8; ++i) key = key << 8 | digest[i];
-    return key;
-}
-
 }  // namespace
 
 std::vector<Shard> incomplete_shards(const fs::path& out_folder) {
@@ -76,7 +68,7 @@ RunSummary merge_records(const fs::path& out_folder, const std::function<void(co
             const std::string output = record.value("result", "");
             if (output.empty() || output == default_output(id, fs::path(output).extension().string()))
                 continue;
-            const auto [owner, is_new] = owners.emplace(short_key(output), id);
+            const auto [owner, is_new] = owners.emplace(short_hash(output), id);
             if (!is_new && owner->second != id)
                 summary.problems.push_back(output + " is the output of two models: " + owner->second +
                                            " and " + id);

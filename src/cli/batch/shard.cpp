@@ -74,13 +74,7 @@ Shard automatic_shard(const Environment& environment) {
 
 }  // namespace
 
-bool Shard::contains(const std::string& id) const {
-    if (count == 1) return true;
-    const Digest digest = sha256(id);
-    std::uint64_t number = 0;
-    for (std::size_t i = 0; i < 8; ++i) number = number << 8 | digest[i];
-    return number % count == index;
-}
+bool Shard::contains(const std::string& id) const { return count == 1 || short_hash(id) % count == index; }
 
 std::string Shard::name() const { return std::to_string(index) + "-of-" + std::to_string(count); }
 
@@ -101,7 +95,7 @@ Shard parse_shard(const std::string& text, const Environment& environment) {
 
 std::string default_output(const std::string& id, const std::string& extension) {
     constexpr std::string_view digits = "0123456789ABCDEF";
-    const std::string hash = hexadecimal(sha256(id));
+    const std::string hash = sha256(id);
     std::string name;
     for (const char c : id) {
         const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||

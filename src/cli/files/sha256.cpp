@@ -70,7 +70,7 @@ void Sha256::add(std::span<const std::uint8_t> bytes) {
     }
 }
 
-Digest Sha256::finish() {
+std::string Sha256::finish() {
     const std::uint64_t bits = 8 * size_;
     const std::array<std::uint8_t, 1> end = {0x80};
     constexpr std::array<std::uint8_t, 64> zeros = {};
@@ -79,23 +79,19 @@ Digest Sha256::finish() {
     std::array<std::uint8_t, 8> length;
     for (std::size_t i = 0; i < 8; ++i) length[i] = static_cast<std::uint8_t>(bits >> (56 - 8 * i));
     add(length);
-    Digest digest;
-    for (std::size_t i = 0; i < 32; ++i)
-        digest[i] = static_cast<std::uint8_t>(state_[i / 4] >> (24 - 8 * (i % 4)));
-    return digest;
+    std::string text;
+    for (std::size_t i = 0; i < 64; ++i) text += "0123456789abcdef"[state_[i / 8] >> (28 - 4 * (i % 8)) & 15];
+    return text;
 }
 
-Digest sha256(std::string_view text) {
+std::string sha256(std::string_view text) {
     Sha256 hash;
     hash.add({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     return hash.finish();
 }
 
-std::string hexadecimal(const Digest& digest) {
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::string text;
-    for (const std::uint8_t byte : digest) text += {digits[byte / 16], digits[byte % 16]};
-    return text;
+std::uint64_t short_hash(std::string_view text) {
+    return std::stoull(sha256(text).substr(0, 16), nullptr, 16);
 }
 
 std::string model_hash(const std::filesystem::path& model, std::uint64_t* bytes) {
@@ -104,7 +100,7 @@ std::string model_hash(const std::filesystem::path& model, std::uint64_t* bytes)
     for (const std::filesystem::path& file : detail::referenced_files(model, detail::References::readable))
         add_file(hash, file);
     if (bytes) *bytes = hash.size();
-    return hexadecimal(hash.finish());
+    return hash.finish();
 }
 
 }  // namespace faqem::cli

@@ -11,15 +11,13 @@
 
 namespace faqem::cli {
 
-using Digest = std::array<std::uint8_t, 32>;
-
 class Sha256 {
 public:
     void add(std::span<const std::uint8_t> bytes);
     /// Number of bytes that were added.
     std::uint64_t size() const { return size_; }
-    /// Returns the digest of all bytes. The object must not be used afterwards.
-    Digest finish();
+    /// Returns the digest of all bytes, as 64 hexadecimal digits. The object must not be used afterwards.
+    std::string finish();
 
 private:
     void add_block(const std::uint8_t* block);
@@ -30,11 +28,11 @@ private:
     std::uint64_t size_ = 0;                  // bytes added so far
 };
 
-/// The digest of a text.
-Digest sha256(std::string_view text);
+/// The digest of a text, as 64 hexadecimal digits.
+std::string sha256(std::string_view text);
 
-/// A digest as 64 hexadecimal digits.
-std::string hexadecimal(const Digest& digest);
+/// The first 8 bytes of the digest of a text, as a big-endian number.
+std::uint64_t short_hash(std::string_view text);
 
 /// The hash of a model: of its bytes, followed by those of the files that it refers to and that can be read, in the
 /// order of References::readable.
