@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 
-#include "asset/image/srgb.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/error.hpp"
 
@@ -47,14 +45,9 @@ constexpr std::array<Glyph, 17> font = {{
     {' ', {}},
 }};
 
-std::uint8_t encode(float linear) {
-    const double c = detail::srgb_from_linear(std::clamp(static_cast<double>(linear), 0.0, 1.0));
-    return static_cast<std::uint8_t>(std::lround(c * 255));
-}
-
 void set_pixel(Pixels& sheet, std::uint32_t x, std::uint32_t y, const Vector3f& color) {
     std::uint8_t* p = &sheet.rgba[(std::size_t{y} * sheet.width + x) * 4];
-    for (int k = 0; k < 3; ++k) p[k] = encode(color[k]);
+    for (int k = 0; k < 3; ++k) p[k] = detail::srgb_byte(color[k]);
     p[3] = 255;
 }
 
