@@ -124,27 +124,19 @@ private:
         const auto is_outside = [&](std::uint32_t i) {
             return twice_signed_area(a, b, position(i, j)) > 0;  // as v points down
         };
-        // Skips halves of the row, then samples.
+        // Skips halves of the row, then samples from the end that is cut.
         constexpr std::uint32_t few = 4;
-        if (b.y > a.y) {
-            for (std::uint32_t from = begin, to = end; from < to;) {
-                const std::uint32_t i = to - from > few ? from + (to - from) / 2 : from;
-                if (is_outside(i)) {
-                    begin = from = i + 1;
-                } else {
-                    to = i;
-                }
-            }
-        } else {
-            for (std::uint32_t from = begin, to = end; from < to;) {
-                const std::uint32_t i = to - from > few ? from + (to - from) / 2 : to - 1;
-                if (is_outside(i)) {
-                    end = to = i;
-                } else {
-                    from = i + 1;
-                }
-            }
+        const bool cuts_begin = b.y > a.y;
+        std::uint32_t from = begin, to = end;
+        while (from < to) {
+            const std::uint32_t next = cuts_begin ? from : to - 1;
+            const std::uint32_t i = to - from > few ? from + (to - from) / 2 : next;
+            if (is_outside(i) == cuts_begin)
+                from = i + 1;
+            else
+                to = i;
         }
+        (cuts_begin ? begin : end) = from;
     }
 
     // Calls visit(sample, position on the page) for the samples of a range.
