@@ -277,7 +277,7 @@ Point2 page_point(const ChartRaster& raster, const ChartPlacement& placement, co
 ChartPage make_page(std::span<const Chart> charts, std::span<const OrientedChart> shapes,
                     const ChartPacking& packing, std::size_t faces, std::uint32_t width, std::uint32_t height,
                     double scale) {
-    ChartPage page{{width, height, std::vector<TrianglePlacement>(faces), {}, scale}, {}};
+    ChartPage page{{width, height, std::vector<Triangle2>(faces), {}, scale}, {}};
     for (std::size_t i = 0; i < charts.size(); ++i) {
         const ChartRaster& raster = packing.raster(i);
         const ChartPlacement& placement = packing.placement(i);
@@ -292,7 +292,7 @@ ChartPage make_page(std::span<const Chart> charts, std::span<const OrientedChart
                          charts[i].faces,
                          raster.is_single_texel};
         for (std::size_t k = 0; k < charts[i].faces.size(); ++k) {
-            Triangle2& uv = page.atlas.placements[charts[i].faces[k]].uv;
+            Triangle2& uv = page.atlas.placements[charts[i].faces[k]];
             for (std::size_t c = 0; c < 3; ++c) {
                 uv[c] = raster.is_single_texel
                             ? Point2{chart.x + 0.5, chart.y + 0.5}

@@ -75,28 +75,22 @@ struct Unit {
 
 // Places the corners of the first or the second triangle of a cell; the second is rotated by 180 degrees.
 // Triangles are clockwise on the page in (u, v) with v down, as in glTF textures that are not mirrored.
-TrianglePlacement place_triangle(const AtlasCell& cell, const CellShape& shape, const AtlasTriangle& triangle,
-                                 bool second) {
-    TrianglePlacement placement;
+Triangle2 place_triangle(const AtlasCell& cell, const CellShape& shape, const AtlasTriangle& triangle,
+                         bool second) {
+    Triangle2 placement;
     if (shape.is_single_texel) {
-        for (Point2& uv : placement.uv) uv = {cell.x + 0.5, cell.y + 0.5};
+        placement.fill({cell.x + 0.5, cell.y + 0.5});
         return placement;
     }
     const std::uint32_t along = shape.width - shape.margin, up = shape.height - shape.margin;
-    const double inset = shape.block_size / 2.0;
-    Triangle2 local;  // right-angle corner, end of the first leg, of the second
-    if (shape.is_transposed) {
-        local = {{{inset, inset}, {inset, inset + up}, {inset + along, inset}}};
-        placement.legs = {up, along};
-    } else {
-        const double base = shape.height - inset;
-        local = {{{inset, base}, {inset + along, base}, {inset, base - up}}};
-        placement.legs = {along, up};
-    }
+    const double inset = shape.block_size / 2.0, base = shape.height - inset;
+    // The right-angle corner, the end of the first leg, and that of the second.
+    Triangle2 local = {{{inset, base}, {inset + along, base}, {inset, base - up}}};
+    if (shape.is_transposed) local = {{{inset, inset}, {inset, inset + up}, {inset + along, inset}}};
     for (std::size_t i = 0; i < 3; ++i) {
         const double x = second ? shape.width - local[i].x : local[i].x;
         const double y = second ? shape.height - local[i].y : local[i].y;
-        placement.uv[(triangle.right_angle_corner + i) % 3] = {cell.x + x, cell.y + y};
+        placement[(triangle.right_angle_corner + i) % 3] = {cell.x + x, cell.y + y};
     }
     return placement;
 }
@@ -167,7 +161,7 @@ public:
     }
 
     Atlas atlas(std::uint32_t width, std::uint32_t height) const {
-        Atlas result{width, height, std::vector<TrianglePlacement>(triangles_.size()), {}, scale_};
+        Atlas result{width, height, std::vector<Triangle2>(triangles_.size()), {}, scale_};
         place_on_shelves(width, height, [&](std::size_t i, std::uint32_t x, std::uint32_t y) {
             const Unit& unit = units_[i];
             result.cells.push_back({x, y, unit.shape.width, unit.shape.height, unit.first, unit.second,
@@ -214,9 +208,9 @@ std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, st
     return pack(largest_scale(pack, max_size, max_size, 0, 1)).atlas(max_size, max_size);
 }
 
-BarycentricFrame::BarycentricFrame(const TrianglePlacement& placement) : placement_(placement) {
-    const Point2& a = placement.uv[0];
-    const Point2 ab = placement.uv[1] - a, ac = placement.uv[2] - a;
+BarycentricFrame::BarycentricFrame(const Triangle2& triangle) : triangle_(triangle) {
+    const Point2& a = triangle[0];
+    const Point2 ab = triangle[1] - a, ac = triangle[2] - a;
     const double twice = cross(ab, ac);
     if (twice == 0) return;
     gradient_[0] = {ac.y / twice, -ac.x / twice, cross(ac, a) / twice};
@@ -236,7 +230,7 @@ Vec3 BarycentricFrame::closest(double x, double y) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
-        const Point2 &a = placement_.uv[i], &b = placement_.uv[j];
+        const Point2 &a = triangle_[i], &b = triangle_[j];
         const double t = closest_on_segment(a, b, {x, y});
         const double d = squared_length(point_on_line(a, b, t) - Point2{x, y});
         if (!(d < least)) continue;

@@ -32,14 +32,6 @@ struct AtlasTriangle {
     Index partner = no_index;
 };
 
-/// Position of a triangle on the page. The UVs of its corners are in texels; the centre of texel (i, j) is at
-/// (i + 0.5, j + 0.5), and v points down.
-struct TrianglePlacement {
-    Triangle2 uv = {};
-    /// Lengths in texels, in the order of AtlasTriangle::legs. 0, 0: the whole triangle is one texel.
-    std::array<std::uint32_t, 2> legs = {0, 0};
-};
-
 /// A rectangle of texels that belongs to one or two triangles.
 struct AtlasCell {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
@@ -51,10 +43,12 @@ struct AtlasCell {
 /// A page. Cells do not overlap. Every texel that a bilinear read inside a triangle touches is in the
 /// triangle's cell and, unless the cell is shared by partners, on the triangle's side of the cell.
 struct Atlas {
-    std::uint32_t width = 0, height = 0;        ///< powers of two
-    std::vector<TrianglePlacement> placements;  ///< by triangle
-    std::vector<AtlasCell> cells;               ///< in descending order of block size and height
-    double scale = 1;                           ///< lengths on the page divided by the wanted lengths
+    std::uint32_t width = 0, height = 0;  ///< powers of two
+    /// By triangle: its corners, in texels; the centre of texel (i, j) is at (i + 0.5, j + 0.5), and v points down. All
+    /// are equal if the whole triangle is one texel.
+    std::vector<Triangle2> placements;
+    std::vector<AtlasCell> cells;  ///< in descending order of block size and height
+    double scale = 1;              ///< lengths on the page divided by the wanted lengths
 };
 
 /// Packs triangles into rectangular cells, and the cells on shelves.
@@ -76,7 +70,7 @@ std::optional<Atlas> pack_triangles(std::span<const AtlasTriangle> triangles, st
 /// Barycentric coordinates of a placed triangle as a function of texel coordinates.
 class BarycentricFrame {
 public:
-    explicit BarycentricFrame(const TrianglePlacement& placement);
+    explicit BarycentricFrame(const Triangle2& triangle);
 
     /// Barycentric coordinates of (x, y); outside the triangle some are negative.
     Vec3 at(double x, double y) const;
@@ -84,7 +78,7 @@ public:
     Vec3 closest(double x, double y) const;
 
 private:
-    TrianglePlacement placement_;
+    Triangle2 triangle_;
     /// Second and third coordinate as affine functions: factor of x, factor of y, constant.
     std::array<std::array<double, 3>, 2> gradient_ = {};
 };

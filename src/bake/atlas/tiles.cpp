@@ -34,7 +34,7 @@ public:
 
     // Assigns samples inside a triangle to it, unless they are inside one that was visited before.
     void assign_covered(Index triangle) {
-        Triangle2 uv = atlas_.placements[triangle].uv;
+        Triangle2 uv = atlas_.placements[triangle];
         if (may_be_mirrored_ && twice_signed_area(uv[0], uv[1], uv[2]) > 0) std::swap(uv[1], uv[2]);
         const Range range = range_of(bounding_box(uv));
         for (std::uint32_t j = range.y0; j < range.y1; ++j) {
@@ -50,7 +50,7 @@ public:
     // Assigns samples outside all triangles to this one if its edge opposite corner c is the closest so far.
     void assign_nearest(Index triangle, std::size_t c, double reach) {
         if (squared_distance_.empty()) begin_distances();
-        const Triangle2& uv = atlas_.placements[triangle].uv;
+        const Triangle2& uv = atlas_.placements[triangle];
         const Point2 &a = uv[(c + 1) % 3], &b = uv[(c + 2) % 3];
         const Box2 box = bounding_box(std::array{a, b}).expanded(reach);
         for_each_sample(range_of(box), [&](std::size_t at, const Point2& p) {
@@ -172,7 +172,7 @@ private:
 
 // Whether the neighbour across the edge opposite corner c of a triangle is there on the page, too.
 bool is_beside(const Atlas& atlas, Index triangle, std::size_t c, const AdjacentTriangle& other) {
-    const Triangle2 &own = atlas.placements[triangle].uv, &its = atlas.placements[other.triangle].uv;
+    const Triangle2 &own = atlas.placements[triangle], &its = atlas.placements[other.triangle];
     return own[(c + 1) % 3] == its[(other.corner + 2) % 3] && own[(c + 2) % 3] == its[(other.corner + 1) % 3];
 }
 

@@ -42,8 +42,7 @@ void mark_row(const Triangle2& t, std::uint32_t y, std::uint32_t width, std::uin
 
 std::vector<std::uint8_t> shown_texels(const Atlas& atlas) {
     std::vector<std::uint8_t> shown(std::size_t{atlas.width} * atlas.height, 0);
-    for (const auto& placement : atlas.placements) {
-        const Triangle2& t = placement.uv;
+    for (const Triangle2& t : atlas.placements) {
         const auto [low, high] = std::minmax({t[0].y, t[1].y, t[2].y});
         if (!std::isfinite(low) || !std::isfinite(high)) continue;
         for (std::uint32_t y = texel_at(low, atlas.height); y <= texel_at(high, atlas.height); ++y)

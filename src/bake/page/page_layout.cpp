@@ -96,7 +96,7 @@ PageLayout layout_given(const PageMesh& mesh, std::span<const Triangle2> given, 
     chart.is_given = true;
     for (std::size_t i = 0; i < given.size(); ++i) {
         const Triangle2& uv = given[i];
-        result.atlas.placements.push_back({{uv[0] * side, uv[1] * side, uv[2] * side}, {}});
+        result.atlas.placements.push_back({uv[0] * side, uv[1] * side, uv[2] * side});
         if (twice_signed_area(uv[0], uv[1], uv[2]) != 0) chart.triangles.push_back(static_cast<Index>(i));
     }
     result.tiles = split_into_tiles(result.charts);

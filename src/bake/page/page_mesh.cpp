@@ -222,7 +222,7 @@ PageDensity relative_density(std::span<const BakePart> parts, const PageMesh& me
         const double density = mesh.source_density[i];
         const double wanted = area_vector(mesh.triangles[i]).norm() / 2 * density * density;
         if (!std::isfinite(wanted)) continue;
-        const Triangle2& uv = atlas.placements[i].uv;
+        const Triangle2& uv = atlas.placements[i];
         const double own = std::abs(twice_signed_area(uv[0], uv[1], uv[2])) / 2;
         const BakePart& part = parts[mesh.faces[i].part];
         const Index source_face = part.simplified->history.remaining_faces[mesh.faces[i].face];

@@ -13,9 +13,9 @@ using engine::to_eigen;
 using engine::Vector3;
 
 // The right-angle corner has the same u as one of the other corners and the same v as the other one.
-std::size_t right_angle_corner(const TrianglePlacement& placement) {
+std::size_t right_angle_corner(const Triangle2& placement) {
     for (std::size_t i = 0; i < 3; ++i) {
-        const Point2 &r = placement.uv[i], &a = placement.uv[(i + 1) % 3], &b = placement.uv[(i + 2) % 3];
+        const Point2 &r = placement[i], &a = placement[(i + 1) % 3], &b = placement[(i + 2) % 3];
         if ((r.x == a.x && r.y == b.y) || (r.y == a.y && r.x == b.x)) return i;
     }
     return 0;
@@ -75,8 +75,8 @@ TexelProjector::TexelProjector(const PageRequest& page, Index triangle)
       triangle_(page.mesh.triangles[triangle]),
       texel_length_(texel_length()),
       spacing_(texel_length_ / page.samples),
-      large_blocks_(large_block * block_size(page), bounding_box(placement_.uv)) {
-    blocks_.fill(BlockGrid(block_size(page), bounding_box(placement_.uv)));
+      large_blocks_(large_block * block_size(page), bounding_box(placement_)) {
+    blocks_.fill(BlockGrid(block_size(page), bounding_box(placement_)));
     const std::vector<Vec4f>& tangents = page.tangents[face_.part];
     for (std::size_t i = 0; i < 3 && !tangents.empty(); ++i) {
         const std::size_t c = std::size_t{3} * face_.face + i;
@@ -94,7 +94,7 @@ double TexelProjector::texel_length() const {
     if (is_single_texel()) return std::sqrt(area_vector(triangle_).norm() / 2);
     const auto at = [&](std::size_t i) { return to_eigen(triangle_.corners[i]); };
     const auto side_length = [&](double x, double y) {
-        const Point2& a = placement_.uv[0];
+        const Point2& a = placement_[0];
         const Vec3 w = frame_.at(a.x + x, a.y + y);
         return (w[1] * (at(1) - at(0)) + w[2] * (at(2) - at(0))).norm();
     };
@@ -146,7 +146,7 @@ TexelSample TexelProjector::point(std::uint32_t x, std::uint32_t y, double s, do
             return result;
         }
     }
-    const Triangle2& uv = placement_.uv;
+    const Triangle2& uv = placement_;
     result.weights = frame_.closest(x + s, y + t);
     result.on_triangle = uv[0] * result.weights[0] + uv[1] * result.weights[1] + uv[2] * result.weights[2];
     return result;
@@ -187,7 +187,7 @@ TexelProjector::Ball TexelProjector::ball_around(const Box2& box, const TexelSam
         return {weights_beyond(at.cache_index - 1, middle),
                 std::hypot(box.width(), box.height()) / 2 * texel_length_};
     }
-    const CutTriangle cut = cut_to(placement_.uv, box);
+    const CutTriangle cut = cut_to(placement_, box);
     if (cut.size == 0) return {at.weights, box.width() * texel_length_};
     const auto position = [&](const Vec3& w) {
         return Vector3(w[0] * to_eigen(triangle_.corners[0]) + w[1] * to_eigen(triangle_.corners[1]) +

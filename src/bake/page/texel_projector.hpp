@@ -153,7 +153,7 @@ private:
         std::size_t cache_index = 0;  // of the sample
     };
 
-    bool is_single_texel() const { return placement_.uv[0] == placement_.uv[1]; }
+    bool is_single_texel() const { return placement_[0] == placement_[1]; }
     double texel_length() const;
     Vec3 weights_beyond(std::size_t c, const Vec3& w) const;
     SurfacePoint map_near(const TexelSample& at, const SurfacePoint& near);
@@ -165,7 +165,7 @@ private:
     Vec3 own_weights(const TexelSample& at) const;
 
     const PageFace face_;
-    const TrianglePlacement& placement_;
+    const Triangle2& placement_;
     const BarycentricFrame frame_;
     const std::size_t right_angle_corner_;
     const BakePart& part_;

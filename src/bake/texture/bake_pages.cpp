@@ -142,7 +142,7 @@ void set_uvs(std::span<const BakePart> parts, const Page& page, std::vector<std:
         const PageFace& face = page.mesh.faces[i];
         uvs[face.part].resize(3 * parts[face.part].faces(), Vec2f{0, 0});
         for (std::size_t c = 0; c < 3; ++c) {
-            const Point2& uv = atlas.placements[i].uv[c];
+            const Point2& uv = atlas.placements[i][c];
             uvs[face.part][std::size_t{3} * face.face + c] = {static_cast<float>(uv.x / atlas.width),
                                                               static_cast<float>(uv.y / atlas.height)};
         }

@@ -63,8 +63,8 @@ void check_reads(const ChartPage& page, const std::vector<int>& owner) {
                 for (const Vec3& w : test::spread(5)) {
                     double x = -0.5, y = -0.5;
                     for (std::size_t c = 0; c < 3; ++c) {
-                        x += w[c] * page.atlas.placements[t].uv[c].x / size;
-                        y += w[c] * page.atlas.placements[t].uv[c].y / size;
+                        x += w[c] * page.atlas.placements[t][c].x / size;
+                        y += w[c] * page.atlas.placements[t][c].y / size;
                     }
                     for (int column = int(std::floor(x)); column < std::floor(x) + 2; ++column) {
                         for (int row = int(std::floor(y)); row < std::floor(y) + 2; ++row) {
@@ -84,8 +84,8 @@ void check_reads(const ChartPage& page, const std::vector<int>& owner) {
 }
 
 // Twice the signed area of a triangle on the page, with v as y axis.
-double page_orientation(const TrianglePlacement& placement) {
-    return twice_signed_area(placement.uv[0], placement.uv[1], placement.uv[2]);
+double page_orientation(const Triangle2& placement) {
+    return twice_signed_area(placement[0], placement[1], placement[2]);
 }
 
 }  // namespace
@@ -103,10 +103,10 @@ TEST_CASE("bilinear reads of a chart use its own texels only up to the mip level
 TEST_CASE("triangles on a page are not mirrored and do not overlap") {
     const Made m = made(test::both(test::icosphere(2), test::moved(test::cylinder(16, 3, 2), {5, 0, 0})), 30);
     std::vector<Triangle2> flat;
-    for (const TrianglePlacement& placement : m.page.atlas.placements) {
+    for (const Triangle2& placement : m.page.atlas.placements) {
         REQUIRE(page_orientation(placement) < 0);  // v points down
         Triangle2 t;
-        for (std::size_t c = 0; c < 3; ++c) t[c] = {placement.uv[c].x, -placement.uv[c].y};
+        for (std::size_t c = 0; c < 3; ++c) t[c] = {placement[c].x, -placement[c].y};
         flat.push_back(t);
     }
     CHECK(test::worst_overlap(flat) < 1e-6);
@@ -118,7 +118,7 @@ TEST_CASE("charts keep their shape at the scale of the page") {
     CHECK(m.page.atlas.scale <= std::sqrt(2.0));
     for (std::size_t i = 0; i < m.page.charts.size(); ++i) {
         for (std::size_t k = 0; k < m.page.charts[i].triangles.size(); ++k) {
-            const auto& uv = m.page.atlas.placements[m.page.charts[i].triangles[k]].uv;
+            const auto& uv = m.page.atlas.placements[m.page.charts[i].triangles[k]];
             for (std::size_t c = 0; c < 3; ++c) {
                 const Point2 &a = uv[c], &b = uv[(c + 1) % 3];
                 const double wanted =
@@ -146,8 +146,8 @@ TEST_CASE("a chart longer than the page is compressed") {
     const Made m = made(test::both(needle, test::square(2, 8, 1)), 8, 64);
     owners(m.page);
     CHECK(m.page.atlas.scale > 0.5);
-    for (const TrianglePlacement& placement : m.page.atlas.placements) {
-        for (const Point2& uv : placement.uv) CHECK((uv.x >= 0 && uv.x <= 64 && uv.y >= 0 && uv.y <= 64));
+    for (const Triangle2& placement : m.page.atlas.placements) {
+        for (const Point2& uv : placement) CHECK((uv.x >= 0 && uv.x <= 64 && uv.y >= 0 && uv.y <= 64));
     }
 }
 
@@ -170,8 +170,8 @@ TEST_CASE("samples of a chart are assigned to the triangle that contains them or
                     const Vec3 w = frame.closest(x, y);
                     double dx = -x, dy = -y;
                     for (std::size_t c = 0; c < 3; ++c) {
-                        dx += w[c] * m.page.atlas.placements[t].uv[c].x;
-                        dy += w[c] * m.page.atlas.placements[t].uv[c].y;
+                        dx += w[c] * m.page.atlas.placements[t][c].x;
+                        dy += w[c] * m.page.atlas.placements[t][c].y;
                     }
                     return std::hypot(dx, dy);
                 };
@@ -218,8 +218,8 @@ TEST_CASE("charts with coordinates out of range become one texel without affecti
         REQUIRE(page);
         CHECK(page->charts.size() == charts.size());
         owners(*page);
-        for (const TrianglePlacement& placement : page->atlas.placements) {
-            for (const Point2& uv : placement.uv) {
+        for (const Triangle2& placement : page->atlas.placements) {
+            for (const Point2& uv : placement) {
                 CHECK((uv.x >= 0 && uv.x <= page->atlas.width));
                 CHECK((uv.y >= 0 && uv.y <= page->atlas.height));
             }
@@ -240,7 +240,7 @@ TEST_CASE("the page is the same for every number of threads") {
             CHECK(page->atlas.scale == expected->atlas.scale);
             REQUIRE(page->atlas.placements.size() == expected->atlas.placements.size());
             for (std::size_t i = 0; i < page->atlas.placements.size(); ++i)
-                CHECK(page->atlas.placements[i].uv == expected->atlas.placements[i].uv);
+                CHECK(page->atlas.placements[i] == expected->atlas.placements[i]);
         }
     }
 }

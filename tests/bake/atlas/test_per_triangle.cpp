@@ -38,14 +38,15 @@ std::vector<AtlasTriangle> random_partners(std::size_t count, double largest) {
 }
 
 // Texels that bilinear filtering reads in a triangle. Weights within the rounding error are ignored.
-std::set<std::pair<int, int>> texels_read(const TrianglePlacement& placement) {
+std::set<std::pair<int, int>> texels_read(const Triangle2& placement) {
     std::set<std::pair<int, int>> result;
-    const int n = 4 * static_cast<int>(placement.legs[0] + placement.legs[1]) + 1;
+    const Box2 box = bounding_box(placement);
+    const int n = 4 * static_cast<int>(box.width() + box.height()) + 1;
     for (const Vec3& w : test::spread(n)) {
         double x = -0.5, y = -0.5;
         for (std::size_t i = 0; i < 3; ++i) {
-            x += w[i] * placement.uv[i].x;
-            y += w[i] * placement.uv[i].y;
+            x += w[i] * placement[i].x;
+            y += w[i] * placement[i].y;
         }
         for (double i : {std::floor(x), std::floor(x) + 1}) {
             for (double j : {std::floor(y), std::floor(y) + 1}) {
@@ -86,13 +87,12 @@ TEST_CASE("partners share their common edge on the page") {
         if (!cell.has_shared_hypotenuse) continue;
         ++joined;
         REQUIRE(triangles[cell.first].partner == cell.second);
-        const TrianglePlacement &a = atlas->placements[cell.first], &b = atlas->placements[cell.second];
-        CHECK(a.legs == b.legs);
+        const Triangle2 &a = atlas->placements[cell.first], &b = atlas->placements[cell.second];
         const std::size_t ra = triangles[cell.first].right_angle_corner,
                           rb = triangles[cell.second].right_angle_corner;
-        CHECK(a.uv[(ra + 1) % 3] == b.uv[(rb + 2) % 3]);
-        CHECK(a.uv[(ra + 2) % 3] == b.uv[(rb + 1) % 3]);
-        CHECK(a.uv[ra] != b.uv[rb]);
+        CHECK(a[(ra + 1) % 3] == b[(rb + 2) % 3]);
+        CHECK(a[(ra + 2) % 3] == b[(rb + 1) % 3]);
+        CHECK(a[ra] != b[rb]);
     }
     CHECK(joined > 0);
     if (largest > 50) CHECK(joined == 75);  // no pair is reduced to single texels
@@ -107,7 +107,7 @@ TEST_CASE("mip levels up to that of the block size read texels of their own cell
         if (!cell.has_shared_hypotenuse) continue;
         Box2 box;
         for (Index t : {cell.first, cell.second}) {
-            for (const Point2& uv : atlas->placements[t].uv) box.add(uv);
+            for (const Point2& uv : atlas->placements[t]) box.add(uv);
         }
         const double inset = box.low.x - cell.x;
         const auto block_size = static_cast<std::uint32_t>(2 * inset);
@@ -148,17 +148,18 @@ TEST_CASE("triangles have about the wanted size and are not mirrored") {
     const auto atlas = pack_triangles(triangles, 4096);
     REQUIRE(atlas);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const TrianglePlacement& placement = atlas->placements[t];
-        const double twice = twice_signed_area(placement.uv[0], placement.uv[1], placement.uv[2]);
-        CHECK(twice == -double(placement.legs[0]) * placement.legs[1]);
+        const Triangle2& placement = atlas->placements[t];
+        double area = 1;
         for (std::size_t i = 0; i < 2; ++i) {
+            const Point2& r = placement[triangles[t].right_angle_corner];
+            const Point2& end = placement[(triangles[t].right_angle_corner + 1 + i) % 3];
+            const double leg = std::abs(end.x - r.x) + std::abs(end.y - r.y);
             const double wanted = triangles[t].legs[i] * atlas->scale;
-            CHECK(placement.legs[i] > 0.75 * wanted - 2.5);
-            CHECK(placement.legs[i] < 1.35 * wanted + 2.5);
-            const Point2& r = placement.uv[triangles[t].right_angle_corner];
-            const Point2& end = placement.uv[(triangles[t].right_angle_corner + 1 + i) % 3];
-            CHECK(std::abs(end.x - r.x) + std::abs(end.y - r.y) == placement.legs[i]);
+            CHECK(leg > 0.75 * wanted - 2.5);
+            CHECK(leg < 1.35 * wanted + 2.5);
+            area *= leg;
         }
+        CHECK(twice_signed_area(placement[0], placement[1], placement[2]) == -area);
     }
 }
 
@@ -172,17 +173,16 @@ TEST_CASE("triangles are scaled down to the largest page and need at least one t
     const auto densest = pack_triangles(std::span(triangles).first(64 * 64 - 96), 64);
     REQUIRE(densest);
     std::set<std::pair<double, double>> positions;
-    for (const TrianglePlacement& placement : densest->placements)
-        positions.insert({placement.uv[0].x, placement.uv[0].y});
+    for (const Triangle2& placement : densest->placements) positions.insert({placement[0].x, placement[0].y});
     CHECK(positions.size() == densest->placements.size());
     CHECK_FALSE(pack_triangles(random_triangles(64 * 64 + 1, 100), 64));
 }
 
 TEST_CASE("barycentric coordinates are exact at corners and closest points are inside") {
-    TrianglePlacement placement{{{{10.5, 20.5}, {18.5, 20.5}, {10.5, 16.5}}}, {8, 4}};
+    const Triangle2 placement = {{{10.5, 20.5}, {18.5, 20.5}, {10.5, 16.5}}};
     const BarycentricFrame frame(placement);
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 w = frame.at(placement.uv[i].x, placement.uv[i].y);
+        const Vec3 w = frame.at(placement[i].x, placement[i].y);
         for (std::size_t k = 0; k < 3; ++k) CHECK(w[k] == Approx(k == i ? 1 : 0).margin(1e-12));
     }
     CHECK(frame.closest(9.5, 25)[0] == Approx(1));     // beyond the right-angle corner

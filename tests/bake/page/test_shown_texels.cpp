@@ -13,7 +13,7 @@ Atlas page_with(const Triangle2& uv) {
     Atlas atlas;
     atlas.width = atlas.height = 8;
     atlas.placements.resize(1);
-    atlas.placements[0].uv = uv;
+    atlas.placements[0] = uv;
     return atlas;
 }
 
