@@ -7,7 +7,6 @@
 #include <complex>
 #include <utility>
 
-#include "bake/atlas/boundary_clearance.hpp"
 #include "bake/atlas/triangle_overlap.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"

@@ -1,18 +1,13 @@
-// Boundary clearance of charts, and the grid that finds close edges.
+// Boundary clearance of charts.
 
-#include "bake/atlas/boundary_clearance.hpp"
+#include "bake/atlas/triangle_overlap.hpp"
 
 #include <cmath>
 #include <numbers>
-#include <random>
-#include <set>
 
-#include "bake/atlas/box_grid.hpp"
 #include "support/catch.hpp"
 
 using namespace faqem;
-using detail::Box2;
-using detail::BoxGrid;
 using detail::Chart;
 using detail::PageTriangle;
 using detail::Point2;
@@ -75,29 +70,4 @@ TEST_CASE("a clearance test beyond the work limit fails") {
     const Fan f = fan(5, 60 * degree, 60 * degree, 10);
     std::uint64_t work = 3;
     CHECK_FALSE(detail::has_boundary_clearance(f.faces, f.chart, work));
-}
-
-TEST_CASE("BoxGrid finds every pair of intersecting boxes once") {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> place(-50, 50), size(0, 9);
-    std::vector<Box2> boxes;
-    for (int i = 0; i < 200; ++i) {
-        const double x = place(random), y = place(random);
-        boxes.push_back({{x, y}, {x + size(random), y + size(random)}});
-    }
-    std::uint64_t work = 1000000;
-    const auto grid = BoxGrid::build(boxes, work);
-    REQUIRE(grid);
-    std::set<std::pair<Index, Index>> seen;
-    CHECK(grid->all_pairs(boxes, work, [&](Index a, Index b) {
-        CHECK(seen.insert(std::minmax(a, b)).second);
-        return true;
-    }));
-    for (Index a = 0; a < 200; ++a) {
-        for (Index b = a + 1; b < 200; ++b) {
-            const bool meet = boxes[a].low.x <= boxes[b].high.x && boxes[b].low.x <= boxes[a].high.x &&
-                              boxes[a].low.y <= boxes[b].high.y && boxes[b].low.y <= boxes[a].high.y;
-            if (meet) CHECK(seen.count({a, b}) == 1);
-        }
-    }
 }

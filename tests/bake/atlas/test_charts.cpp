@@ -218,6 +218,22 @@ TEST_CASE("have_disjoint_interiors agrees with the intersection areas of random 
     CHECK((overlapping > 50 && overlapping < 250));
 }
 
+TEST_CASE("an overlap among many triangles is found wherever it is") {
+    std::vector<Triangle2> triangles;
+    for (std::size_t i = 0; i < 200; ++i) {
+        const Point2 at = {static_cast<double>(i % 20), 2 * std::floor(static_cast<double>(i) / 20)};
+        triangles.push_back({at, at + Point2{0.9, 0}, at + Point2{0.3, 1.7}});
+    }
+    std::uint64_t work = plenty;
+    CHECK(have_disjoint_interiors(triangles, work));
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        std::vector<Triangle2> moved = triangles;
+        moved[i] = triangles[(77 * i + 1) % triangles.size()];
+        work = plenty;
+        CHECK_FALSE(have_disjoint_interiors(moved, work));
+    }
+}
+
 TEST_CASE("a parametrization beyond the work limit is reported as overlapping") {
     const auto faces = test::chart_faces(test::grid(6), 10);
     std::uint64_t work = parametrization_work_per_face * faces.size() + 10;
