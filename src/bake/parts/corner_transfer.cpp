@@ -7,6 +7,7 @@
 #include <span>
 
 #include "bake/parts/output_part.hpp"
+#include "bake/source/source_normals.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "scene/material_groups.hpp"
 
@@ -27,21 +28,7 @@ using Uv = std::array<double, 2>;
 double uv_distance(const Uv& a, const Uv& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
 Uv uv_at(const Part& part, std::size_t set, const SurfacePoint& point) {
-    Uv result{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec2f& uv = part.uvs[set][part.triangles[point.face][i]];
-        for (std::size_t k = 0; k < 2; ++k) result[k] += point.barycentric[i] * uv[k];
-    }
-    return result;
-}
-
-Vec4f color_at(const Part& part, const SurfacePoint& point) {
-    Vec4f result{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec4f& color = part.colors[part.triangles[point.face][i]];
-        for (std::size_t k = 0; k < 4; ++k) result[k] += static_cast<float>(point.barycentric[i]) * color[k];
-    }
-    return result;
+    return interpolated<double>(part.uvs[set], part, point);
 }
 
 // Largest ratio of an edge in UV space to the edge of a face.
@@ -89,7 +76,8 @@ public:
                 }
                 for (const double x : uv) *out++ = static_cast<float>(x);
             }
-            if (!source_.colors.empty()) std::ranges::copy(color_at(source_, end), out);
+            if (!source_.colors.empty())
+                std::ranges::copy(interpolated<float>(source_.colors, source_, end), out);
         }
         return is_inside;
     }

@@ -19,11 +19,6 @@ using engine::Vector3;
 
 namespace {
 
-template <class V>
-double blend(const std::vector<V>& values, const Triangle& t, const Vec3& w, std::size_t k) {
-    return w[0] * values[t[0]][k] + w[1] * values[t[1]][k] + w[2] * values[t[2]][k];
-}
-
 // Errors name the material that uses the image, since images may have no names.
 Pixels decode_for(const Asset& asset, Index image, Index material) {
     try {
@@ -183,9 +178,8 @@ std::array<double, 2> SourceSampler::uv_at(const TextureSlot& slot, const Part& 
                                            const SurfacePoint& point) const {
     const std::uint32_t set = slot.texture_ref->uv_set;
     if (set >= part.uvs.size()) return {0, 0};
-    const Triangle& t = part.triangles[point.face];
-    return slot.transform.apply(blend(part.uvs[set], t, point.barycentric, 0),
-                                blend(part.uvs[set], t, point.barycentric, 1));
+    const auto [u, v] = interpolated<double>(part.uvs[set], part, point);
+    return slot.transform.apply(u, v);
 }
 
 LinearColor SourceSampler::fetch(const TextureSlot& slot, Index p, const SurfacePoint& point, double spacing,
@@ -194,10 +188,8 @@ LinearColor SourceSampler::fetch(const TextureSlot& slot, Index p, const Surface
     const std::uint32_t set = slot.texture_ref->uv_set;
     if (set >= part.uvs.size()) return slot.image->sample(*slot.texture_ref, 0, 0, 0);
     if (cache.set != set) {
-        const Triangle& t = part.triangles[point.face];
         cache.set = set;
-        cache.uv = {blend(part.uvs[set], t, point.barycentric, 0),
-                    blend(part.uvs[set], t, point.barycentric, 1)};
+        cache.uv = interpolated<double>(part.uvs[set], part, point);
         cache.uv_per_length = densities_[p].uv_per_length[set][point.face];
     }
     const double footprint = cache.uv_per_length * slot.texels_per_uv * spacing;
@@ -213,9 +205,8 @@ Vec4f SourceSampler::base_factor(const Material& material, const Part& part,
                                  const SurfacePoint& point) const {
     Vec4f factor = material.base_color;
     if (!part.colors.empty()) {
-        const Triangle& t = part.triangles[point.face];
-        for (std::size_t k = 0; k < 4; ++k)
-            factor[k] *= static_cast<float>(blend(part.colors, t, point.barycentric, k));
+        const auto color = interpolated<double>(part.colors, part, point);
+        for (std::size_t k = 0; k < 4; ++k) factor[k] *= static_cast<float>(color[k]);
     }
     if (material.alpha_mode == AlphaMode::opaque) factor[3] = 1;
     return factor;
