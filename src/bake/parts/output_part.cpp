@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "bake/parts/custom_attributes.hpp"
 #include "bake/parts/vertex_attributes.hpp"
 #include "scene/material_groups.hpp"
 

@@ -1,9 +1,12 @@
 #include "bake/parts/vertex_attributes.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "asset/scene/influences.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "bake/source/facets.hpp"
+#include "bake/source/source_normals.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "scene/material_groups.hpp"
@@ -62,7 +65,75 @@ struct ColorSum {
     }
 };
 
+constexpr std::uint32_t float_components = 5126;
+constexpr double equal_share = 1e-4;  // of the range of an attribute
+
+using Value = std::array<double, 4>;
+
+double largest_value(const CustomAttribute& attribute) {
+    double most = 0;
+    for (const Value& value : attribute.values)
+        for (const double x : value) most = std::max(most, std::abs(x));
+    return most;
+}
+
+bool is_close(const Value& a, const Value& b, double distance) {
+    for (std::size_t k = 0; k < 4; ++k)
+        if (!(std::abs(a[k] - b[k]) <= distance)) return false;
+    return true;
+}
+
+// Gives corners of a vertex whose values are close to each other the value of the first of them.
+void join_close_values(const TriangleMesh& mesh, double distance, std::vector<Value>& values) {
+    const VertexCorners at = vertex_corners(mesh);
+    std::vector<Value> distinct;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        distinct.clear();
+        for (const std::uint64_t c : at[v]) {
+            const auto found = std::find_if(distinct.begin(), distinct.end(), [&](const Value& value) {
+                return is_close(value, values[c], distance);
+            });
+            if (found == distinct.end())
+                distinct.push_back(values[c]);
+            else
+                values[c] = *found;
+        }
+    }
+}
+
 }  // namespace
+
+bool is_copied(const CustomAttribute& attribute) {
+    return attribute.component_type != float_components || attribute.name == "_BATCHID" ||
+           attribute.name.compare(0, 12, "_FEATURE_ID_") == 0;
+}
+
+std::vector<CustomAttribute> corner_custom_attributes(const BakePart& part,
+                                                      const engine::RunContext& context) {
+    const std::vector<CustomAttribute>& from = part.source->custom_attributes;
+    if (from.empty() || !part.map) return {};
+    std::vector<CustomAttribute> result = without_values(from);
+    const TriangleMesh& mesh = part.simplified->mesh;
+    for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
+        context.count(2 * map_query_cost);
+        const auto face = static_cast<Index>(c / 3);
+        const SurfacePoint exact = part.map->map(face, barycentrics_near_corner(c % 3, 0));
+        // A little inside of the face, where it is clear which side of a border the corner belongs to.
+        const SurfacePoint inside = part.map->map(face, barycentrics_near_corner(c % 3, 0.02));
+        const Triangle& source = part.source->triangles[inside.face];
+        const auto nearest =
+            static_cast<std::size_t>(std::max_element(inside.barycentric.begin(), inside.barycentric.end()) -
+                                     inside.barycentric.begin());
+        for (std::size_t a = 0; a < from.size(); ++a)
+            result[a].values.push_back(is_copied(from[a])
+                                           ? from[a].values[source[nearest]]
+                                           : interpolated<double>(from[a].values, *part.source, exact));
+    }
+    for (std::size_t a = 0; a < from.size(); ++a)
+        if (!is_copied(from[a]))
+            join_close_values(mesh, equal_share * largest_value(from[a]), result[a].values);
+    return result;
+}
 
 void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
                               const engine::RunContext& context) {
@@ -118,12 +189,8 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
                 if (2 * facets.areas[facet] >= triangle_area(mesh.positions, mesh.triangles[face]))
                     sets[c] = facet;
             }
-            if (has_alpha && face_material(*part.source, point.face) == no_index) {
-                const Triangle& t = part.source->triangles[point.face];
-                plain_alpha[c] = 0;
-                for (std::size_t i = 0; i < 3; ++i)
-                    plain_alpha[c] += static_cast<float>(point.barycentric[i]) * colors[t[i]][3];
-            }
+            if (has_alpha && face_material(*part.source, point.face) == no_index)
+                plain_alpha[c] = interpolated<float>(colors, *part.source, point)[3];
             if (raw[c][3] > 0) continue;
             const Vec3f stored = sampler.stored_base_color(part.index, point);
             raw[c] = {stored[0], stored[1], stored[2], 0};

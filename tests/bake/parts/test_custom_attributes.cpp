@@ -1,4 +1,4 @@
-#include "bake/parts/custom_attributes.hpp"
+#include "bake/parts/vertex_attributes.hpp"
 
 #include <cmath>
 
