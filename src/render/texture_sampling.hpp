@@ -76,6 +76,10 @@ struct UvTransform {
     std::array<double, 2> apply(double x, double y) const {
         return {u[0] * x + u[1] * y + u[2], v[0] * x + v[1] * y + v[2]};
     }
+    Vec2f apply(const Vec2f& uv) const {
+        const auto [x, y] = apply(uv[0], uv[1]);
+        return {static_cast<float>(x), static_cast<float>(y)};
+    }
 };
 
 /// The transform of KHR_texture_transform: scale, then rotation, then offset. A positive rotation rotates UVs

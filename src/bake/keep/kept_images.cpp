@@ -130,11 +130,8 @@ std::vector<std::uint8_t> texels_of_parts(const Asset& asset, std::span<const Ke
             for (const TextureRef& texture : of_face->second) {
                 const UvTransform transform = uv_transform(texture);
                 std::array<Vec2f, 3> uv;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const Vec2f& from = part.uvs[texture.uv_set][part.triangles[f][k]];
-                    const auto to = transform.apply(from[0], from[1]);
-                    uv[k] = {static_cast<float>(to[0]), static_cast<float>(to[1])};
-                }
+                for (std::size_t k = 0; k < 3; ++k)
+                    uv[k] = transform.apply(part.uvs[texture.uv_set][part.triangles[f][k]]);
                 texels.add(uv, texture.wrap_u, texture.wrap_v);
             }
         }

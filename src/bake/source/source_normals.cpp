@@ -29,11 +29,8 @@ TangentCorner tangent_corner(const Part& part, const TextureRef& texture_ref, st
     const Index v = part.triangles[face][corner];
     TangentCorner result{
         to_vec3f(to_eigen(part.positions[v])), to_vec3f(corner_normal(part, face, corner)), {}};
-    if (texture_ref.uv_set < part.uvs.size()) {
-        const Vec2f& uv = part.uvs[texture_ref.uv_set][v];
-        const auto moved = uv_transform(texture_ref).apply(uv[0], uv[1]);
-        result.uv = {static_cast<float>(moved[0]), static_cast<float>(moved[1])};
-    }
+    if (texture_ref.uv_set < part.uvs.size())
+        result.uv = uv_transform(texture_ref).apply(part.uvs[texture_ref.uv_set][v]);
     return result;
 }
 

@@ -57,10 +57,7 @@ std::vector<Vec4f> kept_tangents(const Asset& source, const BakePart& part,
         std::vector<Vec2f> moved = uvs[texture_ref->uv_set];
         if (part.source->tangents.empty()) {
             const UvTransform transform = uv_transform(*texture_ref);
-            for (Vec2f& uv : moved) {
-                const auto to = transform.apply(uv[0], uv[1]);
-                uv = {static_cast<float>(to[0]), static_cast<float>(to[1])};
-            }
+            for (Vec2f& uv : moved) uv = transform.apply(uv);
         }
         set_tangents(part, faces, moved, result);
     }
