@@ -14,7 +14,6 @@
 #include "cli/files/protected_files.hpp"
 #include "cli/memory/machine_memory.hpp"
 #include "cli/options/bound_options.hpp"
-#include "cli/options/builtin_profiles.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/process/interrupt.hpp"

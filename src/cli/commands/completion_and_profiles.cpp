@@ -5,7 +5,7 @@
 #include "cli/commands/command_line.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/options/bound_options.hpp"
-#include "cli/options/builtin_profiles.hpp"
+#include "cli/options/profile.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/shell/completion.hpp"
 
@@ -29,7 +29,7 @@ CommandInfo profiles_command() {
             {shown},
             {},
             [name] {
-                std::cout << (name->empty() ? profile_list() : profile_file(builtin_profile(*name)));
+                std::cout << (name->empty() ? profile_list() : profile_file(*name));
                 return exit_ok;
             }};
 }

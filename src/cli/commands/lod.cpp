@@ -13,7 +13,6 @@
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"
 #include "cli/options/bound_options.hpp"
-#include "cli/options/builtin_profiles.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/process/exit_code.hpp"

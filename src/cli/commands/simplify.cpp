@@ -16,7 +16,6 @@
 #include "cli/memory/machine_memory.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/options/bound_options.hpp"
-#include "cli/options/builtin_profiles.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/process/exit_code.hpp"

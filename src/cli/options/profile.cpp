@@ -1,14 +1,17 @@
 #include "cli/options/profile.hpp"
 
+#include <CLI/StringTools.hpp>
 #include <algorithm>
+#include <array>
 #include <set>
+#include <span>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "asset/io/file.hpp"
 #include "cli/files/protected_files.hpp"
 #include "cli/options/bound_options.hpp"
-#include "cli/options/builtin_profiles.hpp"
 #include "cli/process/json.hpp"
 #include "faqem/detail/base/closest_word.hpp"
 #include "faqem/error.hpp"
@@ -20,6 +23,41 @@ namespace {
 constexpr const char* version_key = "faqem-profile";
 constexpr int profile_version = 1;
 constexpr std::uint64_t max_file_size = 1'000'000;
+
+/// The name of an option without dashes, and its value; a flag of profiles has the value `true`, as in a file.
+using ProfileEntry = std::pair<std::string_view, std::string_view>;
+
+/// A named set of options that is part of the command.
+struct BuiltinProfile {
+    std::string_view name, purpose;
+    std::span<const ProfileEntry> options;
+};
+
+constexpr std::array<ProfileEntry, 4> web_options = {
+    {{"image-format", "webp"}, {"image-quality", "34"}, {"compress", "meshopt"}, {"quantize", "on"}}};
+
+constexpr std::array<ProfileEntry, 3> game_options = {
+    {{"image-format", "png-or-jpeg"}, {"compress", "none"}, {"quantize", "off"}}};
+
+constexpr std::array<BuiltinProfile, 2> all_profiles = {
+    {{"web",
+      "the fewest bytes for web viewers that know EXT_texture_webp, EXT_meshopt_compression and "
+      "KHR_mesh_quantization",
+      web_options},
+     {"game", "files that every importer of glTF reads: PNG and JPEG images, and geometry without extensions",
+      game_options}}};
+
+std::string names(const std::string& separator) {
+    return CLI::detail::join(
+        all_profiles, [](const BuiltinProfile& profile) { return profile.name; }, separator);
+}
+
+const BuiltinProfile& builtin_profile(std::string_view name) {
+    const auto found = std::ranges::find(all_profiles, name, &BuiltinProfile::name);
+    if (found != all_profiles.end()) return *found;
+    throw OptionError("--profile: unknown value '" + std::string(name) + "' (known: " + names(", ") +
+                      "); --config reads a profile from a file");
+}
 
 /// Parses a profile. Rejects duplicate keys, of which nlohmann::json would silently keep the last.
 Json parse_profile(const std::string& file) {
@@ -142,6 +180,34 @@ OptionInfo profile_option() {
         rare({{"--config"}, "FILE", "Read options from a profile (JSON file); those typed take precedence"});
     info.read = [](const std::vector<std::string>&, bool) {};
     return info;
+}
+
+OptionInfo builtin_profile_option() {
+    OptionInfo info{
+        {"--profile"},
+        names("|"),
+        "Options for web viewers or game engines; faqem profiles shows them. Those typed and those of "
+        "--config take precedence",
+        detail::OptionKind::choice};
+    info.read = [](const std::vector<std::string>& values, bool) { builtin_profile(values.back()); };
+    return info;
+}
+
+std::string profile_file(const std::string& name) {
+    Json json = {{version_key, profile_version}};
+    for (const auto& [key, value] : builtin_profile(name).options) json[std::string(key)] = value;
+    return json.dump(2) + "\n";
+}
+
+std::string profile_list() {
+    std::string text;
+    for (const BuiltinProfile& profile : all_profiles) {
+        text.append(profile.name).append(": ").append(profile.purpose).append("\n ");
+        for (const auto& [key, value] : profile.options)
+            text.append(" --").append(key).append("=").append(value);
+        text.append("\n");
+    }
+    return text;
 }
 
 void add_profile_values(const CommandTree& tree, const CommandInfo& command,

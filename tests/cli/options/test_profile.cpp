@@ -1,7 +1,6 @@
 #include "cli/options/profile.hpp"
 
 #include "cli/commands/command_line.hpp"
-#include "cli/options/builtin_profiles.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
@@ -142,9 +141,8 @@ TEST_CASE("the options of a built-in profile come last, and a file before them")
 }
 
 TEST_CASE("a built-in profile that is printed is a file with the same options") {
-    for (const BuiltinProfile& profile : builtin_profiles()) {
-        CHECK(added_values("simplify", {{"--profile", std::string(profile.name)}}) ==
-              added(profile_file(profile)));
-        CHECK(profile_list().find(std::string(profile.name) + ": ") != std::string::npos);
+    for (const std::string name : {"web", "game"}) {
+        CHECK(added_values("simplify", {{"--profile", name}}) == added(profile_file(name)));
+        CHECK(profile_list().find(name + ": ") != std::string::npos);
     }
 }
