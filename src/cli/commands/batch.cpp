@@ -12,7 +12,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/protected_files.hpp"
-#include "cli/memory/machine_memory.hpp"
+#include "cli/memory/memory_limit.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/profile.hpp"
 #include "cli/options/simplify_options.hpp"

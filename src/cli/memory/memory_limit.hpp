@@ -1,12 +1,25 @@
 #pragma once
 /// \file
-/// Limits of memory: for the estimates of result/memory_estimate.hpp and, as the last safeguard, for the writable memory of
+/// The memory that is available to this process, and its limits: for the estimates of result/memory_estimate.hpp and, as the last safeguard, for the writable memory of
 /// the process. Only the command has them: a library must not change the limits of its host.
 
 #include <cstdint>
 #include <filesystem>
 
 namespace faqem::cli {
+
+/// Returns the physical memory of the machine or the limit of the process's control groups, whichever is
+/// less, in bytes.
+std::uint64_t machine_memory();
+
+/// Returns the minimum memory limit, in bytes, of the control groups (version 1 or 2) of a process; the
+/// largest std::uint64_t if there is no limit. Limits are read from the group's directory and all its
+/// ancestors: inside a container the mounted tree begins at the container's own group, and the path may refer
+/// to groups outside.
+/// \param membership  path of a file in the format of /proc/self/cgroup
+/// \param mounts      path of a directory with the layout of /sys/fs/cgroup
+std::uint64_t cgroup_memory_limit(const std::filesystem::path& membership,
+                                  const std::filesystem::path& mounts);
 
 /// Checks an estimate against the limit.
 /// \param file             file name for the message

@@ -1,4 +1,4 @@
-#include "cli/memory/machine_memory.hpp"
+#include "cli/memory/memory_limit.hpp"
 
 #include <limits>
 
