@@ -3,8 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/commands/lod_level.hpp"
-#include "cli/commands/lod_manifest.hpp"
+#include "cli/commands/lod_levels.hpp"
 #include "cli/process/shown_text.hpp"
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The manifest that `faqem lod` writes, and switch distances of levels.
+/// Levels of `faqem lod`: as they are given, with their switch distances, and in the manifest that is written.
 
 #include <cstdint>
 #include <optional>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/process/json.hpp"
+#include "faqem/levels.hpp"
 #include "faqem/report.hpp"
 
 namespace faqem::cli {
@@ -39,6 +40,12 @@ double error_from_pixels(double pixels, double distance, const ViewSettings& vie
 /// Returns the share of the screen height that the length `diagonal` covers at the switch distance of
 /// `error`; infinity if that distance is 0.
 double screen_coverage(double diagonal, double error, const ViewSettings& view_settings);
+
+/// Parses one level: `0.5` or `50%` (ratio of faces), `5000` (number of faces), `error:0.01` (distance in model units),
+/// `error:0.1%` (distance relative to the diagonal) or `pixels:2@50` (an error that covers at most 2 pixels at a distance
+/// of 50 model units from the camera).
+/// \throws OptionError  the text has another form
+Level parse_level(const std::string& text, const ViewSettings& view_settings);
 
 /// Returns the manifest as JSON with the keys documented in docs/levels.md.
 /// \param source    name of the input file
