@@ -1,5 +1,7 @@
 #include "cli/batch/plan.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <map>
 
@@ -69,6 +71,21 @@ void assign_output_paths(std::vector<BatchFile>& files, const fs::path& out_fold
 }
 
 }  // namespace
+
+std::string modification_stamp(const std::vector<fs::path>& files) {
+    std::string text;
+    for (const fs::path& file : files) {
+        struct stat status = {};
+        if (::stat(file.c_str(), &status) != 0) continue;
+        for (const auto number :
+             {static_cast<std::int64_t>(status.st_size), static_cast<std::int64_t>(status.st_mtim.tv_sec),
+              static_cast<std::int64_t>(status.st_mtim.tv_nsec)}) {
+            if (!text.empty()) text += ' ';
+            text += std::to_string(number);
+        }
+    }
+    return text;
+}
 
 std::vector<BatchFile> find_models(const fs::path& folder, std::size_t& others, const fs::path& excluded) {
     std::error_code error;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The models of a batch and the names of their results.
+/// The models of a batch, the names of their results, and what is known of these.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +11,9 @@
 #include "faqem/options.hpp"
 
 namespace faqem::cli {
+
+/// Sizes and modification times of files as text, which changes when one of them changes. Missing files are omitted.
+std::string modification_stamp(const std::vector<std::filesystem::path>& files);
 
 /// What the records of a batch over a directory say about a result.
 struct EarlierResult {
@@ -46,8 +49,8 @@ struct BatchFile {
 std::vector<BatchFile> find_models(const std::filesystem::path& folder, std::size_t& others,
                                    const std::filesystem::path& excluded = {});
 
-/// Finds the models of a directory, as find_models(), and assigns the paths of the results: the same relative path in the output directory, with another
-/// extension. The output directory is not searched.
+/// Finds the models of a directory, as find_models(), and assigns the paths of the results: the same relative path in the
+/// output directory, with another extension. The output directory is not searched.
 /// \param folder      input directory
 /// \param out_folder  output directory; need not exist
 /// \param extension   of the results, with the dot

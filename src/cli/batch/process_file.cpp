@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "asset/model_files.hpp"
-#include "cli/files/file_stamp.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/sha256.hpp"
 #include "cli/memory/memory_limit.hpp"
