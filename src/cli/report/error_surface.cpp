@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "asset/image/srgb.hpp"
 #include "asset/scene/repair.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
@@ -102,6 +103,18 @@ double distance_quantile(const ErrorSurface& a, const ErrorSurface& b, double sh
     const auto nth = all.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
     std::nth_element(all.begin(), nth, all.end());
     return *nth;
+}
+
+Vec4f heat_color(double share) {
+    const double at = share > 0 ? std::min(share, 1.0) * (heat_ramp.size() - 1) : 0;
+    const std::size_t before = std::min(static_cast<std::size_t>(at), heat_ramp.size() - 2);
+    const double t = at - static_cast<double>(before);
+    Vec4f color = {0, 0, 0, 1};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double srgb = (1 - t) * heat_ramp[before][k] + t * heat_ramp[before + 1][k];
+        color[k] = static_cast<float>(detail::linear_from_srgb(srgb / 255));
+    }
+    return color;
 }
 
 }  // namespace faqem::cli

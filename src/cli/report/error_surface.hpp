@@ -1,7 +1,9 @@
 #pragma once
 /// \file
-/// Distances between meshes at the vertices of a subdivided mesh, for heat maps.
+/// Heat maps: distances between meshes at the vertices of a subdivided mesh, and a perceptually uniform colour map from
+/// dark blue to yellow.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,5 +30,22 @@ ErrorSurface error_surface(const Part& mesh, const Part& to, double spacing, std
 /// Returns a quantile of the distances of all vertices of both surfaces; 0 if there are no vertices.
 /// \param share  in [0, 1]; 1 gives the maximum
 double distance_quantile(const ErrorSurface& a, const ErrorSurface& b, double share);
+
+/// Samples of the colour map viridis (van der Walt and Smith, public domain) at multiples of 1/8. sRGB, 0 to
+/// 255.
+inline constexpr std::array<std::array<std::uint8_t, 3>, 9> heat_ramp = {{{68, 1, 84},
+                                                                          {71, 45, 123},
+                                                                          {59, 82, 139},
+                                                                          {44, 114, 142},
+                                                                          {33, 144, 140},
+                                                                          {39, 173, 129},
+                                                                          {93, 200, 99},
+                                                                          {170, 220, 50},
+                                                                          {253, 231, 37}}};
+
+/// Returns the interpolated colour at a position of the colour map.
+/// \param share  position in [0, 1]; clamped, NaN is treated as 0
+/// \return linear RGBA
+Vec4f heat_color(double share);
 
 }  // namespace faqem::cli

@@ -6,7 +6,7 @@
 #include "cli/process/json.hpp"
 #include "cli/process/shown_text.hpp"
 #include "cli/report/embedded_files.hpp"
-#include "cli/report/heat_ramp.hpp"
+#include "cli/report/error_surface.hpp"
 #include "cli/report/html.hpp"
 #include "faqem/version.hpp"
 #include "render/views.hpp"

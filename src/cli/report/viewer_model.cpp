@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "asset/file_format.hpp"
-#include "cli/report/heat_ramp.hpp"
 
 namespace faqem::cli {
 

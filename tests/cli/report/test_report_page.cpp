@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "asset/gltf/gltf.hpp"
-#include "cli/report/heat_ramp.hpp"
+#include "cli/report/error_surface.hpp"
 #include "cli/report/viewer_model.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
