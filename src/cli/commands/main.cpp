@@ -11,7 +11,6 @@
 #include "cli/commands/command_line.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/shell/parser.hpp"
-#include "cli/shell/suggestion.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::cli {

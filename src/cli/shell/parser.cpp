@@ -1,9 +1,11 @@
 #include "cli/shell/parser.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <utility>
 
 #include "cli/shell/help.hpp"
+#include "faqem/detail/base/closest_word.hpp"
 #include "faqem/version.hpp"
 
 namespace faqem::cli {
@@ -72,6 +74,25 @@ void add_to_parser(CLI::App& app, const CommandTree& tree, Action& action) {
         return tree_help(tree);
     });
     for (const CommandInfo& command : tree.commands) add_command(app, tree, command, action);
+}
+
+std::string suggestion(const CommandTree& tree, const std::vector<std::string>& words) {
+    if (words.empty()) return {};
+    std::vector<std::string> commands;
+    for (const CommandInfo& command : tree.commands) commands.push_back(command.name);
+    const auto chosen = std::find(commands.begin(), commands.end(), words[0]);
+    if (chosen == commands.end()) {
+        return detail::closest_word(words[0], words[0].starts_with('-') ? names_of(tree.options) : commands);
+    }
+    const std::vector<std::string> known =
+        names_of(tree.commands[static_cast<std::size_t>(chosen - commands.begin())].options);
+    for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
+        if (!words[i].starts_with("--")) continue;
+        const std::string name = words[i].substr(0, words[i].find('='));
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            return detail::closest_word(name, known);
+    }
+    return {};
 }
 
 }  // namespace faqem::cli

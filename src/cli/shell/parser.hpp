@@ -1,6 +1,9 @@
 #pragma once
 /// \file
-/// The parser of the command line.
+/// The parser of the command line, and suggestions for misspelt commands and options.
+
+#include <string>
+#include <vector>
 
 #include "cli/shell/command_tree.hpp"
 
@@ -14,5 +17,10 @@ namespace faqem::cli {
 /// (OptionInfo::read) and sets `action` to the function that runs the command.
 /// \param tree  must exist until the command line is parsed
 void add_to_parser(CLI::App& app, const CommandTree& tree, Action& action);
+
+/// Returns the known command or option that is closest to the first unknown one on a command line.
+/// \param words  the command line without the name of the program
+/// \return empty if no command or option is unknown or none is close
+std::string suggestion(const CommandTree& tree, const std::vector<std::string>& words);
 
 }  // namespace faqem::cli

@@ -10,7 +10,6 @@
 #include "cli/options/simplify_options.hpp"
 #include "cli/shell/completion.hpp"
 #include "cli/shell/parser.hpp"
-#include "cli/shell/suggestion.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"

@@ -1,4 +1,4 @@
-#include "cli/shell/suggestion.hpp"
+#include "cli/shell/parser.hpp"
 
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
