@@ -1,11 +1,15 @@
 #include "bake/source/facets.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "asset/scene/value_numbers.hpp"
+#include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+#include "scene/material_groups.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
@@ -57,10 +61,85 @@ Facets facets_by(const Part& part, const std::vector<std::array<float, N>>& valu
     return result;
 }
 
+using engine::to_eigen;
+
+// Texels across a strip: those at its two sides are mixed.
+constexpr double texels_across = 5;
+
+// A surface without seams has one vertex for two faces. Below this number of vertices for each face, few edges are
+// between faces that have different vertices there.
+constexpr double split_vertices_per_face = 0.7;
+
+// The half-edges of all faces, with vertices at equal positions as one.
+std::vector<Halfedge> welded_halfedges(const Part& part) {
+    UniqueValues<Vec3> positions;
+    positions.reserve(part.positions.size());
+    std::vector<Index> welded;
+    welded.reserve(part.positions.size());
+    for (const Vec3& p : part.positions) welded.push_back(positions.insert(p));
+    std::vector<Triangle> triangles;
+    triangles.reserve(part.triangles.size());
+    for (const Triangle& t : part.triangles) triangles.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    return sorted_halfedges(triangles);
+}
+
+std::array<Index, 2> vertices_of(const Part& part, const Halfedge& edge) {
+    const Triangle& t = part.triangles[edge.face];
+    const auto [a, b] = std::minmax(t[edge.corner], t[(edge.corner + 1) % 3]);
+    return {a, b};
+}
+
+// The middle of an edge, a little inside its face.
+SurfacePoint middle_of(const Halfedge& edge) {
+    Vec3 barycentric = {0.49, 0.49, 0.49};
+    barycentric[edge.opposite()] = 0.02;
+    return {edge.face, barycentric};
+}
+
 }  // namespace
 
 Facets normal_facets(const Part& part) { return facets_by(part, part.normals); }
 
 Facets color_facets(const Part& part) { return facets_by(part, part.colors); }
+
+std::vector<float> region_densities(
+    const Part& part, const std::function<bool(const SurfacePoint&, const SurfacePoint&)>& differs) {
+    const std::size_t faces = part.triangles.size();
+    const double split = split_vertices_per_face * static_cast<double>(faces);
+    if (materials_of(part).size() < 2 && static_cast<double>(part.positions.size()) < split) return {};
+    engine::UnionFind regions(faces);
+    std::vector<double> border(faces, 0), area(faces, 0);  // by face, then by the first face of the region
+    bool has_borders = false;
+    const auto compare = [&](const Halfedge& a, const Halfedge& b) {
+        const bool is_inner = face_material(part, a.face) == face_material(part, b.face) &&
+                              vertices_of(part, a) == vertices_of(part, b);
+        if (is_inner || !differs(middle_of(a), middle_of(b))) {
+            regions.unite(a.face, b.face);
+            return;
+        }
+        const auto [from, to] = vertices_of(part, a);
+        const double length = (to_eigen(part.positions[from]) - to_eigen(part.positions[to])).norm();
+        border[a.face] += length;
+        border[b.face] += length;
+        has_borders = true;
+    };
+    for_each_edge(welded_halfedges(part), [&](std::span<const Halfedge> on) {
+        for (std::size_t i = 1; i < on.size(); ++i) compare(on[i - 1], on[i]);
+    });
+    if (!has_borders) return {};
+    for (Index f = 0; f < faces; ++f) {
+        const Index region = regions.find(f);
+        area[region] += triangle_area(part.positions, part.triangles[f]);
+        if (region != f) border[region] += border[f];
+    }
+    std::vector<float> result(faces, 0.0f);
+    for (Index f = 0; f < faces; ++f) {
+        const Index region = regions.find(f);
+        // A strip of width w has 2 / w of border for each unit of area.
+        const double density = texels_across * border[region] / (2 * area[region]);
+        if (std::isfinite(density)) result[f] = static_cast<float>(density);
+    }
+    return result;
+}
 
 }  // namespace faqem::detail

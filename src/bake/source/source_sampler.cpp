@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "asset/image/srgb.hpp"
-#include "bake/source/color_regions.hpp"
+#include "bake/source/facets.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 #include "scene/vector_conversion.hpp"

@@ -1,4 +1,4 @@
-#include "bake/source/color_regions.hpp"
+#include "bake/source/facets.hpp"
 #include "support/catch.hpp"
 
 using namespace faqem;
