@@ -6,7 +6,6 @@
 
 #include "capi/c_asset.hpp"
 #include "capi/c_history.hpp"
-#include "capi/c_levels.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/save_levels.hpp"
 #include "scene/level_coverage.hpp"

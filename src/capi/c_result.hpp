@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Definitions of faqem_options and faqem_result, and conversion of reports.
+/// Definitions of faqem_options and faqem_result, and conversion of levels and reports.
 
 #include <limits>
 #include <string>
@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "capi/guard.hpp"
-#include "faqem/faqem.h"
+#include "faqem/faqem_levels.h"
+#include "faqem/levels.hpp"
 #include "faqem/options.hpp"
 #include "faqem/report_json.hpp"
 #include "faqem/simplify.hpp"
@@ -40,6 +41,10 @@ faqem_report to_c_report(const Report& report);
 
 /// Adds a warning for each option that was set by name and is for assets: arrays ignore it.
 void warn_of_asset_options(const faqem_options* options, Report& report);
+
+/// Converts levels of the C API.
+/// \throws OptionError  a kind is unknown, or a number of faces is not an integer from 1 to 2^53
+std::vector<Level> to_levels(const faqem_level* levels, std::size_t count);
 
 /// Returns the options, or the defaults if `options` is null.
 inline Options options_or_defaults(const faqem_options* options) {
