@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bake/scene/unencoded_result.hpp"
-#include "bake/texture/image_encodings.hpp"
+#include "bake/texture/pending_images.hpp"
 #include "result/image_error.hpp"
 #include "result/result_choices.hpp"
 

@@ -1,6 +1,6 @@
 // Ways to encode an image, among which the search for a byte limit chooses.
 
-#include "bake/texture/image_encodings.hpp"
+#include "bake/texture/pending_images.hpp"
 
 #include <cmath>
 #include <memory>
