@@ -19,7 +19,7 @@ set(faqem_libraries_bake "")
 
 # For each library: its CMake package, its target, and its Debian package. Some are searched for by their header and
 # library instead of their CMake packages: Debian's OpenImageIO package requires programs of another Debian package and
-# lists include directories that are not installed, and Debian 12 has no packages for libdeflate and libwebp.
+# lists include directories that are not installed, and Debian 12 has no packages for libdeflate, libmd and libwebp.
 set(faqem_find_Threads Threads)
 set(faqem_target_Threads Threads::Threads)
 set(faqem_debian_Threads libc6-dev)
@@ -41,6 +41,8 @@ set(faqem_debian_nlohmann_json nlohmann-json3-dev)
 set(faqem_find_CLI11 CLI11 2.0 CONFIG)
 set(faqem_target_CLI11 CLI11::CLI11)
 set(faqem_debian_CLI11 libcli11-dev)
+set(faqem_target_libmd faqem::libmd)
+set(faqem_debian_libmd libmd-dev)
 set(faqem_find_PNG PNG)
 set(faqem_target_PNG PNG::PNG)
 set(faqem_debian_PNG libpng-dev)
@@ -143,6 +145,8 @@ function(faqem_find_libraries missing)
             faqem_find_webp()
         elseif(library STREQUAL "libdeflate")
             faqem_find_by_header(libdeflate libdeflate.h libdeflate::libdeflate_shared libdeflate::libdeflate_static)
+        elseif(library STREQUAL "libmd")
+            faqem_find_by_header(libmd sha2.h)
         else()
             list(GET faqem_find_${library} 0 package)
             find_package(${faqem_find_${library}} QUIET)

@@ -19,7 +19,7 @@ command -v npm >/dev/null 2>&1 || npm=npm
 
 packages="build-essential cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libopenmesh-dev \
 libpng-dev libjpeg62-turbo-dev libwebp-dev libdeflate-dev libopenimageio-dev \
-libdraco-dev libmeshoptimizer-dev libcli11-dev"
+libdraco-dev libmeshoptimizer-dev libcli11-dev libmd-dev"
 for group in "$@"; do
     case $group in
         build) ;;
@@ -31,7 +31,7 @@ for group in "$@"; do
         docs) packages="$packages doxygen python3" ;;
         wheel)
             packages="build-essential cmake ninja-build libeigen3-dev nlohmann-json3-dev libpng-dev \
-libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-dev python3 $npm"
+libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-dev libmd-dev python3 $npm"
             ;;
         fresh) packages="debootstrap ccache" ;;
         engines | comfyui) packages="python3-venv" ;;

@@ -2,7 +2,8 @@
 /// \file
 /// SHA-256 (FIPS 180-4), which identifies models in lists and records.
 
-#include <array>
+#include <sha2.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -13,6 +14,8 @@ namespace faqem::cli {
 
 class Sha256 {
 public:
+    Sha256() { SHA256Init(&context_); }
+
     void add(std::span<const std::uint8_t> bytes);
     /// Number of bytes that were added.
     std::uint64_t size() const { return size_; }
@@ -20,12 +23,8 @@ public:
     std::string finish();
 
 private:
-    void add_block(const std::uint8_t* block);
-
-    std::array<std::uint32_t, 8> state_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                           0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-    std::array<std::uint8_t, 64> rest_ = {};  // bytes that are no whole block yet
-    std::uint64_t size_ = 0;                  // bytes added so far
+    SHA2_CTX context_;
+    std::uint64_t size_ = 0;  // bytes added so far
 };
 
 /// The digest of a text, as 64 hexadecimal digits.

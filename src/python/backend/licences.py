@@ -11,6 +11,7 @@ _PACKAGES = {
     "eigen": "libeigen3-dev",
     "libdeflate": "libdeflate-dev",
     "libjpeg-turbo": "libjpeg62-turbo-dev",
+    "libmd": "libmd-dev",
     "libpng": "libpng-dev",
     "libwebp": "libwebp-dev",
     "nlohmann-json": "nlohmann-json3-dev",
