@@ -18,7 +18,6 @@
 #include "scene/moving_vertices.hpp"
 #include "scene/part_reports.hpp"
 #include "scene/parts_error_bound_search.hpp"
-#include "scene/removed_components.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/scene_size.hpp"
 #include "scene/simplify_parts.hpp"
