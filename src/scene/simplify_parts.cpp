@@ -11,7 +11,6 @@
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "scene/check_asset.hpp"
-#include "scene/coincident_faces.hpp"
 #include "scene/face_budget.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/morph_shape.hpp"
