@@ -3,9 +3,7 @@
 /// Baking of the appearance of an asset onto another mesh. Needs only the standard library.
 
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "faqem/asset.hpp"
 #include "faqem/bake.hpp"
@@ -35,14 +33,6 @@ struct OntoOptions {
 /// \throws OptionError  a text has another form, or the distance is not above 0
 FAQEM_EXPORT OntoOptions onto_options(std::string_view uvs, std::string_view max_distance);
 
-/// Result of bake_onto(): the target with new textures, with the report of the run.
-struct BakedOnto : SimplifiedAsset {
-    /// Share of the texels with a triangle that have no point of the source; they have the colours of those around.
-    double missing_texels = 0;
-    double largest_distance = 0;               ///< between a texel and its point of the source, scene units
-    std::vector<std::string> unmatched_parts;  ///< parts of the target without any point of the source
-};
-
 /// Bakes the appearance of one asset onto the surface of another one, which need not be made from it: textures,
 /// materials, UVs as OntoOptions::uvs says, and vertex normals where a normal map needs them. Both are taken in scene
 /// space, in their poses at rest; a part with several instances gets the appearance at its first one. A point of the target shows the closest point of
@@ -54,14 +44,15 @@ struct BakedOnto : SimplifiedAsset {
 /// \param target   the mesh
 /// \param options  those about baking, the format of the result and the run; bake.kind must make an atlas, and
 ///                 bake.correspondence and max_bytes be unset
-/// \return the result; if the progress callback cancels, report.stop is StopReason::cancelled and the asset is empty
+/// \return the target with new textures, and the report with its coverage; if the progress callback cancels, report.stop
+///     is StopReason::cancelled and the asset is empty
 /// \throws OptionError  an option is out of range
 /// \throws InputError  arrays or indices of an asset are inconsistent, an image is damaged, an asset has no faces in its
 ///     scene, a page has fewer texels than charts, OntoUvs::keep is not possible, or no point of the target is near the source
 /// \throws UnsupportedError  an image has a format that decode() does not support
 /// \throws TimeLimitError  max_seconds was over before the result was complete
 /// Complexity: O(n log n) in the faces of both, and O(log n) per texel typically.
-FAQEM_EXPORT BakedOnto bake_onto(const Asset& source, const Asset& target, const Options& options = {},
-                                 const OntoOptions& onto = {});
+FAQEM_EXPORT SimplifiedAsset bake_onto(const Asset& source, const Asset& target, const Options& options = {},
+                                       const OntoOptions& onto = {});
 
 }  // namespace faqem

@@ -123,6 +123,14 @@ struct ResultView {
     std::uint64_t bytes = 0;  ///< as stored, possibly compressed
 };
 
+/// What of a target bake_onto() could not show, and how far it is from its source.
+struct TargetCoverage {
+    /// Share of the texels with a triangle that have no point of the source; they have the colours of those around.
+    double missing_texels = 0;
+    double largest_distance = 0;               ///< between a texel and its point of the source, scene units
+    std::vector<std::string> unmatched_parts;  ///< parts of the target without any point of the source
+};
+
 /// A result that was made and compared with others for Options::max_bytes.
 struct ComparedResult {
     Bake kind = Bake::keep;  ///< `keep`: with the UVs of the source
@@ -174,6 +182,7 @@ struct Report {
     std::vector<std::string> untouched_parts;
     /// Of an asset: names of the parts for which bake() with Bake::automatic kept the UVs of the source.
     std::vector<std::string> kept_uvs;
+    std::optional<TargetCoverage> coverage = {};  ///< set by bake_onto()
     std::vector<std::string> warnings;
     std::vector<ResultImage> images;  ///< of the result, in the order of Asset::images
     /// Buffer views of a glTF file without those of images. Set by simplify() of a file.

@@ -45,6 +45,7 @@ static void a_model_is_saved_loaded_and_simplified(void) {
     CHECK(faqem_options_set(options, "bake", "auto", &error) == FAQEM_OK);
     CHECK(faqem_asset_bake_onto(loaded, simplified, "new", "1%", options, &baked, &error) == FAQEM_OK);
     CHECK(faqem_asset_face_count(baked, 0) == faqem_asset_face_count(simplified, 0));
+    CHECK(strstr(faqem_asset_report_json(baked), "\"missing_texels\": 0.0") != NULL);
     CHECK(faqem_asset_bake_onto(loaded, simplified, "old", NULL, NULL, &baked, &error) == FAQEM_ERROR_OPTION);
     CHECK(strstr(error.message, "'old' is not auto, keep or new") != NULL);
     faqem_asset_destroy(baked);

@@ -138,6 +138,8 @@ class Models(unittest.TestCase):
         baked = faqem.bake_onto(source, bare, max_distance="10%", texture_size=64)
         self.assertEqual(len(baked.parts[0].triangles), len(bare.parts[0].triangles))
         self.assertEqual(len(baked.images), 1)
+        self.assertEqual(baked.report["coverage"]["missing_texels"], 0)
+        self.assertEqual(baked.report["coverage"]["unmatched_parts"], [])
         with self.assertRaisesRegex(faqem.OptionError, "max_distance"):
             faqem.bake_onto(source, bare, max_distance="far")
 

@@ -65,7 +65,7 @@ Asset flat_source(const Asset& source, Report& report) {
 
 /// Bakes the pages, and puts the result together.
 void bake_parts(const Asset& source, const Asset& target, const Options& options, const OntoOptions& onto,
-                double max_distance, const RunContext& context, BakedOnto& result) {
+                double max_distance, const RunContext& context, SimplifiedAsset& result) {
     detail::FlatTarget flat = detail::flat_target(target);
     if (flat.flat.triangles.empty()) throw InputError("", "target", "its scene has no faces");
     const auto mesh = detail::target_mesh(flat.flat, options.bake, context);
@@ -86,6 +86,7 @@ void bake_parts(const Asset& source, const Asset& target, const Options& options
     });
     detail::UnencodedResult out;
     out.asset.report = std::move(result.report);
+    TargetCoverage& coverage = out.asset.report.coverage.emplace();
     if (!detail::bake_pages({source, options.bake, {&mesh->part, 1}, context}, {}, out))
         throw InputError("", "target", "has more charts than a page of texture_size has texels");
     const auto is_matched = [&](Index begin, Index end) {
@@ -99,11 +100,11 @@ void bake_parts(const Asset& source, const Asset& target, const Options& options
         const Part& part = target.parts[piece.part];
         const auto faces = static_cast<Index>(part.triangles.size());
         if (!is_matched(piece.first_face, piece.first_face + faces))
-            result.unmatched_parts.push_back(detail::part_title(target, piece.part));
+            coverage.unmatched_parts.push_back(detail::part_title(target, piece.part));
         textured.parts[piece.part] = detail::textured_part(part, flat, piece, baked, keeps_uvs,
                                                            out.asset.asset.materials, options.bake, context);
     }
-    if (result.unmatched_parts.size() == flat.pieces.size())
+    if (coverage.unmatched_parts.size() == flat.pieces.size())
         throw InputError("", "target",
                          "no point of it is near the source, on the side that the source shows");
     textured.materials = std::move(out.asset.asset.materials);
@@ -113,19 +114,20 @@ void bake_parts(const Asset& source, const Asset& target, const Options& options
     out.asset.asset = std::move(textured);
     detail::set_quantization(target, options, out.asset.asset, out.asset.report);
     detail::encode_images(out, options, context);
-    result.largest_distance = map.largest_distance();
+    coverage.largest_distance = map.largest_distance();
     if (out.shown_texels > 0)
-        result.missing_texels =
+        coverage.missing_texels =
             static_cast<double>(out.missing_texels) / static_cast<double>(out.shown_texels);
-    static_cast<SimplifiedAsset&>(result) = std::move(out.asset);
+    result = std::move(out.asset);
 }
 
-void warn(const Asset& target, BakedOnto& result) {
-    std::vector<std::string>& warnings = result.report.warnings;
-    for (const std::string& part : result.unmatched_parts)
+void warn(const Asset& target, Report& report) {
+    std::vector<std::string>& warnings = report.warnings;
+    const TargetCoverage& coverage = *report.coverage;
+    for (const std::string& part : coverage.unmatched_parts)
         warnings.push_back(part + ": no point of the source is near it");
-    if (result.missing_texels > max_silent_share)
-        warnings.push_back(std::to_string(std::lround(100 * result.missing_texels)) +
+    if (coverage.missing_texels > max_silent_share)
+        warnings.push_back(std::to_string(std::lround(100 * coverage.missing_texels)) +
                            "% of the texels have no point of the source, and the colours of those around");
     for (std::size_t p = 0; p < target.parts.size(); ++p)
         if (detail::has_non_white_colors(target.parts[p]))
@@ -148,12 +150,12 @@ OntoOptions onto_options(std::string_view uvs, std::string_view max_distance) {
     return result;
 }
 
-BakedOnto bake_onto(const Asset& given_source, const Asset& given_target, const Options& requested,
-                    const OntoOptions& onto) {
+SimplifiedAsset bake_onto(const Asset& given_source, const Asset& given_target, const Options& requested,
+                          const OntoOptions& onto) {
     check_options(requested, onto);
     const detail::Stopwatch watch;
     const RunContext context(requested);
-    BakedOnto result;
+    SimplifiedAsset result;
     try {
         const Asset source = finest(given_source, result.report),
                     target = finest(given_target, result.report);
@@ -163,7 +165,7 @@ BakedOnto bake_onto(const Asset& given_source, const Asset& given_target, const 
         const double max_distance =
             detail::scene_size(source)(onto.max_distance.value_or(of_diagonal(usual_max_distance)));
         bake_parts(flat, target, options, onto, max_distance, context, result);
-        warn(target, result);
+        warn(target, result.report);
         for (std::size_t p = 0; p < target.parts.size(); ++p) {
             result.report.faces_in += target.parts[p].triangles.size();
             result.report.vertices_in += target.parts[p].positions.size();

@@ -20,13 +20,16 @@
 #include "cli/process/progress_bar.hpp"
 #include "cli/process/rejection.hpp"
 #include "cli/process/shown_text.hpp"
+#include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/report_json.hpp"
+#include "result/simplify_file.hpp"
 
 namespace faqem::cli {
 
 namespace {
 
 struct BakeArguments : SimplifyArguments {
-    std::string target, out, source, max_distance, uvs;
+    std::string target, out, source, max_distance, uvs, report;
     bool force = false, quiet = false;
 };
 
@@ -37,9 +40,10 @@ int run(const BakeArguments& arguments) {
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
     protect_input(arguments.target);
     protect_input(arguments.source);
-    const Overwrite overwrite = check_outputs({arguments.out}, arguments.force);
+    const Overwrite overwrite = check_outputs({arguments.out, arguments.report}, arguments.force);
     install_signal_handlers();
-    BakedOnto baked;
+    const detail::Stopwatch watch;
+    SimplifiedAsset baked;
     {
         ProgressBar bar(arguments.quiet ? Bar::hidden : Bar::shown);
         options.progress = bar.callback();
@@ -47,21 +51,25 @@ int run(const BakeArguments& arguments) {
         const Asset source = load_model(arguments.source, arguments.strictness()),
                     target = load_model(arguments.target, arguments.strictness());
         exit_on_interrupt.reset();
+        const double loaded = watch.seconds();
         baked = bake_onto(source, target, options, onto);
+        baked.report.seconds.load = loaded;
     }
     require_not_cancelled(baked.report);
     const ExitOnInterrupt exit_on_interrupt;
     detail::FileSet set;
     {
         const detail::CollectWrites collect(set);
-        for (std::string& loss : save(baked.asset, arguments.out, overwrite))
-            baked.report.warnings.push_back(std::move(loss));
+        detail::save_result(baked, arguments.out, options, overwrite);
+        baked.report.little_saved.reset();  // new textures add bytes
+        baked.report.seconds.total = watch.seconds();
+        if (!arguments.report.empty()) write_output(arguments.report, to_json(baked.report), overwrite);
     }
     commit_outputs(set);
     if (arguments.quiet) return exit_ok;
     std::cout << arguments.source << " onto " << arguments.target << " -> " << arguments.out << "\n"
-              << "largest distance: " << baked.largest_distance
-              << "; texels without a source: " << shown_percent(baked.missing_texels) << "\n"
+              << "largest distance: " << baked.report.coverage->largest_distance
+              << "; texels without a source: " << shown_percent(baked.report.coverage->missing_texels) << "\n"
               << warnings_text(baked.report.warnings);
     return exit_ok;
 }
@@ -92,8 +100,8 @@ CommandInfo bake_command() {
         return std::ranges::find(none, option.names.back()) != none.end();
     });
     add_options(command.options, std::move(baking));
-    add_options(command.options, {strict_option(arguments->strict), force_option(arguments->force),
-                                  quiet_option(arguments->quiet)});
+    add_options(command.options, {report_option(arguments->report), strict_option(arguments->strict),
+                                  force_option(arguments->force), quiet_option(arguments->quiet)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

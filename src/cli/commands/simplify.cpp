@@ -192,7 +192,7 @@ std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
         rare(size_option("--max-memory", a.max_memory,
                          "Use at most this memory, as 8GB or 500MB; or end with code 11 (default: the "
                          "machine's memory)")),
-        text_option("--report", "FILE", a.report, "Write counts, warnings and times to this JSON file"),
+        report_option(a.report),
         rare(text_option("--history", "FILE", a.history, "Write the collapse history to this file")),
         rare(text_option("--correspondence", "FILE", a.correspondence,
                          "Write the position of each texel of the new atlas on the original to this file")),

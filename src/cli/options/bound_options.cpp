@@ -77,6 +77,10 @@ OptionInfo quiet_option(bool& quiet) {
     return flag_option("-q,--quiet", quiet, "Print no summary and no progress bar");
 }
 
+OptionInfo report_option(std::string& file) {
+    return text_option("--report", "FILE", file, "Write counts, warnings and times to this JSON file");
+}
+
 OptionInfo format_option(std::string& format) {
     return text_option("--format", format_names("|"), format,
                        "Output format (default " + default_format() + ")");

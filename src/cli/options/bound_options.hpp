@@ -63,6 +63,9 @@ OptionInfo force_option(bool& force);
 /// -q and --quiet.
 OptionInfo quiet_option(bool& quiet);
 
+/// --report of the commands that make one model.
+OptionInfo report_option(std::string& file);
+
 /// --format of the commands that write several models.
 OptionInfo format_option(std::string& format);
 

@@ -92,15 +92,15 @@ Color ramp_at(const Vec3& p) {
 TEST_CASE("a source that is baked onto itself keeps its colours, however both are turned") {
     const Asset source = textured_square(ramp(256));
     const bool turns = GENERATE(false, true);
-    const BakedOnto baked =
+    const SimplifiedAsset baked =
         turns ? bake_onto(turned(source), turned(source), lossless()) : bake_onto(source, source, lossless());
     // The image stores integers, and so does that of the source: each is off by at most one half.
     const auto color = [&](std::size_t, const Vec3& p) {
         return ramp_at(turns ? Vec3{p[0] * std::cos(0.7) + p[2] * std::sin(0.7), p[1], 0} : p);
     };
     CHECK(worst(baked.asset, color) <= 2);
-    CHECK(baked.missing_texels == 0);
-    CHECK(baked.largest_distance < 1e-12);
+    CHECK(baked.report.coverage->missing_texels == 0);
+    CHECK(baked.report.coverage->largest_distance < 1e-12);
     CHECK(baked.asset.parts[0].name == "square");
     CHECK(baked.report.warnings.empty());
 }
@@ -109,7 +109,7 @@ TEST_CASE("a sphere is shown by one with other triangles") {
     const auto color = [](const Vec3& p) {
         return Vec4f{float(0.5 + p[0] / 4), float(0.5 + p[1] / 4), float(0.5 + p[2] / 4), 1};
     };
-    const BakedOnto baked = bake_onto(painted(icosphere(5), color), plain(globe(12, 1)), lossless());
+    const SimplifiedAsset baked = bake_onto(painted(icosphere(5), color), plain(globe(12, 1)), lossless());
     const auto expected = [&](std::size_t, const Vec3& p) {
         const double r = std::hypot(p[0], p[1], p[2]);
         const Vec4f linear = color({p[0] / r, p[1] / r, p[2] / r});
@@ -119,9 +119,9 @@ TEST_CASE("a sphere is shown by one with other triangles") {
     };
     CHECK(worst(baked.asset, expected) < 4);
     // The middles of the faces of the globe are below the sphere.
-    CHECK(baked.largest_distance > 0.005);
-    CHECK(baked.largest_distance < 0.04);
-    CHECK(baked.missing_texels == 0);
+    CHECK(baked.report.coverage->largest_distance > 0.005);
+    CHECK(baked.report.coverage->largest_distance < 0.04);
+    CHECK(baked.report.coverage->missing_texels == 0);
 }
 
 TEST_CASE("neither side of a thin wall shows the colour of the other one") {
@@ -130,7 +130,7 @@ TEST_CASE("neither side of a thin wall shows the colour of the other one") {
     // Above, inside of, and below the wall.
     const auto [bottom, top] =
         GENERATE(std::pair(0.48, 0.52), std::pair(0.4998, 0.5002), std::pair(0.47, 0.48));
-    const BakedOnto baked = bake_onto(source, plain(plate(bottom, top)), lossless());
+    const SimplifiedAsset baked = bake_onto(source, plain(plate(bottom, top)), lossless());
     const double middle = (bottom + top) / 2;
     CHECK(worst(baked.asset, [&](std::size_t, const Vec3& p) {
               return p[2] > middle ? Color{255, 0, 0} : Color{0, 0, 255};
@@ -141,9 +141,9 @@ TEST_CASE("of nested shells the outer one is shown, except on a target that has 
     const TriangleMesh outer = icosphere(3), inner = scaled(outer, 0.97);
     const Asset source = together(painted(outer, red), painted(inner, blue));
     // The middles of its faces are nearer to the inner shell than to the outer one.
-    const BakedOnto one = bake_onto(source, plain(icosphere(1)), lossless());
+    const SimplifiedAsset one = bake_onto(source, plain(icosphere(1)), lossless());
     CHECK(worst(one.asset, [](std::size_t, const Vec3&) { return Color{255, 0, 0}; }) < 1e-6);
-    const BakedOnto two = bake_onto(source, together(plain(outer), plain(inner)), lossless());
+    const SimplifiedAsset two = bake_onto(source, together(plain(outer), plain(inner)), lossless());
     CHECK(worst(two.asset, [](std::size_t part, const Vec3&) {
               return part == 0 ? Color{255, 0, 0} : Color{0, 0, 255};
           }) < 1e-6);
@@ -160,18 +160,18 @@ TEST_CASE("texels above a hole of the source are counted, and have the colours a
     const OntoOptions near{.max_distance = model_units(0.5)};
     Options options = lossless();
     options.bake.texel_density = 8;
-    const BakedOnto baked = bake_onto(painted(holed, red), plain(scaled(grid(1), 16)), options, near);
+    const SimplifiedAsset baked = bake_onto(painted(holed, red), plain(scaled(grid(1), 16)), options, near);
     // A square of side 8, except for what is nearer than 0.5 to its border, of one of side 16.
-    CHECK(baked.missing_texels == Approx(49.0 / 256).margin(0.01));
-    CHECK(baked.largest_distance == Approx(0.5).margin(0.1));
+    CHECK(baked.report.coverage->missing_texels == Approx(49.0 / 256).margin(0.01));
+    CHECK(baked.report.coverage->largest_distance == Approx(0.5).margin(0.1));
     CHECK(testing::any_contains(baked.report.warnings, "19% of the texels have no point of the source"));
     CHECK(worst(baked.asset, [](std::size_t, const Vec3&) { return Color{255, 0, 0}; }) < 1e-6);
 }
 
 TEST_CASE("parts without a counterpart are reported, and a target with no other ones is refused") {
     const Asset source = textured_square(ramp(64)), far = plain(moved(grid(1), {0, 0, 9}));
-    const BakedOnto baked = bake_onto(source, together(source, far), lossless());
-    CHECK(baked.unmatched_parts == std::vector<std::string>{"part 1"});
+    const SimplifiedAsset baked = bake_onto(source, together(source, far), lossless());
+    CHECK(baked.report.coverage->unmatched_parts == std::vector<std::string>{"part 1"});
     CHECK(testing::any_contains(baked.report.warnings, "part 1: no point of the source is near it"));
     CHECK(testing::message_of([&] { bake_onto(source, far); }) ==
           "target: no point of it is near the source, on the side that the source shows");
@@ -187,7 +187,7 @@ TEST_CASE("the target keeps what is not appearance") {
     part.colors.assign(4, {0, 1, 0, 1});
     part.morph_targets.resize(1);
     for (float v = 0; v < 4; ++v) part.morph_targets[0].positions.push_back({v, 0, 0});
-    const BakedOnto baked = bake_onto(source, target, lossless());
+    const SimplifiedAsset baked = bake_onto(source, target, lossless());
     const Part& to = baked.asset.parts[0];
     CHECK(to.joints == part.joints);
     CHECK(to.normals == part.normals);
@@ -207,7 +207,7 @@ TEST_CASE("a target gets the normals of its source as a normal map") {
     source.parts = {sheet(8, [](double x, double y) { return Vec3{x, y, 0.3 * (x - 4)}; })};
     Options options = lossless();
     options.bake.normal_map = NormalMap::on;
-    const BakedOnto baked = bake_onto(source, plain(scaled(grid(1), 8)), options);
+    const SimplifiedAsset baked = bake_onto(source, plain(scaled(grid(1), 8)), options);
     const Part& part = baked.asset.parts[0];
     REQUIRE(part.normals.size() == part.positions.size());
     const Pixels pixels = decode(baked.asset.images.at(baked.asset.materials[0].normal_texture.image));
@@ -232,7 +232,7 @@ TEST_CASE("a target keeps UVs on which every texel has one place") {
     part.uvs = {{{0, 0.4f}, {0.4f, 0.4f}, {0.4f, 0}, {0.9f, 0.9f}, {0.5f, 0.5f}, {0.9f, 0.5f}}};
     Options options = lossless();
     options.bake.texel_density = 2;
-    const BakedOnto baked = bake_onto(source, target, options, {.uvs = OntoUvs::keep});
+    const SimplifiedAsset baked = bake_onto(source, target, options, {.uvs = OntoUvs::keep});
     CHECK(baked.asset.parts[0].uvs == part.uvs);
     CHECK(baked.asset.parts[0].triangles == part.triangles);
     CHECK(worst(baked.asset, [](std::size_t, const Vec3& p) { return ramp_at(p); }) <= 2);
@@ -241,7 +241,7 @@ TEST_CASE("a target keeps UVs on which every texel has one place") {
     part.uvs[0][3] = {0.3f, 0.1f};  // the second island covers a part of the first one
     CHECK(testing::message_of([&] { bake_onto(source, target, options, {.uvs = OntoUvs::keep}); }) ==
           "target: its UVs cannot be kept: they are missing, outside of [0, 1], or overlap");
-    const BakedOnto other = bake_onto(source, target, options);
+    const SimplifiedAsset other = bake_onto(source, target, options);
     CHECK(other.asset.parts[0].uvs != part.uvs);
     CHECK(worst(other.asset, [](std::size_t, const Vec3& p) { return ramp_at(p); }) <= 2);
 }
@@ -252,10 +252,10 @@ TEST_CASE("an atlas onto another mesh does not depend on the number of threads")
     });
     Options options = lossless();
     options.threads = 1;
-    const BakedOnto one = bake_onto(source, plain(globe(9, 1.01)), options);
+    const SimplifiedAsset one = bake_onto(source, plain(globe(9, 1.01)), options);
     options.threads = 4;
-    const BakedOnto four = bake_onto(source, plain(globe(9, 1.01)), options);
+    const SimplifiedAsset four = bake_onto(source, plain(globe(9, 1.01)), options);
     CHECK(one.asset.images[0].encoded == four.asset.images[0].encoded);
     CHECK(one.asset.parts[0].uvs == four.asset.parts[0].uvs);
-    CHECK(one.largest_distance == four.largest_distance);
+    CHECK(one.report.coverage->largest_distance == four.report.coverage->largest_distance);
 }

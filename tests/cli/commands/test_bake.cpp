@@ -1,3 +1,4 @@
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "support/catch.hpp"
@@ -18,6 +19,11 @@ TEST_CASE("bake shows one model on another mesh, and says how far they are apart
     CHECK(baked.parts.at(0).triangles.size() ==
           faqem::load(folder / "bare.stl").parts.at(0).triangles.size());
     CHECK(baked.images.size() > 0);
+    REQUIRE(run(folder, bake + "--force --report report.json").code == 0);
+    const auto report = nlohmann::json::parse(read(folder / "report.json"));
+    CHECK(report["coverage"]["missing_texels"] == 0);
+    CHECK(report["coverage"]["unmatched_parts"].empty());
+    CHECK(report["bytes_out"] == std::filesystem::file_size(folder / "textured.glb"));
     CHECK(run(folder, bake + "--force --uvs keep").code == 3);
     CHECK(run(folder, bake + "--force --bake vertex").code == 2);
     CHECK(run(folder, bake + "--force --max-distance 0").code == 2);

@@ -156,6 +156,11 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["compared_results"] = detail::compared_results_json(report);
     json["untouched_parts"] = report.untouched_parts;
     json["kept_uvs"] = report.kept_uvs;
+    if (report.coverage) {
+        json["coverage"] = {{"missing_texels", report.coverage->missing_texels},
+                            {"largest_distance", report.coverage->largest_distance},
+                            {"unmatched_parts", report.coverage->unmatched_parts}};
+    }
     json["warnings"] = report.warnings;
     const PhaseSeconds& s = report.seconds;
     json["seconds"] = {{"load", s.load}, {"weld", s.weld}, {"simplify", s.simplify}, {"map", s.map},
