@@ -111,9 +111,10 @@ struct Beginning {
 };
 
 bool has_use(const FileFormat& format, FormatUse use) {
-    return use == FormatUse::read    ? format.read != nullptr
-           : use == FormatUse::write ? format.encode != nullptr
-                                     : format.encode_levels != nullptr;
+    return use == FormatUse::read             ? format.read != nullptr
+           : use == FormatUse::write          ? format.encode != nullptr
+           : use == FormatUse::write_textures ? format.is_gltf || format.has_image_files
+                                              : format.encode_levels != nullptr;
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ struct FileFormat {
 };
 
 /// What can be done with a format.
-enum class FormatUse { read, write, write_levels };
+enum class FormatUse { read, write, write_levels, write_textures };
 
 /// Returns the format of an output file, by its name. \throws UnsupportedError  it cannot be written
 FAQEM_EXPORT const FileFormat& written_format(const std::filesystem::path& file);

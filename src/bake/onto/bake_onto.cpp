@@ -19,6 +19,7 @@
 #include "scene/check_asset.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/position_grids.hpp"
+#include "scene/resolved_options.hpp"
 #include "scene/scene_size.hpp"
 
 namespace faqem {
@@ -29,8 +30,11 @@ using detail::RunContext;
 constexpr double usual_max_distance = 0.05;  // share of the diagonal
 constexpr double max_silent_share = 0.01;    // of missing texels
 
+bool holds_textures(ModelFormat format) { return format != ModelFormat::ply && format != ModelFormat::stl; }
+
 void check_options(const Options& options, const OntoOptions& onto) {
     validate(options);
+    if (!holds_textures(options.format)) throw OptionError("bake_onto: format must be one that has textures");
     if (!makes_atlas(options.bake.kind))
         throw OptionError("bake_onto: an atlas is required, so bake must not be vertex, keep or none");
     if (options.bake.correspondence == Recording::on || options.max_bytes)
@@ -40,11 +44,12 @@ void check_options(const Options& options, const OntoOptions& onto) {
 }
 
 /// A valid asset without coarser levels of detail.
-Asset finest(Asset asset, Report& report) {
+/// \param role  in warnings
+Asset finest(Asset asset, const std::string& role, Report& report) {
     detail::check_asset(asset);
-    report.warnings.insert(report.warnings.end(), asset.warnings.begin(), asset.warnings.end());
-    const std::string warning = detail::keep_finest_level(asset);
-    if (!warning.empty()) report.warnings.push_back(warning);
+    const std::string left_out = detail::keep_finest_level(asset);
+    if (!left_out.empty()) asset.warnings.push_back(left_out);
+    for (const std::string& warning : asset.warnings) report.warnings.push_back(role + ": " + warning);
     return asset;
 }
 
@@ -74,10 +79,10 @@ void bake_parts(const Asset& source, const Asset& target, const Options& options
     // For baking the source is the original of the mesh.
     mesh->part.source = &source.parts[0];
     mesh->part.map = std::move(own_map);
-    if (onto.uvs != OntoUvs::created) mesh->part.given_uvs = detail::usable_uvs(target, flat);
-    if (onto.uvs == OntoUvs::keep && mesh->part.given_uvs.empty())
-        throw InputError("", "target",
-                         "its UVs cannot be kept: they are missing, outside of [0, 1], or overlap");
+    std::string fault;
+    if (onto.uvs != OntoUvs::created) mesh->part.given_uvs = detail::usable_uvs(target, flat, fault);
+    if (onto.uvs == OntoUvs::keep && !fault.empty())
+        throw InputError("", "target", "its UVs cannot be kept, because " + fault + ": new ones are needed");
     const bool keeps_uvs = !mesh->part.given_uvs.empty();
     std::vector<Index>& source_faces = mesh->mesh.history.remaining_faces;
     source_faces.resize(mesh->part.faces());
@@ -105,8 +110,10 @@ void bake_parts(const Asset& source, const Asset& target, const Options& options
                                                            out.asset.asset.materials, options.bake, context);
     }
     if (coverage.unmatched_parts.size() == flat.pieces.size())
-        throw InputError("", "target",
-                         "no point of it is near the source, on the side that the source shows");
+        throw InputError(
+            "", "target",
+            "no point of it is near the source, on the side that the source shows: they must be at the "
+            "same place and of the same size, or max_distance must be larger");
     textured.materials = std::move(out.asset.asset.materials);
     textured.images = std::move(out.asset.asset.images);
     textured.format = options.format;
@@ -121,9 +128,12 @@ void bake_parts(const Asset& source, const Asset& target, const Options& options
     result = std::move(out.asset);
 }
 
-void warn(const Asset& target, Report& report) {
-    std::vector<std::string>& warnings = report.warnings;
-    const TargetCoverage& coverage = *report.coverage;
+void warn(const Asset& target, SimplifiedAsset& result) {
+    std::vector<std::string>& warnings = result.report.warnings;
+    const TargetCoverage& coverage = *result.report.coverage;
+    if (result.asset.images.empty())
+        warnings.emplace_back(
+            "no texture was made, because the source has one colour and no normal map is wanted");
     for (const std::string& part : coverage.unmatched_parts)
         warnings.push_back(part + ": no point of the source is near it");
     if (coverage.missing_texels > max_silent_share)
@@ -157,15 +167,17 @@ SimplifiedAsset bake_onto(const Asset& given_source, const Asset& given_target, 
     const RunContext context(requested);
     SimplifiedAsset result;
     try {
-        const Asset source = finest(given_source, result.report),
-                    target = finest(given_target, result.report);
+        const Asset source = finest(given_source, "source", result.report),
+                    target = finest(given_target, "target", result.report);
         Options options = requested;
-        if (options.format == ModelFormat::automatic) options.format = target.format;
+        if (!holds_textures(target.format) && options.format == ModelFormat::automatic)
+            options.format = ModelFormat::glb;
+        options.format = detail::resolved_options(target, options).format;
         const Asset flat = flat_source(source, result.report);
         const double max_distance =
             detail::scene_size(source)(onto.max_distance.value_or(of_diagonal(usual_max_distance)));
         bake_parts(flat, target, options, onto, max_distance, context, result);
-        warn(target, result.report);
+        warn(target, result);
         for (std::size_t p = 0; p < target.parts.size(); ++p) {
             result.report.faces_in += target.parts[p].triangles.size();
             result.report.vertices_in += target.parts[p].positions.size();

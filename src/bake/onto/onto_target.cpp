@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "bake/atlas/triangle_overlap.hpp"
 #include "bake/page/normal_map.hpp"
@@ -79,16 +80,22 @@ FlatTarget flat_target(const Asset& target) {
     return result;
 }
 
-std::vector<Vec2f> usable_uvs(const Asset& target, const FlatTarget& flat) {
+std::vector<Vec2f> usable_uvs(const Asset& target, const FlatTarget& flat, std::string& fault) {
     for (const FlatTarget::Piece& piece : flat.pieces)
-        if (target.parts[piece.part].uvs.empty()) return {};
+        if (target.parts[piece.part].uvs.empty()) {
+            fault = part_title(target, piece.part) + " has none";
+            return {};
+        }
     std::vector<Vec2f> result;
     std::vector<Triangle2> triangles;  // counter-clockwise
     for (const Triangle& t : flat.flat.triangles) {
         Triangle2 triangle;
         for (std::size_t c = 0; c < 3; ++c) {
             const Vec2f& uv = flat.flat.uvs[0][t[c]];
-            if (!(uv[0] >= 0 && uv[0] <= 1 && uv[1] >= 0 && uv[1] <= 1)) return {};
+            if (!(uv[0] >= 0 && uv[0] <= 1 && uv[1] >= 0 && uv[1] <= 1)) {
+                fault = "some are outside of [0, 1]";
+                return {};
+            }
             result.push_back(uv);
             triangle[c] = {uv[0], uv[1]};
         }
@@ -97,7 +104,9 @@ std::vector<Vec2f> usable_uvs(const Asset& target, const FlatTarget& flat) {
         if (area != 0) triangles.push_back(triangle);
     }
     std::uint64_t work = 1000000 + 1000 * triangles.size();
-    return !triangles.empty() && have_disjoint_interiors(triangles, work) ? result : std::vector<Vec2f>();
+    if (!triangles.empty() && have_disjoint_interiors(triangles, work)) return result;
+    fault = "some overlap";
+    return {};
 }
 
 Part textured_part(const Part& part, const FlatTarget& target, const FlatTarget::Piece& piece,

@@ -38,7 +38,8 @@ FlatTarget flat_target(const Asset& target);
 
 /// By corner of the flat part: the UVs of the first set of the target. Empty if a part has none, if any is outside of
 /// [0, 1], or if faces overlap on the page.
-std::vector<Vec2f> usable_uvs(const Asset& target, const FlatTarget& flat);
+/// \param fault  receives the reason why they are empty
+std::vector<Vec2f> usable_uvs(const Asset& target, const FlatTarget& flat, std::string& fault);
 
 /// A part of the target with its part of the result.
 /// \param part   of the target

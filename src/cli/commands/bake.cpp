@@ -21,8 +21,10 @@
 #include "cli/process/rejection.hpp"
 #include "cli/process/shown_text.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
+#include "faqem/error.hpp"
 #include "faqem/report_json.hpp"
 #include "result/simplify_file.hpp"
+#include "scene/resolved_options.hpp"
 
 namespace faqem::cli {
 
@@ -35,9 +37,12 @@ struct BakeArguments : SimplifyArguments {
 
 int run(const BakeArguments& arguments) {
     Options options = make_options(arguments.options);
+    if (!makes_atlas(options.bake.kind))
+        throw OptionError(
+            "--bake: must be auto, atlas or per-triangle, because another mesh gets new textures");
     options.format = format_of_output(arguments.out);
     const OntoOptions onto = onto_options(arguments.uvs, arguments.max_distance);
-    check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
+    check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write_textures));
     protect_input(arguments.target);
     protect_input(arguments.source);
     const Overwrite overwrite = check_outputs({arguments.out, arguments.report}, arguments.force);
@@ -52,8 +57,12 @@ int run(const BakeArguments& arguments) {
                     target = load_model(arguments.target, arguments.strictness());
         exit_on_interrupt.reset();
         const double loaded = watch.seconds();
-        baked = bake_onto(source, target, options, onto);
+        baked = detail::with_file_in_errors(arguments.source + " onto " + arguments.target,
+                                            [&] { return bake_onto(source, target, options, onto); });
         baked.report.seconds.load = loaded;
+        for (std::string& idle :
+             detail::idle_options(target, options, typed_names(arguments.options), detail::command_spelling))
+            baked.report.warnings.push_back(std::move(idle));
     }
     require_not_cancelled(baked.report);
     const ExitOnInterrupt exit_on_interrupt;
@@ -82,7 +91,7 @@ CommandInfo bake_command() {
                         "Bake the appearance of a model onto another mesh",
                         {"faqem bake remeshed.glb textured.glb --source original.glb"}};
     command.positionals = {positional("TARGET", arguments->target, "The mesh that gets new textures")};
-    add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write));
+    add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write_textures));
     OptionInfo source = text_option("--source", "FILE", arguments->source, "The model that is shown");
     source.is_required = true;
     const OptionInfo max_distance =
@@ -99,6 +108,13 @@ CommandInfo bake_command() {
         constexpr std::array none = {"--allow-larger", "--max-bytes", "--normals"};
         return std::ranges::find(none, option.names.back()) != none.end();
     });
+    for (OptionInfo& option : baking)
+        if (option.names.back() == "--bake") {
+            option.value_name = "auto|atlas|per-triangle";
+            option.description =
+                "Kind of the new texture; auto (atlas, or per-triangle if that does not fit), "
+                "atlas (charts), per-triangle";
+        }
     add_options(command.options, std::move(baking));
     add_options(command.options, {report_option(arguments->report), strict_option(arguments->strict),
                                   force_option(arguments->force), quiet_option(arguments->quiet)});

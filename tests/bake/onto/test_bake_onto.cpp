@@ -174,7 +174,9 @@ TEST_CASE("parts without a counterpart are reported, and a target with no other 
     CHECK(baked.report.coverage->unmatched_parts == std::vector<std::string>{"part 1"});
     CHECK(testing::any_contains(baked.report.warnings, "part 1: no point of the source is near it"));
     CHECK(testing::message_of([&] { bake_onto(source, far); }) ==
-          "target: no point of it is near the source, on the side that the source shows");
+          "target: no point of it is near the source, on the side that the source shows: they must be at the "
+          "same place "
+          "and of the same size, or max_distance must be larger");
 }
 
 TEST_CASE("the target keeps what is not appearance") {
@@ -240,7 +242,7 @@ TEST_CASE("a target keeps UVs on which every texel has one place") {
 
     part.uvs[0][3] = {0.3f, 0.1f};  // the second island covers a part of the first one
     CHECK(testing::message_of([&] { bake_onto(source, target, options, {.uvs = OntoUvs::keep}); }) ==
-          "target: its UVs cannot be kept: they are missing, outside of [0, 1], or overlap");
+          "target: its UVs cannot be kept, because some overlap: new ones are needed");
     const SimplifiedAsset other = bake_onto(source, target, options);
     CHECK(other.asset.parts[0].uvs != part.uvs);
     CHECK(worst(other.asset, [](std::size_t, const Vec3& p) { return ramp_at(p); }) <= 2);
@@ -258,4 +260,16 @@ TEST_CASE("an atlas onto another mesh does not depend on the number of threads")
     CHECK(one.asset.images[0].encoded == four.asset.images[0].encoded);
     CHECK(one.asset.parts[0].uvs == four.asset.parts[0].uvs);
     CHECK(one.report.coverage->largest_distance == four.report.coverage->largest_distance);
+}
+
+TEST_CASE("the result has the format of the target if that has textures, otherwise it is a GLB") {
+    const Asset source = textured_square(ramp(64));
+    Asset target = plain(grid(1));
+    target.format = ModelFormat::obj;
+    CHECK(bake_onto(source, target).asset.format == ModelFormat::obj);
+    target.format = ModelFormat::stl;
+    CHECK(bake_onto(source, target).asset.format == ModelFormat::glb);
+    Options options;
+    options.format = ModelFormat::ply;
+    CHECK_THROWS_AS(bake_onto(source, target, options), OptionError);
 }
