@@ -39,8 +39,8 @@ FAQEM_EXPORT OntoOptions onto_options(std::string_view uvs, std::string_view max
 /// the source on a face that is turned to the same side, or else on the back of a double-sided one. Where the target is
 /// visible from outside, a visible face of the source above the point comes before a hidden one.
 /// The target keeps its nodes, names, skins, morph targets and animations; its materials and vertex colours are
-/// replaced. Extensions of materials of the source, except for unlit ones, are left out, with a warning. Warnings of the
-/// models begin with `source` or `target`.
+/// replaced. Extensions of materials of the source are baked as by bake(); OBJ files, and files whose materials have
+/// numbers (VRM), lose them with a warning. Warnings of the models begin with `source` or `target`.
 /// \param source   the appearance
 /// \param target   the mesh
 /// \param options  those about baking, the format of the result and the run; bake.kind must make an atlas, format have

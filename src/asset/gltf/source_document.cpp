@@ -232,6 +232,21 @@ bool names_objects_by_number(const Asset& asset) {
     return asset.source && names_objects_by_number(asset.source->document);
 }
 
+void carry_materials(const Asset& from, Asset& to) {
+    if (!from.source) return;
+    const auto joined = std::make_shared<SourceDocument>(to.source ? *to.source : SourceDocument());
+    const auto first = static_cast<Index>(joined->materials.size());
+    for (const Json& material : member(from.source->document, "materials"))
+        joined->document["materials"].push_back(material);
+    for (const Material& material : from.source->materials) {
+        joined->materials.push_back(material);
+        remove_textures(joined->materials.back());  // their images are not in the document
+    }
+    for (Material& material : to.materials)
+        if (material.source != no_index) material.source += first;
+    to.source = joined;
+}
+
 std::string unused_objects(const Json& document) {
     if (names_objects_by_number(document)) return {};
     const UseMarker marker(document);

@@ -146,6 +146,10 @@ inline std::vector<Image> used_images(std::vector<Material>& materials, const st
 /// them in their order.
 FAQEM_EXPORT bool names_objects_by_number(const Asset& asset);
 
+/// Gives an asset whose materials are those of another one, with new textures, what save() writes of them from the file
+/// of the other one: extras and extensions. \pre not names_objects_by_number(to)
+FAQEM_EXPORT void carry_materials(const Asset& from, Asset& to);
+
 /// Removes all textures of a material, with what only applies to them.
 inline void remove_textures(Material& material) {
     for (const CoreSlot& slot : core_slots) {

@@ -6,8 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "asset/file_format.hpp"
 #include "asset/finest_level.hpp"
 #include "asset/scene/flatten.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
 #include "bake/onto/onto_map.hpp"
 #include "bake/onto/onto_target.hpp"
@@ -53,17 +55,17 @@ Asset finest(Asset asset, const std::string& role, Report& report) {
     return asset;
 }
 
-/// The source as one part. What of its materials is in its own file, where the result cannot refer to it, is left out.
-Asset flat_source(const Asset& source, Report& report) {
+/// The source as one part.
+/// \param keeps_extensions  whether the result can have extensions of materials
+Asset flat_source(const Asset& source, bool keeps_extensions, Report& report) {
     Asset flat = detail::flatten_scene(source);
     if (flat.parts[0].triangles.empty()) throw InputError("", "source", "its scene has no faces");
-    for (Index m = 0; m < flat.materials.size(); ++m) {
+    for (Index m = 0; m < flat.materials.size() && !keeps_extensions; ++m) {
         Material& material = flat.materials[m];
         for (const std::string& extension : material.extensions)
             report.warnings.push_back(detail::material_title(source, m) + ": " + extension + " was left out");
         material.extensions.clear();
         material.extension_textures.clear();
-        material.source = no_index;
     }
     return flat;
 }
@@ -173,10 +175,17 @@ SimplifiedAsset bake_onto(const Asset& given_source, const Asset& given_target, 
         if (!holds_textures(target.format) && options.format == ModelFormat::automatic)
             options.format = ModelFormat::glb;
         options.format = detail::resolved_options(target, options).format;
-        const Asset flat = flat_source(source, result.report);
+        const bool keeps_extensions =
+            detail::result_format(options.format, {}).is_gltf && !detail::names_objects_by_number(target);
+        const Asset flat = flat_source(source, keeps_extensions, result.report);
         const double max_distance =
             detail::scene_size(source)(onto.max_distance.value_or(of_diagonal(usual_max_distance)));
         bake_parts(flat, target, options, onto, max_distance, context, result);
+        for (Material& material : result.asset.materials) {
+            material.rebaked = true;  // variants of the target are of other materials
+            if (!keeps_extensions) material.source = no_index;
+        }
+        if (keeps_extensions) detail::carry_materials(source, result.asset);
         warn(target, result);
         for (std::size_t p = 0; p < target.parts.size(); ++p) {
             result.report.faces_in += target.parts[p].triangles.size();

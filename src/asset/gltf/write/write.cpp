@@ -112,12 +112,12 @@ void encode_json_with_files(GltfWriter& writer, const fs::path& file, EncodedMod
     model.files.push_back(encoded_file(file.filename().string(), json_text(writer.out, 2)));
 }
 
-/// The origin is not changed if there is a source document, whose nodes, skins and animations depend on it.
+/// The origin is not changed if there is a source document with meshes, whose nodes, skins and animations depend on it.
 GltfWriter make_writer(const Asset& asset) {
     static const SourceDocument none;
     const SourceDocument& source = asset.source ? *asset.source : none;
     GltfWriter writer{asset, source, start_document(source.document),
-                      asset.source ? Vec3{} : local_origin(asset.parts),
+                      array_size(source.document, "meshes") > 0 ? Vec3{} : local_origin(asset.parts),
                       GltfBufferBuilder(asset.compression, {asset.normal_bits, asset.uv_bits})};
     if (!source.unused.empty()) writer.warnings.push_back(source.unused + ": left out");
     if (asset.compression == Compression::meshopt && !has_codec(meshopt_name))
