@@ -1,5 +1,6 @@
 #include "faqem/bake_onto.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -66,6 +67,12 @@ Asset flat_source(const Asset& source, bool keeps_extensions, Report& report) {
             report.warnings.push_back(detail::material_title(source, m) + ": " + extension + " was left out");
         material.extensions.clear();
         material.extension_textures.clear();
+    }
+    // A missing material is metal in glTF, and only there.
+    if (source.source) {
+        std::ranges::replace(flat.parts[0].face_material, no_index,
+                             static_cast<Index>(flat.materials.size()));
+        flat.materials.emplace_back();
     }
     return flat;
 }

@@ -54,3 +54,9 @@ TEST_CASE("a format without extensions of materials loses them with a warning") 
     CHECK(any_contains(baked.report.warnings, "material 'coat': KHR_materials_clearcoat was left out"));
     CHECK_FALSE(baked.asset.source);
 }
+
+TEST_CASE("a face without a material is metal if its file is glTF") {
+    const SimplifiedAsset from_gltf = bake_onto(load_glb(square_gltf()), new_square());
+    CHECK(from_gltf.asset.materials.at(0).metallic == 1);
+    CHECK(bake_onto(new_square(), new_square()).asset.materials.at(0).metallic == 0);
+}
