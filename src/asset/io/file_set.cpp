@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "asset/io/encoded_model.hpp"
-#include "asset/io/held_signals.hpp"
 #include "asset/io/set_folder.hpp"
 #include "asset/io/write_all.hpp"
 #include "faqem/error.hpp"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "asset/io/file.hpp"
-#include "asset/io/held_signals.hpp"
 #include "asset/io/temporary_file.hpp"
 #include "asset/io/write_all.hpp"
 #include "faqem/error.hpp"

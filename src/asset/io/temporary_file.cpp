@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "asset/io/held_signals.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
@@ -60,6 +59,21 @@ void remove_if_unlocked(const fs::path& file) {
         ::unlink(file.c_str());
 }
 
+constexpr int held_signals[] = {SIGHUP,  SIGINT,  SIGQUIT,   SIGTERM, SIGALRM,
+                                SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGXCPU};
+
+/// Number of threads that are replacing files; `ending` after begin_exit().
+std::atomic<int> replacing = 0;
+constexpr int ending = -1;
+static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
+
+/// Returns whether the process may end: no thread is replacing files. From then on none can begin to.
+/// Async-signal-safe.
+bool begin_exit() noexcept {
+    int none = 0;
+    return replacing.compare_exchange_strong(none, ending) || none == ending;
+}
+
 }  // namespace
 
 TemporaryFile::TemporaryFile(const fs::path& target, mode_t mode, const fs::path& shown) {
@@ -102,6 +116,24 @@ void TemporaryFile::unregister() {
     // If the slot has another value, the signal handler is reading the name.
     if (!slot_->compare_exchange_strong(own, nullptr)) (void)name_.release();
     slot_ = nullptr;
+}
+
+HeldSignals::HeldSignals() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int number : held_signals) sigaddset(&held, number);
+    pthread_sigmask(SIG_BLOCK, &held, &before_);
+    int count = replacing;
+    do {
+        if (count != ending) continue;
+        pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+        throw WriteError("cannot write: the process is ending");
+    } while (!replacing.compare_exchange_weak(count, count + 1));
+}
+
+HeldSignals::~HeldSignals() {
+    --replacing;
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 bool is_temporary_name(std::string_view name) {

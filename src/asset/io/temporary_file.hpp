@@ -1,7 +1,9 @@
 #pragma once
 /// \file
-/// Temporary files that are locked while they are written, and removal of those that dead processes left.
+/// Temporary files that are locked while they are written, and removal of those that dead processes left. They are renamed
+/// without interruption: signals that would end the process are held meanwhile.
 
+#include <signal.h>
 #include <sys/types.h>
 
 #include <atomic>
@@ -56,6 +58,22 @@ FAQEM_EXPORT void remove_leftovers(const std::filesystem::path& folder) noexcept
 /// Renames a file unless the new name exists. Returns false and sets errno on failure; then the file may have both names.
 /// The folders are descriptors, or AT_FDCWD.
 bool rename_if_absent(int from_folder, const char* from, int to_folder, const char* to);
+
+/// States that the calling thread is replacing files, and holds the signals that end a process by default and that users,
+/// shells and timers send (HUP, INT, QUIT, TERM, ALRM, USR1, USR2 ...) for it: they are delivered at destruction. In a
+/// process with several threads, another thread may receive such a signal; its handler should call
+/// remove_temporary_files() and end the process only if that returns true.
+class HeldSignals {
+public:
+    /// \throws WriteError  remove_temporary_files() has returned true: the process is about to end
+    HeldSignals();
+    ~HeldSignals();
+    HeldSignals(const HeldSignals&) = delete;
+    HeldSignals& operator=(const HeldSignals&) = delete;
+
+private:
+    sigset_t before_;
+};
 
 /// Removes the temporary files of all writes in progress. Async-signal-safe: intended for the handler of
 /// SIGINT and SIGTERM, which ends the process afterwards.
