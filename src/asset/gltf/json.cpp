@@ -56,6 +56,11 @@ Index index_member(const Json& object, const char* key) {
     return value.is_number_integer() ? value.get<Index>() : no_index;
 }
 
+std::optional<Index> valid_index(const Json& value, std::uint64_t count) {
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count) return std::nullopt;
+    return value.get<Index>();
+}
+
 std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t fallback) {
     const Json& value = member(object, key);
     return value.is_number_integer() ? value.get<std::uint64_t>() : fallback;
@@ -70,8 +75,10 @@ std::uint64_t primitive_mode(const Json& primitive) {
     return unsigned_member(primitive, "mode", triangle_list);
 }
 
+bool is_triangle_primitive(const Json& primitive) { return primitive_mode(primitive) >= triangle_list; }
+
 bool has_triangles(const Json& primitive) {
-    return primitive_mode(primitive) >= triangle_list && member(primitive, "attributes").contains("POSITION");
+    return is_triangle_primitive(primitive) && member(primitive, "attributes").contains("POSITION");
 }
 
 Index texture_image(const Json& texture) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -68,6 +69,9 @@ std::span<Json> elements(Json& object, const char* key);
 /// The index stored under `key`, or no_index if absent. \pre the document was validated
 Index index_member(const Json& object, const char* key);
 
+/// The index that a value is, if it is below `count`.
+std::optional<Index> valid_index(const Json& value, std::uint64_t count);
+
 /// The unsigned number stored under `key`, or `fallback`. \pre the document was validated
 std::uint64_t unsigned_member(const Json& object, const char* key, std::uint64_t fallback);
 
@@ -76,6 +80,9 @@ std::string string_member(const Json& object, const char* key);
 
 /// The mode of a primitive.
 std::uint64_t primitive_mode(const Json& primitive);
+
+/// Whether a primitive has triangles.
+bool is_triangle_primitive(const Json& primitive);
 
 /// Whether a primitive has triangles and positions.
 bool has_triangles(const Json& primitive);

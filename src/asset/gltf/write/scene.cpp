@@ -7,8 +7,6 @@
 
 #include "asset/gltf/scene.hpp"
 #include "asset/gltf/source_document.hpp"
-#include "asset/gltf/write/feature_metadata.hpp"
-#include "asset/gltf/write/index_extensions.hpp"
 #include "asset/gltf/write/writer.hpp"
 
 namespace faqem::detail {

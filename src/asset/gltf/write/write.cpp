@@ -10,7 +10,6 @@
 #include "asset/gltf/container.hpp"
 #include "asset/gltf/gltf.hpp"
 #include "asset/gltf/source_document.hpp"
-#include "asset/gltf/write/feature_metadata.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/primitive_data.hpp"

@@ -3,6 +3,7 @@
 /// State shared by the functions that write glTF. Objects of the source document are copied to the output
 /// when they are first needed, so that the output has no unused objects.
 
+#include <array>
 #include <deque>
 #include <map>
 #include <span>
@@ -18,6 +19,17 @@
 #include "asset/gltf/write/primitive_data.hpp"
 
 namespace faqem::detail {
+
+inline constexpr const char* variants_name = "KHR_materials_variants";
+inline constexpr const char* features_name = "EXT_mesh_features";
+inline constexpr const char* metadata_name = "EXT_structural_metadata";
+inline constexpr const char* outline_name = "CESIUM_primitive_outline";
+inline constexpr const char* manifold_name = "EXT_mesh_manifold";
+inline constexpr const char* ngon_name = "FB_ngon_encoding";
+
+/// Extensions of primitives and meshes that describe the source vertices or triangles, which may no longer exist.
+inline constexpr std::array vertex_extensions = {draco_name,   features_name, metadata_name,
+                                                 outline_name, manifold_name, ngon_name};
 
 /// The output document under construction, and maps from source and asset objects to output objects.
 struct GltfWriter {
@@ -103,6 +115,12 @@ void write_numbered_objects(GltfWriter& writer);
 Json carried_primitive_members(GltfWriter& writer, const Part& part, Index material,
                                const PrimitiveData& data);
 
+/// Adds a warning about a mesh.
+void warn_mesh(GltfWriter& writer, const std::string& name, const std::string& what);
+
+/// Writes the materials of the variants of a primitive, and replaces their indices.
+void remap_variants(GltfWriter& writer, Json& primitive);
+
 /// The source mesh whose primitives give extras and extensions to those of a part of the asset; no_index: none.
 Index source_mesh(const GltfWriter& writer, const Part& part);
 
@@ -127,6 +145,11 @@ Index morph_target_count(const GltfWriter& writer, Index mesh);
 /// Writes nodes, skins and animations, and remaps the references of extensions. place_grids() comes afterwards.
 /// \param new_meshes  output meshes that get new nodes
 void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes);
+
+/// Replaces the buffer views and textures of EXT_structural_metadata of the document; leaves the extension out with a
+/// warning if it refers to others than the document has.
+/// \pre all accessors are added
+void remap_structural_metadata(GltfWriter& writer);
 
 /// Writes extensionsUsed and extensionsRequired according to the extensions in the output.
 void write_extension_lists(GltfWriter& writer);
