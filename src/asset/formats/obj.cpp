@@ -208,15 +208,10 @@ private:
     }
 
     void add_warnings() {
-        if (lines_and_points_)
-            warnings_.push_back(pluralized(lines_and_points_, "line or point statement") +
-                                " ignored: only faces are supported");
-        if (unknown_)
-            warnings_.push_back(pluralized(unknown_, "unknown statement") + " ignored, first " +
-                                first_unknown_);
-        if (weights_)
-            warnings_.push_back(pluralized(weights_, "position") +
-                                " with a weight or alpha, which is ignored");
+        add_counted(warnings_, lines_and_points_, "line or point statement",
+                    " ignored: only faces are supported");
+        add_counted(warnings_, unknown_, "unknown statement", " ignored, first " + first_unknown_);
+        add_counted(warnings_, weights_, "position", " with a weight or alpha, which is ignored");
     }
 
     struct ForwardReference {
@@ -331,9 +326,7 @@ Asset read_obj(std::span<const std::uint8_t> text, const std::filesystem::path& 
     }
     fill_vertices(part, in, corner_vertices);
     TriangulatedPolygons split = triangulate_polygons(polygons, part.positions);
-    if (split.too_few_corners)
-        asset.warnings.push_back(pluralized(split.too_few_corners, "face") +
-                                 " with fewer than three corners left out");
+    add_counted(asset.warnings, split.too_few_corners, "face", " with fewer than three corners left out");
     part.triangles = std::move(split.triangles);
     check_index_count(part.triangles.size(), file.string(), "triangle");
     part.face_material = gather(in.face_material, split.source_polygon);

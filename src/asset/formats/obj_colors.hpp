@@ -73,13 +73,10 @@ public:
     /// Returns the linear colours of all positions, white for those without; empty if none has a colour.
     std::vector<Vec4f> finish(std::vector<std::string>& warnings) {
         finish_block();
-        if (malformed_)
-            warnings.push_back(pluralized(malformed_, "line") +
-                               " of #MRGB with other than 8 hexadecimal digits for each position: the rest "
-                               "of it is ignored");
-        if (excess_)
-            warnings.push_back(pluralized(excess_, "colour") +
-                               " of #MRGB ignored: there are fewer positions");
+        add_counted(
+            warnings, malformed_, "line",
+            " of #MRGB with other than 8 hexadecimal digits for each position: the rest of it is ignored");
+        add_counted(warnings, excess_, "colour", " of #MRGB ignored: there are fewer positions");
         if (colors_.empty() && painted_.empty()) return {};
         divide_byte_colors(largest_, {&colors_}, warnings);
         colors_.resize(count_);

@@ -144,13 +144,11 @@ void divide_into_tiles(std::span<const std::uint32_t> sizes, std::span<CornerKey
         }
     }
     uvs.insert(uvs.end(), moved.values().begin(), moved.values().end());
-    if (across)
-        warnings.push_back(pluralized(across, "face") +
-                           " across borders of UDIM tiles: the whole face has the texture of one of them");
-    if (outside)
-        warnings.push_back(pluralized(outside, "face") + " outside of the UDIM tiles " +
-                           std::to_string(first_tile) + " to " + std::to_string(last_tile) +
-                           ": textures left out");
+    add_counted(warnings, across, "face",
+                " across borders of UDIM tiles: the whole face has the texture of one of them");
+    add_counted(warnings, outside, "face",
+                " outside of the UDIM tiles " + std::to_string(first_tile) + " to " +
+                    std::to_string(last_tile) + ": textures left out");
 }
 
 }  // namespace faqem::detail

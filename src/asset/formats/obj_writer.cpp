@@ -338,7 +338,7 @@ std::vector<ObjObject> objects_of(const Asset& asset, const std::vector<Instance
         objects.push_back({unique(sanitized_name(part.name, stem)), faces});
         faces += part.triangles.size();
     }
-    if (empty) losses.push_back(pluralized(empty, "object") + " without faces left out");
+    add_counted(losses, empty, "object", " without faces left out");
     return objects;
 }
 

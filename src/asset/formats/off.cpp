@@ -84,8 +84,8 @@ public:
         resize(vertices);
         for (std::size_t v = 0; v < vertices; ++v) read_vertex(v);
         for (std::uint64_t f = 0; f < faces; ++f) read_face(vertices);
-        if (in_.skip_to_content())
-            warnings_.push_back(pluralized(in_.remaining().size(), "byte") + " after the last face ignored");
+        in_.skip_to_content();
+        add_counted(warnings_, in_.remaining().size(), "byte", " after the last face ignored");
         if (unknown_colors_)
             warnings_.push_back("colours of " + pluralized(unknown_colors_, "face") +
                                 " ignored: they have neither three nor four numbers");

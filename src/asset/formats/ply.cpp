@@ -90,9 +90,7 @@ public:
             else
                 read_other(element);
         }
-        if (data_.remaining_bytes())
-            warnings_.push_back(pluralized(data_.remaining_bytes(), "byte") +
-                                " after the last element ignored");
+        add_counted(warnings_, data_.remaining_bytes(), "byte", " after the last element ignored");
         divide_byte_colors(largest_float_color_, {&part_.colors, &faces_.colors}, warnings_);
         return std::move(content_);
     }

@@ -35,8 +35,8 @@ public:
         polygons.vertices.insert(polygons.vertices.end(), strips.vertices.begin(), strips.vertices.end());
         polygons.sizes.insert(polygons.sizes.end(), strips.sizes.begin(), strips.sizes.end());
         TriangulatedPolygons split = triangulate_polygons(polygons, part_.positions);
-        if (split.too_few_corners)
-            warn(pluralized(split.too_few_corners, "face") + " with fewer than three corners left out");
+        add_counted(asset_.warnings, split.too_few_corners, "face",
+                    " with fewer than three corners left out");
         check_index_count(split.triangles.size(), file_.string(), "triangle");
         part_.triangles = std::move(split.triangles);
         part_.face_material.assign(part_.triangles.size(), no_index);
@@ -87,8 +87,8 @@ private:
             unknown += has_uvs && !is_known && !(number < 0);
             numbers[f] = has_uvs && is_known ? static_cast<std::size_t>(number) : count;
         }
-        if (unknown)
-            warn(pluralized(unknown, "face") + " with the number of a texture that the file does not name");
+        add_counted(asset_.warnings, unknown, "face",
+                    " with the number of a texture that the file does not name");
         return numbers;
     }
 

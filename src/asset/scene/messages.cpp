@@ -8,6 +8,11 @@ std::string pluralized(std::uint64_t count, const std::string& noun) {
     return std::to_string(count) + " " + (noun == "vertex" ? "vertices" : noun + (es ? "es" : "s"));
 }
 
+void add_counted(std::vector<std::string>& warnings, std::uint64_t count, const std::string& noun,
+                 const std::string& rest) {
+    if (count > 0) warnings.push_back(pluralized(count, noun) + rest);
+}
+
 std::string bytes_text(std::uint64_t count) { return std::to_string(count) + " bytes"; }
 
 std::vector<std::string> ignored_messages(const IgnoredStatements& ignored) {

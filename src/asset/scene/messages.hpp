@@ -16,6 +16,10 @@ namespace faqem::detail {
 /// `1 face`, `2 faces`.
 FAQEM_EXPORT std::string pluralized(std::uint64_t count, const std::string& noun);
 
+/// Adds a warning, `2 faces` and the rest of a sentence, unless the count is 0.
+FAQEM_EXPORT void add_counted(std::vector<std::string>& warnings, std::uint64_t count,
+                              const std::string& noun, const std::string& rest);
+
 /// `12 bytes`.
 std::string bytes_text(std::uint64_t count);
 
