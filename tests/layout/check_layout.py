@@ -79,7 +79,6 @@ SMALL = {
     "include/faqem/detail/geometry/vertex_faces",
     "include/faqem/detail/history/final_versions",
     "src/asset/image/srgb",
-    "src/asset/io/little_endian",
     "src/scene/vector_conversion",
     # Bodies and declarations of an interface.
     "include/faqem/detail/base/version",

@@ -47,10 +47,7 @@ private:
 class PlyBinaryData {
 public:
     PlyBinaryData(std::span<const std::uint8_t> data, const std::string& file, PlyFormat format)
-        : at_(data.data()),
-          end_(at_ + data.size()),
-          file_(file),
-          swap_((format == PlyFormat::big_endian) != (std::endian::native == std::endian::big)) {}
+        : at_(data.data()), end_(at_ + data.size()), file_(file), swap_(format == PlyFormat::big_endian) {}
 
     std::uint64_t max_row_count(std::uint64_t, std::uint64_t bytes) const {
         return remaining_bytes() / bytes;

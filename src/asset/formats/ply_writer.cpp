@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -9,19 +7,13 @@
 
 #include "asset/formats/formats.hpp"
 #include "asset/image/srgb.hpp"
+#include "asset/io/number_type.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/position_rounding.hpp"
 
 namespace faqem::detail {
 namespace {
-
-template <class T>
-void put(std::vector<std::uint8_t>& bytes, T value) {
-    auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(value);
-    if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
-    bytes.insert(bytes.end(), raw.begin(), raw.end());
-}
 
 /// Quantises a value in [0, 1] to 8 bits.
 std::uint8_t quantized(double value) {
@@ -53,18 +45,18 @@ void put_vertex(std::vector<std::uint8_t>& bytes, const Part& part, const PlyVer
                 std::size_t v) {
     for (const double x : part.positions[v]) {
         if (layout.doubles)
-            put(bytes, x);
+            put_number(bytes, x);
         else
-            put(bytes, static_cast<float>(x));
+            put_number(bytes, static_cast<float>(x));
     }
     if (!part.normals.empty())
-        for (const float x : part.normals[v]) put(bytes, x);
+        for (const float x : part.normals[v]) put_number(bytes, x);
     for (std::size_t k = 0; k < 3 && !part.colors.empty(); ++k)
         bytes.push_back(quantized(srgb_from_linear(part.colors[v][k])));
     if (layout.alpha) bytes.push_back(quantized(part.colors[v][3]));
     if (!part.uvs.empty()) {
-        put(bytes, part.uvs[0][v][0]);
-        put(bytes, 1 - part.uvs[0][v][1]);
+        put_number(bytes, part.uvs[0][v][0]);
+        put_number(bytes, 1 - part.uvs[0][v][1]);
     }
 }
 
@@ -94,7 +86,7 @@ EncodedModel encode_ply(const Asset& asset, const std::filesystem::path& file) {
     for (std::size_t v = 0; v < flat.positions.size(); ++v) put_vertex(bytes, flat, layout, v);
     for (const Triangle& t : flat.triangles) {
         bytes.push_back(3);
-        for (const Index v : t) put(bytes, std::uint32_t{v});
+        for (const Index v : t) put_number(bytes, std::uint32_t{v});
     }
     model.files.push_back(encoded_file(file.filename().string(), std::move(bytes)));
     return model;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -10,7 +9,7 @@
 #include <utility>
 
 #include "asset/image/srgb.hpp"
-#include "asset/io/little_endian.hpp"
+#include "asset/io/number_type.hpp"
 #include "asset/scene/affine.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/messages.hpp"
@@ -146,15 +145,15 @@ struct BinaryStl {
         std::array<Vec3, 3> result;
         for (Vec3& p : result)
             for (double& x : p) {
-                x = std::bit_cast<float>(u32_at(bytes, at));
-                at += 4;
+                x = load_number<float>(&bytes[at]);
+                at += sizeof(float);
             }
         return result;
     }
 
     std::uint32_t attribute(std::size_t facet) const {
         const std::size_t at = header_bytes + facet * facet_bytes + facet_bytes - 2;
-        return bytes[at] | std::uint32_t{bytes[at + 1]} << 8;
+        return load_number<std::uint16_t>(&bytes[at]);
     }
 };
 
@@ -224,8 +223,8 @@ BinaryStl read_binary_stl(std::span<const std::uint8_t> bytes, const std::string
                                          " is not finite: is this an STL file?");
         warnings.push_back(difference + ", which are read");
     }
-    const std::uint64_t rest = bytes.size() - header_bytes - facet_bytes * stl.facets;
-    if (rest) warnings.push_back(pluralized(rest, "byte") + " after the last facet ignored");
+    add_counted(warnings, bytes.size() - header_bytes - facet_bytes * stl.facets, "byte",
+                " after the last facet ignored");
     read_colors(stl, warnings);
     return stl;
 }
@@ -234,10 +233,9 @@ void put_facet(std::vector<std::uint8_t>& bytes, const std::array<Vec3, 3>& p) {
     const Vec3 n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
     const double length = std::hypot(n[0], n[1], n[2]);
     const bool has_normal = length > 0 && std::isfinite(length);
-    for (const double x : n)
-        put_u32(bytes, std::bit_cast<std::uint32_t>(has_normal ? static_cast<float>(x / length) : 0.0f));
+    for (const double x : n) put_number(bytes, has_normal ? static_cast<float>(x / length) : 0.0f);
     for (const Vec3& corner : p)
-        for (const double x : corner) put_u32(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(x)));
+        for (const double x : corner) put_number(bytes, static_cast<float>(x));
     bytes.insert(bytes.end(), 2, 0);
 }
 
@@ -283,7 +281,7 @@ EncodedModel encode_stl(const Asset& asset, const std::filesystem::path& file) {
 
     std::vector<std::uint8_t> bytes(label_bytes, ' ');
     bytes.reserve(header_bytes + facet_bytes * flat.triangles.size());
-    put_u32(bytes, static_cast<std::uint32_t>(flat.triangles.size()));
+    put_number(bytes, static_cast<std::uint32_t>(flat.triangles.size()));
     for (const Triangle& t : flat.triangles)
         put_facet(bytes, {flat.positions[t[0]], flat.positions[t[1]], flat.positions[t[2]]});
     model.files.push_back(encoded_file(file.filename().string(), std::move(bytes)));

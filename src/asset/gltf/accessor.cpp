@@ -1,7 +1,6 @@
 #include "asset/gltf/accessor.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -11,9 +10,6 @@
 namespace faqem::detail {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "glTF buffers are little-endian and copied without conversion");
-
 /// The first byte of the view that `holder` (an accessor or a sparse member) refers to, offsets included.
 /// \param stride  in: the default stride; out: the stride of the view; may be null
 const std::uint8_t* first_byte(const SourceDocument& source, const Json& holder, std::uint64_t* stride) {
@@ -22,20 +18,13 @@ const std::uint8_t* first_byte(const SourceDocument& source, const Json& holder,
     return view_bytes(source, view).data() + unsigned_member(holder, "byteOffset", 0);
 }
 
-template <class T>
-T load(const std::uint8_t* bytes) {
-    T value;
-    std::memcpy(&value, bytes, sizeof value);
-    return value;
-}
-
 std::vector<std::uint32_t> sparse_indices(const SourceDocument& source, const Json& sparse) {
     const Json& indices = sparse["indices"];
     const std::uint8_t* bytes = first_byte(source, indices, nullptr);
     std::vector<std::uint32_t> result(unsigned_member(sparse, "count", 0));
     visit_type(component_type(indices), [&](auto number) {
         for (std::uint32_t& index : result) {
-            index = static_cast<std::uint32_t>(load<decltype(number)>(bytes));
+            index = static_cast<std::uint32_t>(load_number<decltype(number)>(bytes));
             bytes += sizeof number;
         }
     });
@@ -67,7 +56,7 @@ void copy_elements(const SourceDocument& source, Index index, T fill, T* to) {
         for (T* const end = to + count * N; to != end; to += N) {
             std::fill_n(to, N, fill);
             for (std::size_t c = 0; c < components; ++c, bytes += sizeof number)
-                if (c < N) to[c] = converted<T>(load<decltype(number)>(bytes), is_normalized);
+                if (c < N) to[c] = converted<T>(load_number<decltype(number)>(bytes), is_normalized);
         }
     });
 }

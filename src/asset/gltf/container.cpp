@@ -5,7 +5,7 @@
 #include <limits>
 #include <system_error>
 
-#include "asset/io/little_endian.hpp"
+#include "asset/io/number_type.hpp"
 #include "asset/scene/messages.hpp"
 #include "faqem/error.hpp"
 
@@ -109,16 +109,16 @@ std::vector<std::uint8_t> join_glb(std::string_view json, std::span<const std::u
                          " exceeds the limit of 4 GiB; use .gltf instead");
     std::vector<std::uint8_t> out;
     out.reserve(total);
-    put_u32(out, glb_magic);
-    put_u32(out, 2);
-    put_u32(out, static_cast<std::uint32_t>(total));
-    put_u32(out, static_cast<std::uint32_t>(json_size));
-    put_u32(out, json_chunk);
+    put_number(out, glb_magic);
+    put_number(out, std::uint32_t{2});
+    put_number(out, static_cast<std::uint32_t>(total));
+    put_number(out, static_cast<std::uint32_t>(json_size));
+    put_number(out, json_chunk);
     out.insert(out.end(), json.begin(), json.end());
     out.resize(glb_header_bytes + chunk_header_bytes + json_size, ' ');
     if (!bin.empty()) {
-        put_u32(out, static_cast<std::uint32_t>(bin_size));
-        put_u32(out, bin_chunk);
+        put_number(out, static_cast<std::uint32_t>(bin_size));
+        put_number(out, bin_chunk);
         out.insert(out.end(), bin.begin(), bin.end());
         out.resize(total, 0);
     }

@@ -36,9 +36,7 @@ void set_codec_versions() {
 std::optional<std::vector<std::uint8_t>> rounded_floats(std::span<const std::uint8_t> bytes, int exponent) {
     std::vector<std::uint8_t> result(bytes.size());
     for (std::size_t i = 0; i + sizeof(float) <= bytes.size(); i += sizeof(float)) {
-        float value;
-        std::memcpy(&value, &bytes[i], sizeof(float));
-        const float mantissa = std::round(std::ldexp(value, -exponent));
+        const float mantissa = std::round(std::ldexp(load_number<float>(&bytes[i]), -exponent));
         if (!(std::abs(mantissa) <= max_mantissa)) return std::nullopt;
         const auto integer = static_cast<std::uint32_t>(static_cast<std::int32_t>(mantissa));
         const std::uint32_t packed = static_cast<std::uint32_t>(exponent) << 24 | (integer & 0xffffff);
@@ -51,11 +49,8 @@ std::optional<std::vector<std::uint8_t>> rounded_floats(std::span<const std::uin
 std::vector<std::uint8_t> octahedral(std::span<const std::uint8_t> bytes, std::uint32_t bits) {
     constexpr float unit = 32767;
     std::vector<float> values(bytes.size() / sizeof(std::int16_t));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        std::int16_t value;
-        std::memcpy(&value, &bytes[i * sizeof(value)], sizeof(value));
-        values[i] = static_cast<float>(value) / unit;
-    }
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<float>(load_number<std::int16_t>(&bytes[2 * i])) / unit;
     std::vector<std::uint8_t> result(bytes.size());
     meshopt_encodeFilterOct(result.data(), values.size() / 4, 8, static_cast<int>(bits), values.data());
     return result;

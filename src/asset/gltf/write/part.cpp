@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <optional>
@@ -226,23 +225,19 @@ Json write_attributes(GltfWriter& writer, const Part& part, const PrimitiveData&
     return json;
 }
 
-std::vector<float> floats_of(const DracoValues& values) {
-    std::vector<float> floats(values.bytes.size() / sizeof(float));
-    if (!floats.empty()) std::memcpy(floats.data(), values.bytes.data(), values.bytes.size());
-    return floats;
-}
-
 /// The steps to which Draco rounds an attribute.
 std::optional<DracoRounding> draco_rounding(const Asset& asset, const Part& part, const DracoValues& values) {
     // Tangents have a length within 5e-4 of 1, so that they are kept when they are written again.
     constexpr std::uint32_t min_tangent_bits = 13;
-    if (values.name == "POSITION") return rounding_to_steps(floats_of(values), 3, part.position_spacing);
+    if (values.name == "POSITION")
+        return rounding_to_steps(floats_of(values.bytes), 3, part.position_spacing);
     if (values.name == "NORMAL" && asset.normal_bits > 0)
         return DracoRounding{asset.normal_bits, true, {}, 0};
     if (values.name == "TANGENT" && asset.normal_bits > 0)
         return DracoRounding{std::max(asset.normal_bits, min_tangent_bits), false, {-1, -1, -1, -1}, 2};
     if (values.name.starts_with("TEXCOORD_") && asset.uv_bits > 0)
-        return rounding_to_steps(floats_of(values), 2, std::ldexp(1.0, -static_cast<int>(asset.uv_bits)));
+        return rounding_to_steps(floats_of(values.bytes), 2,
+                                 std::ldexp(1.0, -static_cast<int>(asset.uv_bits)));
     return std::nullopt;
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -44,8 +43,7 @@ void add_missing_bounds(Json& description, const std::vector<std::uint8_t>& dens
     if (description.contains("min") || description.contains("max") ||
         component_type(description) != NumberType::f32)
         return;
-    std::vector<float> values(dense.size() / sizeof(float));
-    if (!values.empty()) std::memcpy(values.data(), dense.data(), values.size() * sizeof(float));
+    const std::vector<float> values = floats_of(dense);
     if (values.empty() || !std::ranges::all_of(values, [](float x) { return std::isfinite(x); })) return;
     add_bounds<float>(description, values, component_count(string_member(description, "type")));
 }
