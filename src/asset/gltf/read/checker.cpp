@@ -41,8 +41,7 @@ std::optional<std::uint64_t> CheckedJson::number(const char* key) const {
     return value.get<std::uint64_t>();
 }
 
-std::uint64_t CheckedJson::required_number(const char* key) const {
-    const auto value = number(key);
+std::uint64_t CheckedJson::required(const char* key, std::optional<std::uint64_t> value) const {
     if (!value) fail(std::string("has no ") + key);
     return *value;
 }
@@ -50,12 +49,6 @@ std::uint64_t CheckedJson::required_number(const char* key) const {
 std::optional<std::uint64_t> CheckedJson::reference(const char* key, const char* array) const {
     if (detail::member(json, key).is_null()) return std::nullopt;
     return member(key).index(array);
-}
-
-std::uint64_t CheckedJson::required_reference(const char* key, const char* array) const {
-    const auto value = reference(key, array);
-    if (!value) fail(std::string("has no ") + key);
-    return *value;
 }
 
 std::uint64_t CheckedJson::index(const char* array) const {

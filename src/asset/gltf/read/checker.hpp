@@ -48,11 +48,13 @@ struct CheckedJson {
     /// A member that is an unsigned integer.
     std::optional<std::uint64_t> number(const char* key) const;
     /// The same, which must be present.
-    std::uint64_t required_number(const char* key) const;
+    std::uint64_t required_number(const char* key) const { return required(key, number(key)); }
     /// A member that is an index into the top-level array `array` of the document.
     std::optional<std::uint64_t> reference(const char* key, const char* array) const;
     /// The same, which must be present.
-    std::uint64_t required_reference(const char* key, const char* array) const;
+    std::uint64_t required_reference(const char* key, const char* array) const {
+        return required(key, reference(key, array));
+    }
     /// Checks that this value is an index into the top-level array `array`, and returns it.
     std::uint64_t index(const char* array) const;
     /// Element of a top-level array of the document.
@@ -79,6 +81,8 @@ struct CheckedJson {
 
     /// Checks that the coarser levels of this node or material (MSFT_lod) are indices into the top-level array `array`.
     void check_levels(const char* array) const;
+    /// The value of a member; an error if it has none.
+    std::uint64_t required(const char* key, std::optional<std::uint64_t> value) const;
     /// Checks that a member is an array of exactly `size` numbers.
     void check_number_array(const char* key, std::uint64_t size) const;
 };
