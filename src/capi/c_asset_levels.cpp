@@ -8,7 +8,7 @@
 #include "capi/c_history.hpp"
 #include "faqem/bake_levels.hpp"
 #include "faqem/save_levels.hpp"
-#include "scene/level_coverage.hpp"
+#include "scene/scene_size.hpp"
 #include "scene/parts_from_histories.hpp"
 
 namespace {

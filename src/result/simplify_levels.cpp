@@ -5,7 +5,6 @@
 #include "result/simplify.hpp"
 #include "result/simplify_levels.hpp"
 #include "scene/check_asset.hpp"
-#include "scene/level_coverage.hpp"
 #include "scene/parts_error_bound_search.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/simplify_parts.hpp"

@@ -25,7 +25,6 @@
 #include "faqem/truncate.hpp"
 #include "result/simplify_file.hpp"
 #include "result/simplify_levels.hpp"
-#include "scene/level_coverage.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/scene_size.hpp"
 
