@@ -13,7 +13,6 @@
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/simplify/run.hpp"
-#include "result/fit_images.hpp"
 #include "result/image_trials.hpp"
 #include "result/result_choices.hpp"
 #include "scene/position_grids.hpp"

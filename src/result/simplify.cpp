@@ -15,7 +15,7 @@
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/error.hpp"
 #include "result/best_picture.hpp"
-#include "result/fit_images.hpp"
+#include "result/image_trials.hpp"
 #include "result/picture_meter.hpp"
 #include "scene/part_reports.hpp"
 #include "scene/resolved_options.hpp"

@@ -1,6 +1,6 @@
 // Errors of pictures, attributed to the images of a model.
 
-#include "result/image_error.hpp"
+#include "result/picture_meter.hpp"
 
 #include <memory>
 

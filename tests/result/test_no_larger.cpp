@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "faqem/bake.hpp"
-#include "result/fit_images.hpp"
+#include "result/image_trials.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 #include "support/message_of.hpp"
