@@ -18,7 +18,6 @@
 #include "asset/scene/part_arrays.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/scene/triangulate.hpp"
-#include "asset/text/number_text.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

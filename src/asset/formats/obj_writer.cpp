@@ -20,7 +20,7 @@
 #include "asset/scene/objects.hpp"
 #include "asset/scene/position_rounding.hpp"
 #include "asset/scene/value_numbers.hpp"
-#include "asset/text/number_text.hpp"
+#include "asset/text/text_scanner.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {

@@ -10,7 +10,6 @@
 #include "asset/formats/polygon_content.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/scene/repair.hpp"
-#include "asset/text/number_text.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

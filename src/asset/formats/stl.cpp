@@ -17,7 +17,6 @@
 #include "asset/scene/position_rounding.hpp"
 #include "asset/scene/repair.hpp"
 #include "asset/scene/value_numbers.hpp"
-#include "asset/text/number_text.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"
