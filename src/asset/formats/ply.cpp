@@ -8,8 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "asset/formats/ply_data.hpp"
-#include "asset/formats/ply_header.hpp"
+#include "asset/formats/ply_file.hpp"
 #include "asset/formats/polygon_content.hpp"
 #include "asset/image/srgb.hpp"
 #include "asset/scene/messages.hpp"

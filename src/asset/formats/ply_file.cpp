@@ -1,4 +1,4 @@
-#include "asset/formats/ply_header.hpp"
+#include "asset/formats/ply_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "asset/formats/formats.hpp"
-#include "asset/text/text_scanner.hpp"
-#include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {
