@@ -157,8 +157,7 @@ private:
         if (key == "newmtl") {
             finish_material();
             materials_.emplace_back();
-            materials_.back().name = in_.rest_of_line();
-            materials_.back().values.name = materials_.back().name;
+            materials_.back().values.name = in_.rest_of_line();
             materials_.back().values.metallic = 0;
         } else if (materials_.empty() || !read_known_statement(key, materials_.back())) {
             static constexpr std::array<std::string_view, 7> ignored_keys = {"ka", "ks",    "ni",       "tf",
@@ -230,14 +229,14 @@ private:
         if (materials_.empty()) return;
         MtlMaterial& material = materials_.back();
         if (material.color.file.empty() && !ambient_.file.empty()) {
-            warn("material '" + material.name + "': map_Ka is read as the missing map_Kd");
+            warn("material '" + material.values.name + "': map_Ka is read as the missing map_Kd");
             material.color = ambient_;
         } else if (!ambient_.file.empty()) {
             ++ignored_["'map_Ka'"];
         }
         const auto is_black = [](const Vec3& c) { return c == Vec3{0, 0, 0}; };
         if (diffuse_ && is_black(*diffuse_) && !material.color.file.empty()) {
-            warn("material '" + material.name + "': Kd 0 0 0 with a map_Kd is read as 1 1 1");
+            warn("material '" + material.values.name + "': Kd 0 0 0 with a map_Kd is read as 1 1 1");
             diffuse_.reset();
         }
         if (emission_ && is_black(*emission_) && !material.emissive.file.empty()) emission_.reset();
@@ -250,7 +249,7 @@ private:
         }
         double alpha = opacity_ ? *opacity_ : transparency_ ? 1 - *transparency_ : 1;
         if (alpha <= 0) {
-            warn("material '" + material.name + "': " + (opacity_ ? "d 0" : "Tr 1") +
+            warn("material '" + material.values.name + "': " + (opacity_ ? "d 0" : "Tr 1") +
                  " would hide everything, and is read as opaque");
             alpha = 1;
         }

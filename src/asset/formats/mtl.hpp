@@ -25,7 +25,6 @@ struct MtlTexture {
 
 /// A material of a library. Texture files are relative to the folder of the library.
 struct MtlMaterial {
-    std::string name;
     std::filesystem::path folder;  ///< folder of the library, relative to the folder of the OBJ file
     Material values;               ///< everything except the textures
     MtlTexture color, alpha, emissive, normal;

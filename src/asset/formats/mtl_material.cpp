@@ -164,7 +164,7 @@ private:
 
     ReferencedImage* read(const MtlMaterial& material, const MtlTexture& texture) {
         if (texture.file.empty()) return nullptr;
-        return images_.read("material '" + material.name + "'", texture.file, material.folder);
+        return images_.read("material '" + material.values.name + "'", texture.file, material.folder);
     }
 
     /// Sets textures, or warns that images of them are damaged.
@@ -178,7 +178,7 @@ private:
     }
 
     void warn(const MtlMaterial& material, const std::string& what) {
-        asset_.warnings.push_back("material '" + material.name + "': " + what);
+        asset_.warnings.push_back("material '" + material.values.name + "': " + what);
     }
 
     Asset& asset_;

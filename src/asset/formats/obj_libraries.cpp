@@ -75,7 +75,7 @@ std::map<std::string, MtlMaterial> read_libraries(const std::vector<std::string>
                                TextScanner::quoted(found.name) + " is read");
         for (MtlMaterial& material : read_mtl(text, found.file.string(), warnings, ignored)) {
             material.folder = fs::path(found.name).parent_path();
-            materials[material.name] = std::move(material);
+            materials[material.values.name] = std::move(material);
         }
     };
     for (const std::string& statement : statements)

@@ -42,7 +42,7 @@ struct UdimTile {
 /// The material of a tile: textures keep what they show when the UVs are moved.
 MtlMaterial material_of_tile(const MtlMaterial& material, const UdimTile& tile, const std::string& name) {
     MtlMaterial result = material;
-    result.name = result.values.name = name;
+    result.values.name = name;
     for (const auto member : texture_members) {
         MtlTexture& texture = result.*member;
         const bool has_tiles = is_tiled(texture);
