@@ -232,16 +232,7 @@ void remove_level_nodes(Json& document, const Marks& levels, std::vector<Part>& 
 /// By material of a document: whether a primitive of a mesh, or a variant of one, has it.
 Marks used_materials(const Json& document) {
     Marks used(array_size(document, "materials"), 0);
-    const auto mark = [&](const Json& holder) {
-        const Index material = index_member(holder, "material");
-        if (material != no_index) used[material] = 1;
-    };
-    for (const Json& mesh : member(document, "meshes"))
-        for (const Json& primitive : member(mesh, "primitives")) {
-            mark(primitive);
-            for (const Json& mapping : member(primitive, "extensions", "KHR_materials_variants", "mappings"))
-                mark(mapping);
-        }
+    for_each_material(document, [&](Index material) { used[material] = 1; });
     return used;
 }
 

@@ -114,6 +114,20 @@ void filter_channels(Json& document, const std::function<bool(const Json& animat
 /// The node to whose members a JSON pointer points; no_index if there is none.
 Index pointed_node(std::string_view pointer);
 
+/// Calls visit(index) for the materials of the primitives of a document, and of their variants.
+template <class Visit>
+void for_each_material(const Json& document, const Visit& visit) {
+    const auto visit_in = [&](const Json& holder) {
+        if (const Index material = index_member(holder, "material"); material != no_index) visit(material);
+    };
+    for (const Json& mesh : member(document, "meshes"))
+        for (const Json& primitive : member(mesh, "primitives")) {
+            visit_in(primitive);
+            for (const Json& mapping : member(primitive, "extensions", "KHR_materials_variants", "mappings"))
+                visit_in(mapping);
+        }
+}
+
 /// Appends a step to a JSON pointer: "/accessors" and 3 give "/accessors/3".
 std::string child_path(const std::string& where, std::uint64_t index);
 std::string child_path(const std::string& where, const std::string& key);

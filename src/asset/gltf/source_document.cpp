@@ -28,8 +28,10 @@ public:
         : document_(document),
           materials_(array_size(document, "materials"), 0),
           images_(array_size(document, "images"), 0) {
+        for_each_material(document, [&](Index material) { mark_material(material); });
         for (const Json& mesh : member(document, "meshes"))
-            for (const Json& primitive : member(mesh, "primitives")) mark_primitive(primitive);
+            for (const Json& primitive : member(mesh, "primitives"))
+                mark_textures_in(member(primitive, "extensions"));
         const Json& extensions = member(document, "extensions");
         mark_textures_in(member(extensions, "EXT_structural_metadata"));
         for (const Json& light : member(extensions, "EXT_lights_image_based", "lights"))
@@ -45,20 +47,12 @@ private:
         return static_cast<std::uint64_t>(std::ranges::count(marks, 0));
     }
 
-    void mark_primitive(const Json& primitive) {
-        mark_material(index_member(primitive, "material"));
-        const Json& extensions = member(primitive, "extensions");
-        for (const Json& mapping : member(extensions, "KHR_materials_variants", "mappings"))
-            mark_material(index_member(mapping, "material"));
-        mark_textures_in(extensions);
-    }
-
     void mark_material(Index first) {
         std::vector<Index> open = {first};
         while (!open.empty()) {
             const Index material = open.back();
             open.pop_back();
-            if (material == no_index || materials_[material]) continue;
+            if (materials_[material]) continue;
             materials_[material] = 1;
             const Json& json = member(document_, "materials")[material];
             mark_textures_in(json);
