@@ -21,8 +21,6 @@ using detail::FormatUse;
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Files with two triangles of the formats that are only read, by extension.
 const std::map<std::string_view, std::string> read_only_samples = {
     {".off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"}};

@@ -13,8 +13,6 @@ using detail::References;
 
 namespace {
 
-namespace fs = std::filesystem;
-
 using Names = std::set<std::string>;
 
 /// The files that a model in the folder refers to, relative to the folder.

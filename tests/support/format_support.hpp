@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -17,15 +18,40 @@
 
 namespace faqem::testing {
 
-inline void put(const std::filesystem::path& file, const std::string& content) {
+namespace fs = std::filesystem;
+
+inline void put(const fs::path& file, const std::string& content) {
     std::ofstream(file, std::ios::binary) << content;
 }
 
-inline std::string get(const std::filesystem::path& file) {
+inline std::string get(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream content;
     content << in.rdbuf();
     return content.str();
+}
+
+/// Texts of files, by their path relative to a folder.
+using Texts = std::map<std::string, std::string>;
+
+/// All files below a folder.
+inline Texts texts_in(const fs::path& folder) {
+    Texts texts;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) texts[entry.path().lexically_relative(folder)] = get(entry.path());
+    return texts;
+}
+
+/// The text with the first `what` replaced.
+inline std::string with_first(std::string text, const std::string& what, const std::string& by) {
+    return text.replace(text.find(what), what.size(), by);
+}
+
+/// The text with each `what` replaced.
+inline std::string with_each(std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+        text.replace(at, what.size(), by);
+    return text;
 }
 
 inline std::span<const std::uint8_t> bytes_of(std::string_view text) {

@@ -15,7 +15,6 @@ using namespace faqem::detail;
 using namespace faqem::testing;
 using faqem::test::paint;
 using faqem::test::Rgba;
-namespace fs = std::filesystem;
 
 namespace {
 

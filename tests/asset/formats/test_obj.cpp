@@ -125,11 +125,7 @@ TEST_CASE("invalid numbers are errors that name the line", "[obj]") {
 TEST_CASE("line ends, byte order mark, comments and continuation lines do not change the result", "[obj]") {
     const std::string text = square_vertices + "vt 0 1\nf 1/1 2/1 3/1 4/1\n";
     const Part expected = parse_obj(text).parts[0];
-    const auto replaced = [&](const std::string& line_end) {
-        std::string copy;
-        for (const char c : text) copy += c == '\n' ? line_end : std::string(1, c);
-        return copy;
-    };
+    const auto replaced = [&](const std::string& line_end) { return with_each(text, "\n", line_end); };
     for (const std::string& variant :
          {replaced("\r\n"), replaced("\r"), replaced("\n\n"), replaced(" # comment 1 2 3\n"),
           "\xEF\xBB\xBF" + text, text.substr(0, text.size() - 1), std::string("# a\\\n") + text,

@@ -35,10 +35,9 @@ TEST_CASE("comments and blank lines are allowed anywhere in an OFF file", "[off]
     const std::string text =
         "OFF\n# x\n3 1 0\n0 0 0 # first\n\n# 9 9 9\n1 0 0\n\t1 1 0\n#\n3 0 1 2 # the face\n# end";
     for (const std::string end : {"\n", "\r", "\r\n"}) {
-        std::string copy;
-        for (const char c : text) copy += c == '\n' ? end : std::string(1, c);
-        CHECK(parse_off(copy).parts.at(0).triangles.size() == 1);
-        CHECK(parse_off(copy).warnings.empty());
+        const Asset asset = parse_off(with_each(text, "\n", end));
+        CHECK(asset.parts.at(0).triangles.size() == 1);
+        CHECK(asset.warnings.empty());
     }
 }
 

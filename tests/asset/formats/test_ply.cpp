@@ -65,9 +65,7 @@ TEST_CASE("PLY headers with other line ends, comments, obj_info and other type n
         "property double y\nproperty float32 z\ncomment between\nelement face 1\n"
         "property list uint8 uint32 vertex_index\nend_header\n0.1 0 0\n1 0 0\n\n1 1 0\n3 0 1 2";
     for (const std::string end : {"\n", "\r\n", "\r"}) {
-        std::string copy;
-        for (const char c : text) copy += c == '\n' ? end : std::string(1, c);
-        const Part part = parse_ply(copy).parts.at(0);
+        const Part part = parse_ply(with_each(text, "\n", end)).parts.at(0);
         CHECK(part.positions[0] == Vec3{0.1, 0, 0});
         CHECK(part.triangles.size() == 1);
     }
@@ -132,8 +130,7 @@ TEST_CASE("alternative names and types of PLY colours and UVs are read", "[ply]"
     const std::string data = "0 0 0 1 0.5 0 0.5 1\n1 0 0 1 0.5 0 0 0\n1 1 0 1 0.5 0 0 0\n3 0 1 2\n";
     for (const std::string names :
          {"r g b u v", "red green blue texture_u texture_v", "diffuse_red diffuse_green diffuse_blue s t"}) {
-        std::string properties = "property float ";
-        for (const char c : names) properties += c == ' ' ? "\nproperty float " : std::string(1, c);
+        const std::string properties = "property float " + with_each(names, " ", "\nproperty float ");
         const Part part = parse_ply(ascii(properties + "\n", indices, data)).parts.at(0);
         CHECK(part.colors.at(0) == Vec4f{1, static_cast<float>(linear_from_srgb(0.5)), 0, 1});
         CHECK(part.uvs.at(0).at(0) == Vec2f{0.5f, 0});
@@ -220,9 +217,7 @@ TEST_CASE("PLY errors name the element and its index", "[ply]") {
 TEST_CASE("invalid PLY headers are errors that name the line", "[ply]") {
     const std::string good = ascii("", indices, three_vertices + "3 0 1 2\n");
     const auto with = [&](const std::string& what, const std::string& by) {
-        std::string text = good;
-        text.replace(text.find(what), what.size(), by);
-        return ply_error(text);
+        return ply_error(with_first(good, what, by));
     };
     CHECK(contains(ply_error("solid"), "does not start with 'ply'"));
     CHECK(contains(with("ascii 1.0", "ascii 2.0"), "line 2: only version 1.0"));

@@ -114,9 +114,7 @@ TEST_CASE("ASCII STL files with several solids, any letter case and any line end
         "solid a b c\n" + ascii_facet + ascii_facet + "endsolid a b c\n\nsolid\n" + ascii_facet + "endsolid";
     std::string upper = text;
     for (char& c : upper) c = static_cast<char>(std::toupper(c));
-    std::string cr = text;
-    for (char& c : cr) c = c == '\n' ? '\r' : c;
-    for (const std::string& variant : {text, upper, cr, "\xEF\xBB\xBF" + text}) {
+    for (const std::string& variant : {text, upper, with_each(text, "\n", "\r"), "\xEF\xBB\xBF" + text}) {
         const Part part = parse_stl(variant).parts.at(0);
         CHECK(part.triangles.size() == 3);
         CHECK(part.positions.size() == 3);
@@ -131,9 +129,7 @@ TEST_CASE("ASCII STL files with several solids, any letter case and any line end
 TEST_CASE("invalid ASCII STL is an error that names the line", "[stl]") {
     const std::string good = "solid\n" + ascii_facet + "endsolid\n";
     const auto with = [&](const std::string& what, const std::string& by) {
-        std::string text = good;
-        text.replace(text.find(what), what.size(), by);
-        return stl_error(text);
+        return stl_error(with_first(good, what, by));
     };
     CHECK(contains(with("vertex 1 0 0", "vertex 1,5 0 0"), "a.stl: line 5: '1,5' is not a number"));
     CHECK(contains(with("   vertex 1 1 0\n", ""), "line 6: 'endloop' instead of 'vertex'"));

@@ -17,10 +17,8 @@ GltfBuilder square_with_features() {
     add_texture(builder, 1);  // not used
     add_texture(builder, 2);
     Json& primitive = builder.primitive();
-    primitive["attributes"]["TEXCOORD_0"] =
-        builder.accessor(std::vector<Vec2f>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}, f32, "VEC2");
-    primitive["attributes"]["_FEATURE_ID_0"] =
-        builder.accessor(std::vector<float>{0, 1, 2, 2}, f32, "SCALAR");
+    builder.attribute<Vec2f>("TEXCOORD_0", {{0, 0}, {1, 0}, {0, 1}, {1, 1}}, f32, "VEC2");
+    builder.attribute<float>("_FEATURE_ID_0", {0, 1, 2, 2}, f32, "SCALAR");
     const Json texture = {{"index", 1}, {"texCoord", 0}, {"channels", {0}}};
     primitive["extensions"]["EXT_mesh_features"]["featureIds"] = {
         {{"featureCount", 3}, {"attribute", 0}, {"propertyTable", 0}},

@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include <csignal>
-#include <map>
 #include <thread>
 
 #include "support/catch.hpp"
@@ -12,19 +11,8 @@
 using namespace faqem;
 using namespace faqem::detail;
 using namespace faqem::testing;
-namespace fs = std::filesystem;
 
 namespace {
-
-using Texts = std::map<std::string, std::string>;
-
-/// All files below a folder, by their path relative to it.
-Texts texts_in(const fs::path& folder) {
-    Texts texts;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file()) texts[entry.path().lexically_relative(folder)] = get(entry.path());
-    return texts;
-}
 
 void add_texts(FileSet& set, const TemporaryFolder& folder, const Texts& texts,
                Overwrite overwrite = Overwrite::yes) {

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 
 #include <chrono>
-#include <map>
 
 #include "asset/io/file.hpp"
 #include "asset/io/file_set.hpp"
@@ -13,18 +12,8 @@
 using namespace faqem;
 using namespace faqem::detail;
 using namespace faqem::testing;
-namespace fs = std::filesystem;
 
 namespace {
-
-using Files = std::map<std::string, std::string>;
-
-Files files_in(const fs::path& folder) {
-    Files files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file()) files[entry.path().lexically_relative(folder)] = get(entry.path());
-    return files;
-}
 
 /// A set of a.bin, which replaces a file, and a.gltf, which is new, as a process leaves it that dies before the first
 /// file is renamed to its place.
@@ -45,7 +34,7 @@ struct DeadSet {
     TemporaryFolder folder;
 };
 
-const Files new_set = {{"a.bin", "new bin"}, {"a.gltf", "new gltf"}}, old_set = {{"a.bin", "old bin"}};
+const Texts new_set = {{"a.bin", "new bin"}, {"a.gltf", "new gltf"}}, old_set = {{"a.bin", "old bin"}};
 
 }  // namespace
 
@@ -56,7 +45,7 @@ TEST_CASE("a set is completed from any state between the renames", "[set_folder]
         if (renamed & 1) set.rename("a.bin");
         if (renamed & 2) set.rename("a.gltf");
         set.recover();
-        CHECK(files_in(set.folder.path()) == new_set);
+        CHECK(texts_in(set.folder.path()) == new_set);
         CHECK(!fs::exists(set.at("")));
     }
 }
@@ -66,17 +55,17 @@ TEST_CASE("a set whose files were not complete is removed", "[set_folder]") {
     fs::rename(set.at("new"), set.at("staged"));
     check_completely_replaced(set.folder / "a.bin");
     set.recover();
-    CHECK(files_in(set.folder.path()) == old_set);
+    CHECK(texts_in(set.folder.path()) == old_set);
     CHECK(!fs::exists(set.at("")));
 }
 
 TEST_CASE("files that were changed since are not touched", "[set_folder]") {
     const auto check_refused = [](const DeadSet& set, const std::string& name) {
-        const Files before = files_in(set.folder.path());
+        const Texts before = texts_in(set.folder.path());
         const std::string message = message_of<WriteError>([&] { set.recover(); });
         CHECK(contains(message, name + ": belongs to a set of files"));
         CHECK(contains(message, "then delete " + (set.folder / set_folder_name).string()));
-        Files after = files_in(set.folder.path());
+        Texts after = texts_in(set.folder.path());
         after.erase(".faqem-set/lock");
         CHECK(after == before);
         CHECK_THROWS_AS(write_file(set.folder / "b", bytes_of("x"), Overwrite::no), WriteError);
@@ -107,7 +96,7 @@ TEST_CASE("links are neither followed nor replaced by recovery", "[set_folder]")
         fs::remove_all(link);
         fs::create_symlink(target, link);
         CHECK_THROWS_AS(set.recover(), WriteError);
-        CHECK(files_in(outside.path()) == Files{{"secret", "old bin"}});
+        CHECK(texts_in(outside.path()) == Texts{{"secret", "old bin"}});
         CHECK(fs::is_symlink(link));
     };
     const DeadSet sets[4];
@@ -136,7 +125,7 @@ TEST_CASE("a set is locked by one process at a time, and left alone by others", 
         CHECK(fs::exists(set.at("new/a.bin")));
     }
     set.recover();
-    CHECK(files_in(set.folder.path()) == new_set);
+    CHECK(texts_in(set.folder.path()) == new_set);
 }
 
 TEST_CASE("files of a half replaced set are not read until a write completes it", "[set_folder]") {

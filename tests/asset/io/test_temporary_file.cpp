@@ -13,7 +13,6 @@
 using namespace faqem;
 using namespace faqem::detail;
 using namespace faqem::testing;
-namespace fs = std::filesystem;
 
 namespace {
 
