@@ -3,7 +3,6 @@
 #include "bake/scene/shared_texture.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
 #include "result/simplify.hpp"
-#include "result/simplify_levels.hpp"
 #include "scene/check_asset.hpp"
 #include "scene/parts_error_bound_search.hpp"
 #include "scene/resolved_options.hpp"

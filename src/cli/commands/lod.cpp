@@ -23,8 +23,8 @@
 #include "faqem/error.hpp"
 #include "faqem/save_levels.hpp"
 #include "faqem/truncate.hpp"
+#include "result/simplify.hpp"
 #include "result/simplify_file.hpp"
-#include "result/simplify_levels.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/scene_size.hpp"
 
