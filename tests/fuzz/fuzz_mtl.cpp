@@ -1,4 +1,5 @@
-#include "asset/formats/mtl_material.hpp"
+#include "asset/formats/mtl.hpp"
+#include "asset/formats/referenced_images.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace faqem;

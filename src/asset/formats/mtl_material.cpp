@@ -1,9 +1,10 @@
-#include "asset/formats/mtl_material.hpp"
+#include "asset/formats/mtl.hpp"
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
+#include "asset/formats/referenced_images.hpp"
 #include "asset/image/combine.hpp"
 #include "faqem/error.hpp"
 

@@ -8,7 +8,6 @@
 #include <map>
 #include <string_view>
 
-#include "asset/formats/mtl_material.hpp"
 #include "asset/formats/obj_colors.hpp"
 #include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/obj_smoothing.hpp"

@@ -1,6 +1,6 @@
 // Textures of MTL files that need the pixels of their images, and files that are named as on another computer.
 
-#include "asset/formats/mtl_material.hpp"
+#include "asset/formats/mtl.hpp"
 
 #include <cmath>
 
