@@ -3,7 +3,6 @@
 /// Scenes with so many instances that they cannot be copied one by one.
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "faqem/asset.hpp"

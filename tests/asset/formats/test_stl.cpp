@@ -1,7 +1,6 @@
 #include "asset/formats/formats.hpp"
 
 #include <bit>
-#include <cmath>
 #include <limits>
 
 #include "support/catch.hpp"

@@ -1,6 +1,5 @@
 // Decoding and encoding of images.
 
-#include <algorithm>
 
 #include "asset/image/image.hpp"
 #include "asset/image/image_size.hpp"
