@@ -85,8 +85,7 @@ Asset from_glb(std::span<const std::uint8_t> bytes) {
 std::vector<Instance> instances(const Asset& asset) {
     if (asset.source) return detail::gltf_instances(asset);
     std::vector<Instance> all;
-    for (Index i = 0; i < asset.parts.size(); ++i)
-        all.push_back({i, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}});
+    for (Index i = 0; i < asset.parts.size(); ++i) all.push_back({i, detail::identity_transform});
     return all;
 }
 

@@ -15,8 +15,6 @@
 namespace faqem::detail {
 namespace {
 
-using Matrix = std::array<double, 16>;
-
 const Json& instancing_attributes(const Json& node) {
     return member(node, "extensions", instancing_name, "attributes");
 }
@@ -51,17 +49,17 @@ std::vector<Index> root_nodes(const Json& document) {
 
 /// Lists some nodes and their descendants, depth first.
 std::vector<PlacedNode> placed_below(const Json& document, const std::vector<Index>& roots,
-                                     std::span<const std::optional<std::array<double, 3>>> scales) {
+                                     std::span<const std::optional<Vec3>> scales) {
     std::vector<PlacedNode> placed;
     // An explicit stack: nodes may be nested deeper than the call stack allows.
-    std::vector<std::pair<Index, Matrix>> stack;
+    std::vector<std::pair<Index, Matrix4>> stack;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
         stack.push_back({*root, identity_transform});
     while (!stack.empty()) {
         const auto [index, parent] = stack.back();
         stack.pop_back();
         const Json& node = document["nodes"][index];
-        const Matrix world =
+        const Matrix4 world =
             product(parent, local_transform(node, scales.empty() ? std::nullopt : scales[index]));
         placed.push_back({index, world});
         const Json& children = member(node, "children");
@@ -86,7 +84,7 @@ bool is_skinned(const Part& part) { return !part.joints.empty() && !part.weights
 /// The pose of the mesh at a node; null if nothing deforms it.
 /// \param worlds  node_transforms(), which are computed once, when a skin needs them
 std::shared_ptr<const RestPose> pose_of(const SourceDocument& source, const Json& node,
-                                        std::vector<Matrix>& worlds) {
+                                        std::vector<Matrix4>& worlds) {
     RestPose pose;
     pose.morph_weights = default_morph_weights(source.document, node);
     const Index skin = index_member(node, "skin");
@@ -103,8 +101,7 @@ std::shared_ptr<const RestPose> pose_of(const SourceDocument& source, const Json
 
 }  // namespace
 
-std::array<double, 16> transform_matrix(const std::array<double, 3>& t, const std::array<double, 4>& rotation,
-                                        const std::array<double, 3>& s) {
+Matrix4 transform_matrix(const Vec3& t, const std::array<double, 4>& rotation, const Vec3& s) {
     const double length = std::sqrt(rotation[0] * rotation[0] + rotation[1] * rotation[1] +
                                     rotation[2] * rotation[2] + rotation[3] * rotation[3]);
     std::array<double, 4> q = rotation;
@@ -115,7 +112,7 @@ std::array<double, 16> transform_matrix(const std::array<double, 3>& t, const st
         {{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
          {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
          {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}}};
-    Matrix matrix = {};
+    Matrix4 matrix = {};
     for (std::size_t column = 0; column < 3; ++column)
         for (std::size_t row = 0; row < 3; ++row) matrix[4 * column + row] = columns[column][row] * s[column];
     std::ranges::copy(t, matrix.begin() + 12);
@@ -123,8 +120,8 @@ std::array<double, 16> transform_matrix(const std::array<double, 3>& t, const st
     return matrix;
 }
 
-std::vector<std::array<double, 16>> instance_matrices(const SourceDocument& source, const Json& node) {
-    std::vector<std::array<double, 16>> matrices;
+std::vector<Matrix4> instance_matrices(const SourceDocument& source, const Json& node) {
+    std::vector<Matrix4> matrices;
     const Json& attributes = instancing_attributes(node);
     if (attributes.empty()) return matrices;
     const Index any = attributes.begin()->get<Index>();
@@ -165,28 +162,27 @@ std::vector<Index> parents_of(const Json& nodes) {
     return parents;
 }
 
-Matrix local_transform(const Json& node, const std::optional<std::array<double, 3>>& scale) {
+Matrix4 local_transform(const Json& node, const std::optional<Vec3>& scale) {
     if (node.contains("matrix")) return number_array<16>(node, "matrix", identity_transform);
     return transform_matrix(number_array<3>(node, "translation", {0, 0, 0}),
                             number_array<4>(node, "rotation", {0, 0, 0, 1}),
                             scale ? *scale : number_array<3>(node, "scale", {1, 1, 1}));
 }
 
-Matrix product(const Matrix& a, const Matrix& b) {
-    Matrix c = {};
+Matrix4 product(const Matrix4& a, const Matrix4& b) {
+    Matrix4 c = {};
     for (std::size_t column = 0; column < 4; ++column)
         for (std::size_t row = 0; row < 4; ++row)
             for (std::size_t k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
     return c;
 }
 
-std::vector<PlacedNode> placed_nodes(const Json& document,
-                                     std::span<const std::optional<std::array<double, 3>>> scales) {
+std::vector<PlacedNode> placed_nodes(const Json& document, std::span<const std::optional<Vec3>> scales) {
     return placed_below(document, root_nodes(document), scales);
 }
 
-std::vector<Matrix> node_transforms(const Json& document) {
-    std::vector<Matrix> worlds(array_size(document, "nodes"), identity_transform);
+std::vector<Matrix4> node_transforms(const Json& document) {
+    std::vector<Matrix4> worlds(array_size(document, "nodes"), identity_transform);
     for (const PlacedNode& placed : placed_below(document, nodes_without_parent(document), {}))
         worlds[placed.node] = placed.world;
     return worlds;
@@ -207,9 +203,9 @@ std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNod
         const Json& node = document["nodes"][index];
         const Index mesh = index_member(node, "mesh");
         if (mesh == no_index || parts_of[mesh].empty()) continue;
-        std::vector<Matrix> transforms = instance_matrices(*asset.source, node);
+        std::vector<Matrix4> transforms = instance_matrices(*asset.source, node);
         if (transforms.empty()) transforms.push_back(identity_transform);
-        for (const Matrix& transform : transforms)
+        for (const Matrix4& transform : transforms)
             for (const Index part : parts_of[mesh]) instances.push_back({part, product(world, transform)});
         if (node_of) node_of->resize(instances.size(), index);
     }
@@ -252,7 +248,7 @@ std::vector<PosedInstance> gltf_posed_instances(const Asset& asset) {
     const Json& document = asset.source->document;
     std::vector<Index> node_of;
     const std::vector<Instance> all = instances_at(asset, placed_nodes(document), &node_of);
-    std::vector<Matrix> worlds;
+    std::vector<Matrix4> worlds;
     std::vector<PosedInstance> posed;
     posed.reserve(all.size());
     Index node = no_index;

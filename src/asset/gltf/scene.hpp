@@ -23,13 +23,11 @@ inline constexpr std::uint64_t max_instances = std::uint64_t{1} << 22;
 
 /// The column-major matrix T * R * S, with R from a quaternion, which is normalised; zero is no rotation (glTF 2.0,
 /// section 3.5.3).
-std::array<double, 16> transform_matrix(const std::array<double, 3>& translation,
-                                        const std::array<double, 4>& rotation,
-                                        const std::array<double, 3>& scale);
+Matrix4 transform_matrix(const Vec3& translation, const std::array<double, 4>& rotation, const Vec3& scale);
 
 /// The transforms of the instances of a node's mesh to the space of the node; empty if the node has no such extension.
 /// \pre validate_gltf() passed
-std::vector<std::array<double, 16>> instance_matrices(const SourceDocument& source, const Json& node);
+std::vector<Matrix4> instance_matrices(const SourceDocument& source, const Json& node);
 
 /// Checks that all numbers of the instances are finite. This needs the buffers and is therefore separate from
 /// validate_gltf().
@@ -40,7 +38,7 @@ void check_instances(const SourceDocument& source, const std::string& file);
 /// A node of the scene.
 struct PlacedNode {
     Index node = no_index;
-    std::array<double, 16> world = {};  ///< column-major matrix from the node to world space
+    Matrix4 world = {};  ///< column-major matrix from the node to world space
 };
 
 /// The numbers of the array object[key]; `values` if there is none.
@@ -54,11 +52,10 @@ std::array<double, N> number_array(const Json& object, const char* key, std::arr
 
 /// The column-major matrix from a node to its parent.
 /// \param scale  instead of that of the node
-std::array<double, 16> local_transform(const Json& node,
-                                       const std::optional<std::array<double, 3>>& scale = {});
+Matrix4 local_transform(const Json& node, const std::optional<Vec3>& scale = {});
 
 /// Product of column-major 4 x 4 matrices. Either may be the transform of a node or of an instance.
-std::array<double, 16> product(const std::array<double, 16>& a, const std::array<double, 16>& b);
+Matrix4 product(const Matrix4& a, const Matrix4& b);
 
 /// By node: its parent, or no_index.
 std::vector<Index> parents_of(const Json& nodes);
@@ -68,13 +65,12 @@ std::vector<Index> parents_of(const Json& nodes);
 /// \param document  validated
 /// \param scales    by node: scale instead of the one in the document; empty for none
 /// Complexity: O(nodes)
-std::vector<PlacedNode> placed_nodes(const Json& document,
-                                     std::span<const std::optional<std::array<double, 3>>> scales = {});
+std::vector<PlacedNode> placed_nodes(const Json& document, std::span<const std::optional<Vec3>> scales = {});
 
 /// The world matrix of each node of the document, also of those outside the default scene.
 /// \param document  validated
 /// Complexity: O(nodes)
-std::vector<std::array<double, 16>> node_transforms(const Json& document);
+std::vector<Matrix4> node_transforms(const Json& document);
 
 /// Lists the instances of parts at the nodes that have meshes. Parts without a source mesh follow, with the identity
 /// transform.
@@ -86,8 +82,8 @@ std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNod
 
 /// The matrices of a skin from the space of the mesh to that of each joint.
 struct InverseBinds {
-    std::vector<std::array<double, 16>> matrices;  ///< one per joint, column-major
-    std::uint64_t repaired = 0;  ///< number of matrices that were not finite and are the identity instead
+    std::vector<Matrix4> matrices;  ///< one per joint, column-major
+    std::uint64_t repaired = 0;     ///< number of matrices that were not finite and are the identity instead
 };
 
 /// Reads the inverse bind matrices of a skin; the identity for joints without one, and if they are no MAT4 of floats.

@@ -13,8 +13,7 @@
 namespace faqem::detail {
 namespace {
 
-using Matrix4 = std::array<double, 16>;
-using NodeScales = std::vector<std::optional<std::array<double, 3>>>;
+using NodeScales = std::vector<std::optional<Vec3>>;
 
 // The node whose scale a channel animates, or no_index.
 Index scaled_node(const Json& channel, std::size_t nodes) {
@@ -28,7 +27,7 @@ Index scaled_node(const Json& channel, std::size_t nodes) {
     return node < nodes && pointer == child_path("/nodes", node) + "/scale" ? node : no_index;
 }
 
-void raise_to_keyframes(const SourceDocument& source, const Json& sampler, std::array<double, 3>& scale) {
+void raise_to_keyframes(const SourceDocument& source, const Json& sampler, Vec3& scale) {
     const auto values = read_vectors<double, 3>(source, index_member(sampler, "output"));
     // A keyframe of a spline has the value between its two tangents.
     const bool is_spline = string_member(sampler, "interpolation") == "CUBICSPLINE";

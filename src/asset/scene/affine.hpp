@@ -11,10 +11,13 @@
 
 namespace faqem::detail {
 
-/// The transform of an instance that is not moved.
-inline constexpr std::array<double, 16> identity_transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+/// A column-major 4 x 4 matrix.
+using Matrix4 = std::array<double, 16>;
 
-inline Vec3 transformed_point(const std::array<double, 16>& m, const Vec3& p) {
+/// The transform of an instance that is not moved.
+inline constexpr Matrix4 identity_transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+inline Vec3 transformed_point(const Matrix4& m, const Vec3& p) {
     Vec3 q;
     for (std::size_t r = 0; r < 3; ++r) q[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
     return q;
@@ -25,7 +28,7 @@ inline double max_or_nan(double a, double b) { return std::isnan(a) || a >= b ? 
 
 /// A bound of the absolute coordinates of transformed points; NaN or infinity if they may be outside the range of double.
 /// \param largest  largest absolute coordinate of the points
-inline double transformed_bound(const std::array<double, 16>& m, double largest) {
+inline double transformed_bound(const Matrix4& m, double largest) {
     double bound = 0;
     for (std::size_t r = 0; r < 3; ++r) {
         const double row =
@@ -36,7 +39,7 @@ inline double transformed_bound(const std::array<double, 16>& m, double largest)
 }
 
 /// Mean squared singular value of the linear part.
-inline double squared_scale(const std::array<double, 16>& m) {
+inline double squared_scale(const Matrix4& m) {
     double squares = 0;
     for (const std::size_t column : {0u, 4u, 8u})
         for (std::size_t row = 0; row < 3; ++row) squares += m[column + row] * m[column + row];
@@ -47,7 +50,7 @@ inline double squared_scale(const std::array<double, 16>& m) {
 /// point to the same side as the face normals of faces whose winding is reversed. Defined for singular transforms too.
 class NormalTransform {
 public:
-    explicit NormalTransform(const std::array<double, 16>& m) {
+    explicit NormalTransform(const Matrix4& m) {
         const auto at = [&](std::size_t r, std::size_t col) { return m[4 * (col % 3) + r % 3]; };
         for (std::size_t r = 0; r < 3; ++r)
             for (std::size_t k = 0; k < 3; ++k)

@@ -42,7 +42,7 @@ void append_faces(Part& flat, const Part& part, const FaceArray& array) {
     for (const Index value : values) to.push_back(value == no_index ? no_index : first_name + value);
 }
 
-void append(Part& flat, const Part& part, const std::array<double, 16>& m, const VertexLayout& layout) {
+void append(Part& flat, const Part& part, const Matrix4& m, const VertexLayout& layout) {
     const auto first = static_cast<Index>(flat.positions.size());
     const std::size_t vertices = part.positions.size();
     const bool is_identity = m == identity_transform;

@@ -7,13 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "asset/scene/affine.hpp"
 #include "asset/scene/part_arrays.hpp"
 
 namespace faqem::detail {
 namespace {
-
-using JointMatrix = std::array<double, 16>;
 
 /// Adds the displacements of the morph targets, times their weights.
 void apply_morph_weights(const Part& part, const std::vector<double>& weights, Part& posed) {
@@ -32,8 +29,8 @@ void apply_morph_weights(const Part& part, const std::vector<double>& weights, P
 
 /// The sum of the matrices of a vertex, in the order of the joints, so that vertices which list the same joints in
 /// another order stay together. None for vertices without weights.
-std::optional<JointMatrix> blended_matrix(const std::vector<JointMatrix>& matrices,
-                                          const std::array<std::uint16_t, 4>& joints, const Vec4f& weights) {
+std::optional<Matrix4> blended_matrix(const std::vector<Matrix4>& matrices,
+                                      const std::array<std::uint16_t, 4>& joints, const Vec4f& weights) {
     std::array<std::pair<std::uint16_t, double>, 4> influences;
     for (std::size_t k = 0; k < 4; ++k) {
         const bool is_used = weights[k] > 0 && joints[k] < matrices.size();
@@ -43,7 +40,7 @@ std::optional<JointMatrix> blended_matrix(const std::vector<JointMatrix>& matric
     double sum = 0;
     for (const auto& [joint, weight] : influences) sum += weight;
     if (!(sum > 0 && std::isfinite(sum))) return std::nullopt;
-    JointMatrix blended = {};
+    Matrix4 blended = {};
     for (const auto& [joint, weight] : influences) {
         if (weight == 0) continue;
         for (std::size_t i = 0; i < blended.size(); ++i) blended[i] += weight / sum * matrices[joint][i];
@@ -77,7 +74,7 @@ Part posed_part(const Part& part, const PosedInstance& instance) {
     const NormalTransform of_instance(instance.transform);
     std::vector<std::uint8_t> is_mirrored(posed.positions.size(), of_instance.is_mirrored());
     for (std::size_t v = 0; v < posed.positions.size(); ++v) {
-        const std::optional<JointMatrix> joints =
+        const std::optional<Matrix4> joints =
             is_skinned ? blended_matrix(pose.joints, part.joints[v], part.weights[v]) : std::nullopt;
         posed.positions[v] = transformed_point(joints ? *joints : instance.transform, posed.positions[v]);
         const NormalTransform normals = joints ? NormalTransform(*joints) : of_instance;
@@ -95,7 +92,7 @@ double posed_coordinate_bound(const Part& part, double largest, const PosedInsta
     }
     // Points between those of two joints are in the box of both.
     double bound = transformed_bound(instance.transform, largest);
-    for (const JointMatrix& joint : pose.joints) bound = max_or_nan(bound, transformed_bound(joint, largest));
+    for (const Matrix4& joint : pose.joints) bound = max_or_nan(bound, transformed_bound(joint, largest));
     return bound;
 }
 

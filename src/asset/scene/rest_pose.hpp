@@ -2,10 +2,10 @@
 /// \file
 /// Instances as a viewer shows them at rest: posed by their joints, with their default morph weights.
 
-#include <array>
 #include <memory>
 #include <vector>
 
+#include "asset/scene/affine.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {
@@ -13,15 +13,15 @@ namespace faqem::detail {
 /// What deforms an instance.
 struct RestPose {
     /// By joint of the skin: the column-major matrix from part to world space. Empty for parts without a skin.
-    std::vector<std::array<double, 16>> joints;
+    std::vector<Matrix4> joints;
     /// By morph target, in any range; those beyond the end are 0.
     std::vector<double> morph_weights;
 };
 
 /// An instance with its pose.
 struct PosedInstance {
-    Index part = no_index;                  ///< index into Asset::parts
-    std::array<double, 16> transform = {};  ///< Instance::transform; vertices with joint weights ignore it
+    Index part = no_index;   ///< index into Asset::parts
+    Matrix4 transform = {};  ///< Instance::transform; vertices with joint weights ignore it
     std::shared_ptr<const RestPose> pose = nullptr;  ///< null for instances that the transform alone places
 };
 

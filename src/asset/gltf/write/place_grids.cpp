@@ -13,8 +13,6 @@
 namespace faqem::detail {
 namespace {
 
-using Matrix = std::array<double, 16>;
-
 /// Node members that are moved to another node together with the mesh.
 constexpr std::array<const char*, 3> mesh_members = {"mesh", "skin", "weights"};
 
@@ -22,7 +20,7 @@ constexpr std::array<const char*, 3> mesh_members = {"mesh", "skin", "weights"};
 constexpr std::array<std::string_view, 8> scalable_members = {"mesh",        "weights",  "name",  "extras",
                                                               "translation", "rotation", "scale", "matrix"};
 
-Matrix matrix_of(const MeshGrid& grid) {
+Matrix4 matrix_of(const MeshGrid& grid) {
     return transform_matrix(grid.offset(), {0, 0, 0, 1}, {grid.spacing, grid.spacing, grid.spacing});
 }
 
@@ -49,7 +47,7 @@ void retarget_weight_channels(Json& document, Index from, Index to) {
 
 /// Multiplies the transform of a node by that of a grid.
 void scale_node(Json& node, const MeshGrid& grid) {
-    const Matrix m = product(local_transform(node), matrix_of(grid));
+    const Matrix4 m = product(local_transform(node), matrix_of(grid));
     if (node.contains("matrix")) {
         node["matrix"] = m;
         return;
@@ -81,7 +79,7 @@ void write_instances(GltfWriter& writer, Json& node) {
         const MeshGrid& grid = writer.grids[node["mesh"].get<Index>()];
         const Vec3 offset = grid.offset();
         std::vector<Vec3f> translations, scales;
-        for (const Matrix& m : instance_matrices(writer.source, node)) {
+        for (const Matrix4& m : instance_matrices(writer.source, node)) {
             const Vec3 t = transformed_point(m, offset);
             translations.push_back(
                 {static_cast<float>(t[0]), static_cast<float>(t[1]), static_cast<float>(t[2])});
@@ -111,8 +109,8 @@ void write_bind_matrices(GltfWriter& writer, Json& skin, const MeshGrid& grid) {
     }
     if (!grid.needs_transform()) return;
     std::vector<std::array<float, 16>> matrices;
-    for (const Matrix& m : inverse_binds(writer.source, skin).matrices) {
-        const Matrix scaled = product(m, matrix_of(grid));
+    for (const Matrix4& m : inverse_binds(writer.source, skin).matrices) {
+        const Matrix4 scaled = product(m, matrix_of(grid));
         std::ranges::transform(scaled, matrices.emplace_back().begin(),
                                [](double x) { return static_cast<float>(x); });
     }
