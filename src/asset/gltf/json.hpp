@@ -35,6 +35,17 @@ inline constexpr const char* coverage_name = "MSFT_screencoverage";
 /// Name of the extension with the center of a tile of 3D Tiles.
 inline constexpr const char* center_name = "CESIUM_RTC";
 
+inline constexpr const char* variants_name = "KHR_materials_variants";
+inline constexpr const char* features_name = "EXT_mesh_features";
+inline constexpr const char* metadata_name = "EXT_structural_metadata";
+inline constexpr const char* outline_name = "CESIUM_primitive_outline";
+inline constexpr const char* manifold_name = "EXT_mesh_manifold";
+inline constexpr const char* ngon_name = "FB_ngon_encoding";
+
+/// Extensions of primitives and meshes that describe the source vertices or triangles, which may no longer exist.
+inline constexpr std::array vertex_extensions = {draco_name,   features_name, metadata_name,
+                                                 outline_name, manifold_name, ngon_name};
+
 /// Extensions of textures whose images have other media types than PNG and JPEG, with these types.
 struct ImageExtension {
     const char *name, *media_type;

@@ -22,16 +22,6 @@ constexpr std::array<std::string_view, 13> supported_extensions = {
     "KHR_texture_basisu",    "EXT_texture_avif",      "MSFT_texture_dds",       lod_name,
     instancing_name};
 
-/// Other extensions that are read, or whose references are kept up to date.
-constexpr std::array<std::string_view, 8> other_known_extensions = {draco_name,
-                                                                    meshopt_name,
-                                                                    "EXT_mesh_features",
-                                                                    "EXT_structural_metadata",
-                                                                    "CESIUM_primitive_outline",
-                                                                    "EXT_mesh_manifold",
-                                                                    "FB_ngon_encoding",
-                                                                    "EXT_instance_features"};
-
 template <class List>
 bool contains(const List& list, std::string_view name) {
     return std::ranges::find(list, name) != list.end();
@@ -40,6 +30,12 @@ bool contains(const List& list, std::string_view name) {
 bool is_supported(std::string_view extension) {
     return contains(supported_extensions, extension) || extension.starts_with("KHR_materials_") ||
            extension == center_name || names_by_number(extension);
+}
+
+/// Whether an extension is read, or its references are kept up to date.
+bool is_known(std::string_view extension) {
+    return is_supported(extension) || contains(vertex_extensions, extension) || extension == meshopt_name ||
+           extension == "EXT_instance_features";
 }
 
 void check_version(const CheckedJson& document) {
@@ -93,7 +89,7 @@ void check_image_light(const CheckedJson& light) {
 std::vector<std::string> unknown_extensions(const Json& document) {
     std::set<std::string> names;
     for_each_extension(document, [&](const std::string& name, const Json&) {
-        if (!is_supported(name) && !contains(other_known_extensions, name)) names.insert(name);
+        if (!is_known(name)) names.insert(name);
     });
     return {names.begin(), names.end()};
 }

@@ -3,7 +3,6 @@
 /// State shared by the functions that write glTF. Objects of the source document are copied to the output
 /// when they are first needed, so that the output has no unused objects.
 
-#include <array>
 #include <deque>
 #include <map>
 #include <span>
@@ -19,17 +18,6 @@
 #include "asset/gltf/write/primitive_data.hpp"
 
 namespace faqem::detail {
-
-inline constexpr const char* variants_name = "KHR_materials_variants";
-inline constexpr const char* features_name = "EXT_mesh_features";
-inline constexpr const char* metadata_name = "EXT_structural_metadata";
-inline constexpr const char* outline_name = "CESIUM_primitive_outline";
-inline constexpr const char* manifold_name = "EXT_mesh_manifold";
-inline constexpr const char* ngon_name = "FB_ngon_encoding";
-
-/// Extensions of primitives and meshes that describe the source vertices or triangles, which may no longer exist.
-inline constexpr std::array vertex_extensions = {draco_name,   features_name, metadata_name,
-                                                 outline_name, manifold_name, ngon_name};
 
 /// The output document under construction, and maps from source and asset objects to output objects.
 struct GltfWriter {
