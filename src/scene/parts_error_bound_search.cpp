@@ -4,7 +4,7 @@
 
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/error.hpp"
-#include "scene/morph_shape.hpp"
+#include "scene/motion.hpp"
 #include "scene/position_grids.hpp"
 #include "scene/simplify_parts.hpp"
 

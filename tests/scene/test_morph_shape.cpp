@@ -1,4 +1,4 @@
-#include "scene/morph_shape.hpp"
+#include "scene/motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scene/moving_vertices.hpp"
+#include "scene/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
