@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include "asset/image/image_checks.hpp"
 #include "asset/image/image_plugin.hpp"
+#include "asset/image/image_size.hpp"
 #include "faqem/error.hpp"
 #include "faqem/export.hpp"
 

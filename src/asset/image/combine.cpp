@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "asset/image/image_checks.hpp"
+#include "asset/image/image_size.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -18,7 +18,7 @@
 
 #include <jerror.h>
 
-#include "asset/image/image_checks.hpp"
+#include "asset/image/image_size.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-#include "asset/image/image_checks.hpp"
+#include "asset/image/image_size.hpp"
 
 namespace faqem::detail {
 namespace {

@@ -13,7 +13,7 @@
 #include <new>
 #include <string>
 
-#include "asset/image/image_checks.hpp"
+#include "asset/image/image_size.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
