@@ -11,7 +11,7 @@
 
 #include "asset/io/encoded_model.hpp"
 #include "asset/io/file.hpp"
-#include "asset/io/reference_list.hpp"
+#include "asset/io/file_finder.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
 #include "faqem/option_types.hpp"

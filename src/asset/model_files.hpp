@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include "asset/io/reference_list.hpp"
+#include "asset/io/file_finder.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {

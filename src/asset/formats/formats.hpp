@@ -7,7 +7,7 @@
 #include <span>
 
 #include "asset/io/encoded_model.hpp"
-#include "asset/io/reference_list.hpp"
+#include "asset/io/file_finder.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {

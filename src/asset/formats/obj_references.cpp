@@ -8,7 +8,7 @@
 #include "asset/formats/mtl.hpp"
 #include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/obj_tiles.hpp"
-#include "asset/io/reference_list.hpp"
+#include "asset/io/file_finder.hpp"
 #include "asset/text/text_scanner.hpp"
 #include "faqem/error.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "asset/io/encoded_model.hpp"
-#include "asset/io/reference_list.hpp"
+#include "asset/io/file_finder.hpp"
 #include "faqem/asset.hpp"
 
 namespace faqem::detail {
