@@ -7,8 +7,8 @@
 #include "asset/file_format.hpp"
 #include "asset/finest_level.hpp"
 #include "asset/gltf/write/levels.hpp"
+#include "asset/scene/flatten.hpp"
 #include "asset/scene/material_textures.hpp"
-#include "asset/scene/objects.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {

@@ -17,7 +17,6 @@
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
-#include "asset/scene/objects.hpp"
 #include "asset/scene/position_rounding.hpp"
 #include "asset/scene/value_numbers.hpp"
 #include "asset/text/text_scanner.hpp"

@@ -2,6 +2,7 @@
 /// \file
 /// Flattening of a scene to one part in world space, for formats without a scene graph.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,5 +43,18 @@ std::vector<std::string> flattening_losses(const Asset& asset, const std::string
 
 /// Whether all coordinates are exactly representable as float.
 bool is_float_representable(const std::vector<Vec3>& positions);
+
+/// An asset whose parts are objects.
+struct DividedAsset {
+    Asset asset;
+    std::vector<std::size_t> part;  ///< by part of `asset`: the part that it is taken from
+};
+
+/// Makes a part of each object. Objects have the vertices that their faces use, in the same order; those that
+/// share vertices each get a copy. Objects without faces become parts without faces, so that all levels of detail have
+/// the same parts. Parts without objects are copied.
+/// \return none if no part has objects
+/// Complexity: O(size of the asset).
+std::optional<DividedAsset> divided_into_objects(const Asset& asset);
 
 }  // namespace faqem::detail

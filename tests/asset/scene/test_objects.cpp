@@ -1,4 +1,4 @@
-#include "asset/scene/objects.hpp"
+#include "asset/scene/flatten.hpp"
 
 #include "faqem/save_levels.hpp"
 #include "support/catch.hpp"

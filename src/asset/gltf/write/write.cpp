@@ -15,7 +15,7 @@
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
-#include "asset/scene/objects.hpp"
+#include "asset/scene/flatten.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {
