@@ -1,14 +1,17 @@
 #pragma once
 /// \file
-/// Parsing of OBJ material libraries (MTL files), and conversion of their materials to those of an asset.
+/// The material libraries of OBJ files (MTL files): their names and content, and conversion of their materials to those
+/// of an asset.
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "asset/image/combine.hpp"
+#include "asset/io/file_finder.hpp"
 #include "asset/scene/messages.hpp"
 #include "faqem/asset.hpp"
 
@@ -62,6 +65,31 @@ std::vector<MtlMaterial> read_mtl(std::span<const std::uint8_t> text, const std:
 /// \param text  borrowed
 /// \param name  path of the library
 std::vector<std::string> texture_statements(std::span<const std::uint8_t> text, const std::string& name);
+
+/// Returns the file names in an mtllib statement. The whole statement is one name if such a file exists;
+/// otherwise it is split after each `.mtl`.
+/// \param statement  without its keyword
+/// \param folder     folder of the OBJ file
+std::vector<std::string> library_names(const std::string& statement, const std::filesystem::path& folder);
+
+/// Finds a library that an OBJ file names. If it is missing, the only library in the folder stands in for it, unless that
+/// has the name of another OBJ file there.
+/// \param model  path of the OBJ file
+/// \throws InputError  there is none: the error of FileFinder::find()
+FoundFile find_library(const std::string& name, const std::filesystem::path& model, FileFinder& finder);
+
+/// Reads all material libraries. If a name is defined repeatedly, the last definition is used. A library that is
+/// missing, or found under another name, is a warning.
+/// \param statements  mtllib statements without their keyword
+/// \param model       path of the OBJ file
+/// \param warnings    receives the warnings
+/// \param ignored     as for read_mtl()
+/// \return the materials by name
+/// \throws InputError  as read_mtl()
+std::map<std::string, MtlMaterial> read_libraries(const std::vector<std::string>& statements,
+                                                  const std::filesystem::path& model, FileFinder& finder,
+                                                  std::vector<std::string>& warnings,
+                                                  IgnoredStatements& ignored);
 
 class ReferencedImages;
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <string_view>
 
+#include "asset/formats/mtl.hpp"
 #include "asset/formats/obj_colors.hpp"
-#include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/obj_smoothing.hpp"
 #include "asset/formats/obj_tiles.hpp"
 #include "asset/formats/referenced_images.hpp"

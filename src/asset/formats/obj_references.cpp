@@ -6,7 +6,6 @@
 
 #include "asset/formats/formats.hpp"
 #include "asset/formats/mtl.hpp"
-#include "asset/formats/obj_libraries.hpp"
 #include "asset/formats/obj_tiles.hpp"
 #include "asset/io/file_finder.hpp"
 #include "asset/text/text_scanner.hpp"
