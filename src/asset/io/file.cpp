@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <charconv>
 
-#include "asset/io/locked_file.hpp"
+#include "asset/io/descriptor.hpp"
 #include "asset/io/set_folder.hpp"
 #include "faqem/error.hpp"
 

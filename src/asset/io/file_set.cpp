@@ -15,7 +15,6 @@
 
 #include "asset/io/encoded_model.hpp"
 #include "asset/io/set_folder.hpp"
-#include "asset/io/write_all.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

@@ -11,7 +11,6 @@
 
 #include "asset/io/file.hpp"
 #include "asset/io/temporary_file.hpp"
-#include "asset/io/write_all.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::detail {

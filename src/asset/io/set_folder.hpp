@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "asset/io/locked_file.hpp"
+#include "asset/io/descriptor.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string_view>
 
-#include "asset/io/locked_file.hpp"
+#include "asset/io/descriptor.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {

@@ -11,7 +11,6 @@
 
 #include "asset/io/file.hpp"
 #include "asset/io/file_set.hpp"
-#include "asset/io/write_all.hpp"
 #include "cli/files/output_file.hpp"
 #include "faqem/error.hpp"
 #include "faqem/version.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "asset/io/locked_file.hpp"
+#include "asset/io/descriptor.hpp"
 #include "cli/batch/plan.hpp"
 #include "cli/batch/shard.hpp"
 #include "cli/process/json.hpp"

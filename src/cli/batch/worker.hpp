@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "asset/io/locked_file.hpp"
+#include "asset/io/descriptor.hpp"
 #include "cli/process/json.hpp"
 
 namespace faqem::cli {
