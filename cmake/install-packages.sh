@@ -7,6 +7,7 @@
 #   docs    what the target docs needs
 #   wheel   what src/python/build_wheel.sh needs, without the packages of the group build
 #   engines what tests/run.sh --suite engines needs, without Slurm, which the group slurm has
+#   blender what tests/run.sh --suite blender needs: shared libraries that Blender as a Python module links to
 #   comfyui what tests/run.sh --suite comfyui needs
 #   fresh   what tests/run.sh --suite fresh needs, without the packages of the group build
 # Uses sudo only when not root.
@@ -35,9 +36,12 @@ libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-
             ;;
         fresh) packages="debootstrap ccache" ;;
         engines | comfyui) packages="python3-venv" ;;
+        blender)
+            packages="python3-venv libx11-6 libxrender1 libxfixes3 libxi6 libxkbcommon0 libsm6 libgl1"
+            ;;
         slurm) packages="$packages slurm-wlm munge" ;;
         *)
-            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, fresh, engines, slurm, comfyui)" >&2
+            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, fresh, engines, slurm, blender, comfyui)" >&2
             exit 2
             ;;
     esac

@@ -1,4 +1,4 @@
-"""Wheels and source archives whose bytes depend on their files only: sorted, without owners, with a fixed time."""
+"""Wheels, zips and source archives whose bytes depend on their files only: sorted, without owners, with a fixed time."""
 
 import base64
 import gzip
@@ -13,6 +13,17 @@ import zipfile
 def _seconds():
     """Time of all files: SOURCE_DATE_EPOCH, or the earliest time of a zip archive."""
     return max(int(os.environ.get("SOURCE_DATE_EPOCH", 0)), 315532800)
+
+
+def write_zip(path, files, executable=()):
+    """Writes a zip archive. Parameters as for write_wheel(); the files are in the order of `files`."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, content in files.items():
+            entry = zipfile.ZipInfo(name, time.gmtime(_seconds())[:6])
+            entry.external_attr = (0o100755 if name in executable else 0o100644) << 16
+            entry.create_system = 3  # Unix: the mode is valid
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, content, compresslevel=9)
 
 
 def write_wheel(path, info, files, executable):
@@ -31,13 +42,7 @@ def write_wheel(path, info, files, executable):
     content = {**files, f"{info}/RECORD": "".join(record).encode()}
     # The metadata comes last, as recommended for wheels.
     names = sorted(content, key=lambda name: (name.startswith(info), name))
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as wheel:
-        for name in names:
-            entry = zipfile.ZipInfo(name, time.gmtime(_seconds())[:6])
-            entry.external_attr = (0o100755 if name in executable else 0o100644) << 16
-            entry.create_system = 3  # Unix: the mode is valid
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            wheel.writestr(entry, content[name], compresslevel=9)
+    write_zip(path, {name: content[name] for name in names}, executable)
 
 
 def write_tar(path, folder, files, executable):
