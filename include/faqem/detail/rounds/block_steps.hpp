@@ -43,7 +43,7 @@ struct BlockSteps {
 struct CompactedMesh {
     std::vector<Index> vertices, faces;  ///< the old slot of each new vertex and face, ascending
     /// One per old vertex slot: the new vertex that it was merged into, or no_index. Rounds leave no_index also for merged
-    /// vertices.
+    /// vertices, unless RoundInput::merges is on.
     std::vector<Index> vertex_map;
     std::vector<Index> source_slots;         ///< one per new vertex: old slot with its position, or no_index
     std::vector<engine::Vector3> positions;  ///< one per new vertex

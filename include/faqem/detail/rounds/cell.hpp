@@ -213,6 +213,7 @@ private:
         }
         ++out_.collapses;
         if (patches_ == Recording::on) record(f, g, u, v);
+        if (!mesh_.merged_into.empty()) mesh_.merged_into[mesh_.vertices[v].slot] = at.slot;
         mesh_.vertices[v].slot = no_index;
         unite(mesh_.faces[f].o[next(k)], mesh_.faces[f].o[previous(k)]);
         unite(mesh_.faces[g].o[next(m)], mesh_.faces[g].o[previous(m)]);

@@ -47,7 +47,9 @@ struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<Face> faces;
     std::vector<float> keys;  ///< three per face; see key()
-    std::size_t alive = 0;    ///< number of faces
+    /// One per vertex of the input: what it was merged into, or no_index. Empty: not recorded.
+    std::vector<Index> merged_into;
+    std::size_t alive = 0;  ///< number of faces
     double area = 0;
 
     /// Cost of the edge opposite a corner, at the smaller of its two corners; `never` at the other one, at edges
@@ -234,6 +236,11 @@ inline CompactedMesh surface_of(const Mesh& mesh, std::size_t slots) {
         out.vertices.push_back(at.slot);
         out.source_slots.push_back(at.source);
         out.positions.push_back(engine::to_eigen(at.p));
+    }
+    for (Index v = 0; v < mesh.merged_into.size(); ++v) {
+        Index survivor = v;
+        while (mesh.merged_into[survivor] != no_index) survivor = mesh.merged_into[survivor];
+        out.vertex_map[v] = out.vertex_map[survivor];
     }
     for (const Face& f : mesh.faces) {
         out.faces.push_back(f.slot);

@@ -18,10 +18,6 @@ namespace rounds {
 
 inline constexpr double vertices_per_cell = 4096;
 
-// Of the faces that are kept at least. The engine takes the rest exactly in the order of its costs, and collapses what
-// rounds refuse.
-inline constexpr double spare_faces = 1.25;
-
 // Vertices that rounds cannot move, as a part of the faces that are kept at least: their neighbourhoods stay dense.
 inline constexpr double most_unfit = 1.0 / 16;
 
@@ -121,6 +117,7 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
     std::optional<Mesh> made = load(input, most_unfit * static_cast<double>(least), untimed);
     if (!made) return {};
     Mesh& mesh = *made;
+    if (input.merges == Recording::on) mesh.merged_into.assign(slots, no_index);
     if (patches == Recording::on) result.steps.reserve((faces - least) / 2);
     unsigned idle = 0;
     for (std::uint64_t round = 1; round <= most_rounds && idle < most_idle_rounds; ++round) {

@@ -23,7 +23,12 @@ struct RoundInput {
     std::vector<Links>& links;                       ///< see link_corners(); empty: not yet known
     std::span<const std::uint8_t> locked;            ///< one per vertex; nonzero: must not move
     const engine::PlanarBorders* borders = nullptr;  ///< of this surface; null: none
+    Recording merges = Recording::off;  ///< whether CompactedMesh::vertex_map has merged vertices
 };
+
+/// Of the target, rounds keep this many faces at least. The engine takes the rest exactly in the order of its costs, and
+/// collapses what rounds refuse.
+inline constexpr double spare_faces = 1.25;
 
 /// Targets below this are left to the engine: a surface of one or two cells of rounds has only local orders of costs.
 inline constexpr std::size_t min_target_of_rounds = 13000;

@@ -160,7 +160,7 @@ private:
         if (settings_.quadric_policy != Settings::QuadricPolicy::memory &&
             options_.topology.virtual_edges != VirtualEdges::on)
             state_.find_planar_borders();
-        if (state_.original() || !supports_blocks()) state_.links() = {};
+        if (!supports_blocks()) state_.links() = {};
         untimed_.check_now();
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length_,
@@ -220,6 +220,8 @@ private:
         const std::size_t far = engine::TrackedMetric::tracking_start_ratio * loop_.target_faces;
         const BlockTracking borders{original, state_.vertex_map(), Watched::borders};
         if (!reduce_in_blocks(far, original.boundary_edges().empty() ? nullptr : &borders)) return false;
+        // Blocks track all faces at once, the engine waits until there are as few.
+        if (state_.mesh().triangles.size() > far + far / 4) return true;
         const BlockTracking all{original, state_.vertex_map()};
         return reduce_in_blocks(loop_.target_faces, &all);
     }
@@ -236,10 +238,8 @@ private:
                                               progress_at(done_in_blocks_ + share));
         BlockSteps found;
         std::optional<CompactedMesh> left;
-        if (!state_.original() && now.positions.size() > few)
-            left = simplify_in_rounds(
-                {now.positions, now.triangles, state_.links(), state_.locked(), &state_.borders()},
-                std::max(least, min_target_of_rounds), options_.history, step, found);
+        const bool tracks_all = tracking && tracking->watched == Watched::borders_and_surface;
+        if (!tracks_all && now.positions.size() > few) left = reduce_in_rounds(least, step, found);
         if (!left) {
             const BlockInput input{now.positions,   now.triangles,
                                    state_.locked(), vertices_per_block(now.positions.size(), few),
@@ -258,6 +258,22 @@ private:
         if (history_) record_blocks(found, *left);
         state_.advance_to(std::move(*left));
         return true;
+    }
+
+    std::optional<CompactedMesh> reduce_in_rounds(std::size_t least, const RunContext& context,
+                                                  BlockSteps& found) {
+        ReorderedMesh& now = state_.mesh();
+        if (!state_.original())
+            return simplify_in_rounds(
+                {now.positions, now.triangles, state_.links(), state_.locked(), &state_.borders()},
+                std::max(least, min_target_of_rounds), options_.history, context, found);
+        // The original remains. The surface from which on all faces are tracked needs no spare faces.
+        const auto target = static_cast<std::size_t>(static_cast<double>(least) / spare_faces);
+        std::vector<engine::Vector3> positions = now.positions;
+        std::vector<Triangle> triangles = now.triangles;
+        return simplify_in_rounds(
+            {positions, triangles, state_.links(), state_.locked(), &state_.borders(), Recording::on},
+            std::max(target, min_target_of_rounds), options_.history, context, found);
     }
 
     // Reserves memory for the remaining collapses as well: growing the arrays later would need twice as much.
