@@ -9,7 +9,6 @@
 
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
-#include "faqem/detail/rounds/rounds.hpp"
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
@@ -160,7 +159,7 @@ private:
         if (settings_.quadric_policy != Settings::QuadricPolicy::memory &&
             options_.topology.virtual_edges != VirtualEdges::on)
             state_.find_planar_borders();
-        if (!supports_blocks()) state_.links() = {};
+        if (!supports_blocks()) state_.release_links();
         untimed_.check_now();
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length_,
@@ -233,13 +232,14 @@ private:
                              static_cast<double>(faces - loop_.target_faces);
         // Later, smaller surfaces are split as well: tracking in parallel saves more time than faces between blocks cost.
         const std::size_t few = has_used_blocks_ ? max_vertices_per_block / 4 : max_vertices_per_block;
-        ReorderedMesh& now = state_.mesh();
+        const ReorderedMesh& now = state_.mesh();
         const RunContext step = context_.step(Phase::simplify, progress_at(done_in_blocks_),
                                               progress_at(done_in_blocks_ + share));
         BlockSteps found;
         std::optional<CompactedMesh> left;
         const bool tracks_all = tracking && tracking->watched == Watched::borders_and_surface;
-        if (!tracks_all && now.positions.size() > few) left = reduce_in_rounds(least, step, found);
+        if (!tracks_all && now.positions.size() > few)
+            left = state_.simplify_in_rounds(least, options_.history, step, found);
         if (!left) {
             const BlockInput input{now.positions,   now.triangles,
                                    state_.locked(), vertices_per_block(now.positions.size(), few),
@@ -258,22 +258,6 @@ private:
         if (history_) record_blocks(found, *left);
         state_.advance_to(std::move(*left));
         return true;
-    }
-
-    std::optional<CompactedMesh> reduce_in_rounds(std::size_t least, const RunContext& context,
-                                                  BlockSteps& found) {
-        ReorderedMesh& now = state_.mesh();
-        if (!state_.original())
-            return simplify_in_rounds(
-                {now.positions, now.triangles, state_.links(), state_.locked(), &state_.borders()},
-                std::max(least, min_target_of_rounds), options_.history, context, found);
-        // The original remains. The surface from which on all faces are tracked needs no spare faces.
-        const auto target = static_cast<std::size_t>(static_cast<double>(least) / spare_faces);
-        std::vector<engine::Vector3> positions = now.positions;
-        std::vector<Triangle> triangles = now.triangles;
-        return simplify_in_rounds(
-            {positions, triangles, state_.links(), state_.locked(), &state_.borders(), Recording::on},
-            std::max(target, min_target_of_rounds), options_.history, context, found);
     }
 
     // Reserves memory for the remaining collapses as well: growing the arrays later would need twice as much.
@@ -339,7 +323,7 @@ private:
         while (results_.size() < targets_.size()) {
             set_target();
             const bool is_cancelled = !simplify_in_blocks_first();
-            state_.links() = {};
+            state_.release_links();
             EngineInput work(state_.mesh());
             RunRecorder recorder(work.collapse_mesh.vertex_slots(), history_ ? &*history_ : nullptr);
             engine::LoopResult loop_result;

@@ -48,16 +48,20 @@ public:
     /// Sets borders(). \pre advance_to() has not been called. O(faces)
     void find_planar_borders();
 
+    /// Simplifies the current surface in rounds, to spare_faces times `least` faces, or to `least` if a distance is
+    /// tracked, whose start needs no spare faces. The parameters and the result are those of detail::simplify_in_rounds().
+    /// \post advance_to() follows if there is a result, since the arrays of the current surface may be released
+    std::optional<CompactedMesh> simplify_in_rounds(std::size_t least, Recording patches,
+                                                    const engine::RunContext& context, BlockSteps& found);
+
     /// Replaces the current surface by a simplified one.
     /// \param compacted  made from mesh(); moved from
     /// Complexity: O(n)
     void advance_to(CompactedMesh&& compacted);
 
     const ReorderedMesh& mesh() const { return mesh_; }
-    /// The same surface and its links, which are known before the first advance_to(). Positions and triangles may be
-    /// released if advance_to() follows; links may be released anyway.
-    ReorderedMesh& mesh() { return mesh_; }
-    std::vector<Links>& links() { return links_; }
+    /// Releases what only simplify_in_rounds() uses, before the first advance_to(). O(1)
+    void release_links() { links_ = {}; }
     /// One per vertex slot; nonzero: must not move.
     const std::vector<std::uint8_t>& locked() const { return locked_; }
     /// One per vertex slot; nonzero: in a closed component of the preprocessed mesh.
