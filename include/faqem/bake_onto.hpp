@@ -35,9 +35,9 @@ FAQEM_EXPORT OntoOptions onto_options(std::string_view uvs, std::string_view max
 
 /// Bakes the appearance of one asset onto the surface of another one, which need not be made from it: textures,
 /// materials, UVs as OntoOptions::uvs says, and vertex normals where a normal map needs them. Both are taken in scene
-/// space, in their poses at rest; a part with several instances gets the appearance at its first one. A point of the target shows the closest point of
-/// the source on a face that is turned to the same side, or else on the back of a double-sided one. Where the target is
-/// visible from outside, a visible face of the source above the point comes before a hidden one.
+/// space, in their poses at rest; a part with several instances gets the appearance at its first one. A point of the
+/// target shows the closest point of the source on a face that is turned to the same side, or else on the back of a
+/// double-sided one.
 /// The target keeps its nodes, names, skins, morph targets and animations; its materials and vertex colours are
 /// replaced. Extensions of materials of the source are baked as by bake(); OBJ files, and files whose materials have
 /// numbers (VRM), lose them with a warning. Warnings of the models begin with `source` or `target`.

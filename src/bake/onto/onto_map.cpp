@@ -7,7 +7,6 @@
 #include "bake/source/source_normals.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/vector_conversion.hpp"
-#include "scene/visibility.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -18,9 +17,6 @@ using engine::Vector3;
 // Minimum cosine between the normals of a point of the mesh and of a face of the source on the same side; as for
 // SuccessiveProjection.
 constexpr double min_facing_cosine = 0.17;
-
-// Minimum cosine between a normal of the mesh and the way to a visible face above a hidden one.
-constexpr double min_upward_cosine = 0.7;
 
 Vector3 point_on(const TriangleMesh& mesh, Index face, const Vec3& w) {
     Vector3 p = Vector3::Zero();
@@ -35,17 +31,6 @@ Vector3 normal_at(const BakePart& part, Index face, const Vec3& w) {
         sum += w[i] * to_vector(part.normals.normals[std::size_t{3} * face + i]);
     const Vector3 of_face = oriented_face_normal(part, face), normal = unit_or_zero(sum);
     return of_face.isZero(0) || normal.isZero(0) ? of_face : normal;
-}
-
-// By face of a scene of one part: whether it is hidden from outside; empty if none is.
-std::vector<std::uint8_t> hidden_faces(const Asset& scene, const engine::RunContext& context) {
-    const VertexVisibility visibility = vertex_visibility(scene, context);
-    if (visibility.hidden_vertices == 0) return {};
-    std::vector<std::uint8_t> result;
-    for (const Triangle& t : scene.parts[0].triangles)
-        result.push_back(
-            std::ranges::all_of(t, [&](Index v) { return visibility.weights[0][v] <= min_visibility; }));
-    return result;
 }
 
 void raise(std::atomic<double>& to, double value) {
@@ -73,24 +58,6 @@ OntoMap::OntoMap(const Asset& source, const BakePart& target, double max_distanc
         is_double_sided_.resize(normals_.size(), 0);
         is_double_sided_[f] = 1;
     }
-    is_hidden_ = hidden_faces(source, context);
-    if (is_hidden_.empty()) return;
-    Asset mesh;
-    mesh.parts.resize(1);
-    mesh.parts[0].positions = target.simplified->mesh.positions;
-    mesh.parts[0].triangles = target.simplified->mesh.triangles;
-    is_hidden_in_mesh_ = hidden_faces(mesh, context);
-    is_hidden_in_mesh_.resize(target.faces(), 0);
-}
-
-double OntoMap::half_edge_squared(Index face) const {
-    const Triangle& t = target_.simplified->mesh.triangles[face];
-    double longest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto at = [&](std::size_t c) { return to_eigen(target_.simplified->mesh.positions[t[c % 3]]); };
-        longest = std::max(longest, (at(i) - at(i + 1)).squaredNorm());
-    }
-    return longest / 4;
 }
 
 Vector3 OntoMap::corner(Index face, std::size_t i) const {
@@ -123,14 +90,6 @@ SurfacePoint OntoMap::find(Index face, const Vec3& barycentric, const SurfacePoi
     Bvh::Hit hit = closest_facing(p, normal, false, near);
     if (hit.face == no_index && !is_double_sided_.empty()) hit = closest_facing(p, normal, true, near);
     if (hit.face == no_index) return {};
-    if (!is_hidden_.empty() && is_hidden_[hit.face] && !is_hidden_in_mesh_[face]) {
-        const Bvh::Hit seen = tree_.closest_if(
-            engine::to_array(p),
-            [&](Index f) { return !is_hidden_[f] && normals_[f].dot(normal) >= min_facing_cosine; },
-            std::min(max_distance_squared_, half_edge_squared(face)));
-        const Vector3 way = to_eigen(seen.point) - p;
-        if (seen.face != no_index && way.dot(normal) >= min_upward_cosine * way.norm()) hit = seen;
-    }
     is_matched_[face].store(1, std::memory_order_relaxed);
     raise(largest_distance_, std::sqrt(hit.distance_squared));
     return {hit.face, hit.barycentric, MapStep::closest};

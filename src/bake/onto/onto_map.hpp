@@ -14,9 +14,7 @@
 
 namespace faqem::detail {
 
-/// Maps points of a mesh to the closest points of a source that is turned to the same side. If a face of the mesh is seen
-/// from outside, visible faces of the source above it come before hidden ones, up to a distance of half the longest
-/// edge of the face.
+/// Maps points of a mesh to the closest points of a source that is turned to the same side.
 class OntoMap final : public PointMap {
 public:
     /// \param source        its first part, with faces; must outlive this
@@ -36,7 +34,6 @@ public:
 
 private:
     engine::Vector3 corner(Index face, std::size_t i) const;
-    double half_edge_squared(Index face) const;
     Bvh::Hit closest_facing(const engine::Vector3& p, const engine::Vector3& normal, bool from_behind,
                             const SurfacePoint* near) const;
 
@@ -45,8 +42,6 @@ private:
     const double max_distance_squared_;
     std::vector<engine::Vector3> normals_;       // by face of the source: oriented by the vertex normals
     std::vector<std::uint8_t> is_double_sided_;  // by face of the source; empty: none is
-    // By face of the source and of the mesh: hidden from outside. Empty: no face of the source is.
-    std::vector<std::uint8_t> is_hidden_, is_hidden_in_mesh_;
     Bvh tree_;
     mutable std::vector<std::atomic<std::uint8_t>> is_matched_;  // by face of the mesh
     mutable std::atomic<double> largest_distance_ = 0;
