@@ -142,7 +142,8 @@ void warn(const Asset& target, SimplifiedAsset& result) {
     const TargetCoverage& coverage = *result.report.coverage;
     if (result.asset.images.empty())
         warnings.emplace_back(
-            "no texture was made, because the source has one colour and no normal map is wanted");
+            "no texture was made, because the source has one colour; with normal_map on, one shows its "
+            "shape");
     for (const std::string& part : coverage.unmatched_parts)
         warnings.push_back(part + ": no point of the source is near it");
     if (coverage.missing_texels > max_silent_share)

@@ -3,6 +3,7 @@
 #include "faqem/bake_onto.hpp"
 #include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
+#include "support/scenes.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;
@@ -59,4 +60,26 @@ TEST_CASE("a face without a material is metal if its file is glTF") {
     const SimplifiedAsset from_gltf = bake_onto(load_glb(square_gltf()), new_square());
     CHECK(from_gltf.asset.materials.at(0).metallic == 1);
     CHECK(bake_onto(new_square(), new_square()).asset.materials.at(0).metallic == 0);
+}
+
+TEST_CASE("a target of several materials has those of the source, with its masks and its two sides") {
+    Asset source = test::textured_square(test::paint(64, 64, [](std::uint32_t x, std::uint32_t) {
+        return x < 32 ? test::Rgba{40, 200, 40, 255} : test::Rgba{0, 0, 0, 0};
+    }));
+    source.materials[0].alpha_mode = AlphaMode::mask;
+    source.materials[0].alpha_cutoff = 0.3f;
+    source.materials[0].double_sided = true;
+    Asset target = test::textured_square(test::ramp(4));
+    target.materials.push_back(target.materials[0]);
+    target.materials[1].alpha_mode = AlphaMode::blend;
+    target.parts[0].face_material = {0, 1};
+    const SimplifiedAsset baked = bake_onto(source, target, test::lossless());
+    REQUIRE(baked.asset.materials.size() == 1);
+    CHECK(baked.asset.parts[0].face_material == std::vector<Index>{0, 0});
+    CHECK(baked.asset.materials[0].alpha_mode == AlphaMode::mask);
+    CHECK(baked.asset.materials[0].alpha_cutoff == 0.3f);
+    CHECK(baked.asset.materials[0].double_sided);
+    const Pixels pixels = test::base_color_image(baked.asset);
+    CHECK(test::read(pixels, 0.25, 0.5) == std::array<double, 4>{40, 200, 40, 255});
+    CHECK(test::read(pixels, 0.75, 0.5)[3] == 0);
 }
