@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "asset/image/image_plugin.hpp"
+#include "asset/image/codecs.hpp"
 #include "asset/image/image_size.hpp"
 #include "faqem/error.hpp"
 #include "faqem/export.hpp"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "asset/image/codecs.hpp"
-#include "asset/image/image_plugin.hpp"
 #include "asset/image/image_size.hpp"
 #include "faqem/detail/base/lower_case.hpp"
 #include "faqem/error.hpp"

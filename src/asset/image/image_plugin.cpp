@@ -1,4 +1,4 @@
-#include "asset/image/image_plugin.hpp"
+#include "asset/image/codecs.hpp"
 
 #include <dlfcn.h>
 #include <link.h>
