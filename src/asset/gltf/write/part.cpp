@@ -11,7 +11,6 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
-#include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"

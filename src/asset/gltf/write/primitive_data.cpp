@@ -1,10 +1,12 @@
-#include "asset/gltf/write/primitive_data.hpp"
+// Vertex attributes of an output primitive, made valid: unit normals, tangents with the sign 1 or -1, weights that sum to
+// 1. Valid values are kept bit for bit.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "asset/gltf/write/writer.hpp"
 #include "asset/scene/affine.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "faqem/error.hpp"

@@ -11,7 +11,6 @@
 #include "asset/gltf/source_document.hpp"
 #include "asset/gltf/write/levels.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
-#include "asset/gltf/write/primitive_data.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"

@@ -15,9 +15,19 @@
 #include "asset/gltf/write/buffer_builder.hpp"
 #include "asset/gltf/write/draco_encoder.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
-#include "asset/gltf/write/primitive_data.hpp"
 
 namespace faqem::detail {
+
+/// Vertices and corners of a primitive. An array is empty if the primitive does not have the attribute.
+struct PrimitiveData {
+    std::vector<Index> vertices;  ///< used vertices of the part; ascending with FileOrder::given
+    std::vector<Index> corners;   ///< indices into `vertices`, three per triangle
+    std::vector<Vec3f> positions, normals;
+    std::vector<Vec4f> tangents, colors, weights;
+    std::vector<std::array<std::uint16_t, 4>> joints;
+    std::size_t degenerate_faces =
+        0;  ///< triangles of which two distinct corner positions are equal after rounding to float
+};
 
 /// The output document under construction, and maps from source and asset objects to output objects.
 struct GltfWriter {
@@ -95,6 +105,21 @@ Index write_source_material(GltfWriter& writer, Index material);
 /// Writes all source images, textures and materials in their order, if an extension names them by number. Images that
 /// the asset has instead of those of the source get their numbers.
 void write_numbered_objects(GltfWriter& writer);
+
+/// Chooses an origin for the positions of all parts, because the precision of floats, which glTF stores, is
+/// low far away from 0. The origin is common to all parts, so that positions they share stay equal. Each
+/// coordinate is 0 if the bounding box is close enough to 0 on that axis, otherwise a multiple of a power of
+/// two of about the size of the bounding box.
+Vec3 local_origin(const std::vector<Part>& parts);
+
+/// Gathers the vertices and corners of some faces of a part, in the order of Part::file_order. Zero normals are replaced by the area-weighted
+/// mean of the adjacent face normals.
+/// \param faces    indices of triangles of the part
+/// \param origin   subtracted from the positions
+/// \param scratch  one no_index per vertex of the part; restored on return
+/// \throws WriteError  if a position exceeds the range of float
+PrimitiveData gather_primitive(const Part& part, const std::vector<Index>& faces, const Vec3& origin,
+                               std::vector<Index>& scratch);
 
 /// The members that the output primitive of a part with the given asset material keeps from the source:
 /// extras and extensions of the corresponding triangle primitives, if these agree. Extensions that do not fit
