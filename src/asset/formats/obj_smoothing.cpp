@@ -85,9 +85,7 @@ void add_smoothed_normals(std::span<const Vec3> positions, std::span<const std::
         for (CornerKey& corner : face) {
             if (corner[2] != no_index) continue;
             const Vec3 n = group == 0 ? own : direction(sums[shared.insert({corner[0], group})]);
-            if (dot(n, n) > 0)
-                corner[2] = first_new + distinct.insert({static_cast<float>(n[0]), static_cast<float>(n[1]),
-                                                         static_cast<float>(n[2])});
+            if (dot(n, n) > 0) corner[2] = first_new + distinct.insert(converted<float>(n));
         }
     });
     normals.insert(normals.end(), distinct.values().begin(), distinct.values().end());

@@ -131,10 +131,8 @@ std::vector<Matrix4> instance_matrices(const SourceDocument& source, const Json&
     const auto rotation = attribute_values<float, 4>(source, attributes, "ROTATION", count, {0, 0, 0, 1});
     const auto scale = attribute_values<double, 3>(source, attributes, "SCALE", count, {1, 1, 1});
     matrices.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vec4f& r = rotation[i];
-        matrices.push_back(transform_matrix(translation[i], {r[0], r[1], r[2], r[3]}, scale[i]));
-    }
+    for (std::size_t i = 0; i < count; ++i)
+        matrices.push_back(transform_matrix(translation[i], converted<double>(rotation[i]), scale[i]));
     return matrices;
 }
 

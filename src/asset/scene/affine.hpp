@@ -101,6 +101,14 @@ double largest_component(const Vectors& vectors) {
     return most;
 }
 
+/// The numbers of an array as those of another type.
+template <class To, class From, std::size_t N>
+std::array<To, N> converted(const std::array<From, N>& numbers) {
+    std::array<To, N> result;
+    std::ranges::transform(numbers, result.begin(), [](From x) { return static_cast<To>(x); });
+    return result;
+}
+
 // Arithmetic of vectors, since the readers and writers are compiled without Eigen.
 inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

@@ -37,8 +37,6 @@ struct MeshGrid {
 
     /// A displacement in steps.
     double steps(float displacement) const;
-
-    bool operator==(const MeshGrid&) const = default;
 };
 
 /// Chooses the grid of a mesh by Part::position_spacing. Without an origin if possible, so that most meshes of a scene

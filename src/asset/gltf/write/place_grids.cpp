@@ -75,29 +75,24 @@ Index add_floats(GltfWriter& writer, const std::vector<std::array<float, N>>& va
 /// Copies the instances of a node. Those of a mesh on a grid are scaled, which a transform of the node could not do.
 void write_instances(GltfWriter& writer, Json& node) {
     Json& attributes = node["extensions"][instancing_name]["attributes"];
-    if (is_grid_node(writer, node)) {
+    const bool is_on_grid = is_grid_node(writer, node);
+    std::vector<Vec3f> translations, scales;
+    if (is_on_grid) {
         const MeshGrid& grid = writer.grids[node["mesh"].get<Index>()];
-        const Vec3 offset = grid.offset();
-        std::vector<Vec3f> translations, scales;
-        for (const Matrix4& m : instance_matrices(writer.source, node)) {
-            const Vec3 t = transformed_point(m, offset);
-            translations.push_back(
-                {static_cast<float>(t[0]), static_cast<float>(t[1]), static_cast<float>(t[2])});
-        }
+        for (const Matrix4& m : instance_matrices(writer.source, node))
+            translations.push_back(converted<float>(transformed_point(m, grid.offset())));
         const Index scale = index_member(attributes, "SCALE");
         if (scale != no_index) scales = read_vectors<float, 3>(writer.source, scale);
         scales.resize(translations.size(), {1, 1, 1});
         for (Vec3f& s : scales)
             for (float& x : s) x = static_cast<float>(x * grid.spacing);
-        for (auto& [name, accessor] : attributes.items())
-            if (name != "TRANSLATION" && name != "SCALE")
-                accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
-        attributes["TRANSLATION"] = add_floats(writer, translations, "VEC3", AccessorUse::other);
-        attributes["SCALE"] = add_floats(writer, scales, "VEC3", AccessorUse::other);
-        return;
     }
     for (auto& [name, accessor] : attributes.items())
-        accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
+        if (!is_on_grid || (name != "TRANSLATION" && name != "SCALE"))
+            accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
+    if (!is_on_grid) return;
+    attributes["TRANSLATION"] = add_floats(writer, translations, "VEC3", AccessorUse::other);
+    attributes["SCALE"] = add_floats(writer, scales, "VEC3", AccessorUse::other);
 }
 
 /// Writes the inverse bind matrices of a skin, multiplied by the transform of a grid.
@@ -109,11 +104,8 @@ void write_bind_matrices(GltfWriter& writer, Json& skin, const MeshGrid& grid) {
     }
     if (!grid.needs_transform()) return;
     std::vector<std::array<float, 16>> matrices;
-    for (const Matrix4& m : inverse_binds(writer.source, skin).matrices) {
-        const Matrix4 scaled = product(m, matrix_of(grid));
-        std::ranges::transform(scaled, matrices.emplace_back().begin(),
-                               [](double x) { return static_cast<float>(x); });
-    }
+    for (const Matrix4& m : inverse_binds(writer.source, skin).matrices)
+        matrices.push_back(converted<float>(product(m, matrix_of(grid))));
     skin["inverseBindMatrices"] = add_floats(writer, matrices, "MAT4", AccessorUse::matrices);
 }
 
