@@ -32,7 +32,7 @@ std::vector<std::uint32_t> sparse_indices(const SourceDocument& source, const Js
 }
 
 template <class T, class Stored>
-T converted(Stored value, bool is_normalized) {
+T converted_number(Stored value, bool is_normalized) {
     constexpr double largest{std::numeric_limits<Stored>::max()};
     if (std::is_floating_point_v<T> && std::is_integral_v<Stored> && is_normalized)
         return static_cast<T>(std::max(value / largest, -1.0));
@@ -56,7 +56,7 @@ void copy_elements(const SourceDocument& source, Index index, T fill, T* to) {
         for (T* const end = to + count * N; to != end; to += N) {
             std::fill_n(to, N, fill);
             for (std::size_t c = 0; c < components; ++c, bytes += sizeof number)
-                if (c < N) to[c] = converted<T>(load_number<decltype(number)>(bytes), is_normalized);
+                if (c < N) to[c] = converted_number<T>(load_number<decltype(number)>(bytes), is_normalized);
         }
     });
 }
