@@ -1,25 +1,15 @@
-// Points, triangles and bounding boxes in the plane, compared with closed forms and with complex numbers.
+// Points, triangles and bounding boxes in the plane, compared with closed forms.
 
 #include "bake/atlas/point2.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
-#include <random>
 
 using namespace faqem::detail;
 
 namespace {
-
-using Complex = std::complex<double>;
-
-/// A point as a complex number.
-Complex complex(const Point2& p) { return {p.x, p.y}; }
-
-/// A complex number as a point.
-Point2 point(const Complex& z) { return {z.real(), z.imag()}; }
 
 /// The unit vector at an angle to the x axis.
 Point2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -110,24 +100,4 @@ TEST_CASE("a bounding box contains its points and nothing more") {
     CHECK((wider.low == Point2{-2.5, -1.5} && wider.high == Point2{3.5, 5.5}));
     const Box2 same = bounding_box(Triangle2{Point2{3, -1}, {-2, 5}, {0, 0}});
     CHECK((same.low == box.low && same.high == box.high));
-}
-
-TEST_CASE("points agree with complex numbers to the last bit") {
-    // Earlier versions computed charts with std::complex<double>.
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> number(-100, 100);
-    for (int round = 0; round < 10000; ++round) {
-        const Point2 a = {number(random), number(random)}, b = {number(random), number(random)};
-        const Complex z = complex(a), w = complex(b), product = std::conj(z) * w;
-        const double t = number(random);
-        REQUIRE(a + b == point(z + w));
-        REQUIRE(a - b == point(z - w));
-        REQUIRE(a * t == point(t * z));
-        REQUIRE(dot(a, b) == product.real());
-        REQUIRE(cross(a, b) == product.imag());
-        REQUIRE(length(a) == std::abs(z));
-        REQUIRE(squared_length(a) == std::norm(z));
-        REQUIRE(rotated(a, b) == point(z * w));
-        REQUIRE(Point2{a.x / length(a), -a.y / length(a)} == point(std::conj(z) / std::abs(z)));
-    }
 }

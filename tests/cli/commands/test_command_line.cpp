@@ -1,3 +1,6 @@
+#include <map>
+#include <string>
+
 #include "faqem/version.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
@@ -130,7 +133,8 @@ TEST_CASE("an output file that is the input is rejected, also through links") {
     const std::string before = read(folder / "in.glb");
     fs::create_symlink("in.glb", folder / "link.glb");
     fs::create_hard_link(folder / "in.glb", folder / "hard.glb");
-    for (const char* out : {"in.glb", "./in.glb", "link.glb", "hard.glb"}) {
+    fs::create_directory_symlink(".", folder / "here");
+    for (const char* out : {"in.glb", "./in.glb", "link.glb", "hard.glb", "here/in.glb"}) {
         CAPTURE(out);
         CHECK(run(folder, std::string("simplify in.glb ") + out).code == 2);
         CHECK(run(folder, std::string("simplify --force in.glb ") + out).code == 2);
@@ -139,7 +143,6 @@ TEST_CASE("an output file that is the input is rejected, also through links") {
     }
     CHECK(run(folder, "simplify in.glb new.glb --report new.glb").code == 2);
     CHECK(run(folder, "simplify in.glb new.glb --report r --history ./r").code == 2);
-    fs::create_directory_symlink(".", folder / "here");
     for (const char* same : {"\"$PWD/new.glb\"", "here/new.glb", "../$(basename \"$PWD\")/new.glb"}) {
         CAPTURE(same);
         const Outcome outcome =
@@ -153,20 +156,25 @@ TEST_CASE("an output file that is the input is rejected, also through links") {
     CHECK(!fs::exists(folder / "new.glb"));
 }
 
-TEST_CASE("simplify and render overwrite existing files only with --force") {
+TEST_CASE("existing files are overwritten only with --force") {
     const ModelFolder folder("in.glb", sheet(8));
-    write(folder / "out.glb", "precious");
-    write(folder / "report.json", "precious");
-    write(folder / "out.png", "precious");
-    CHECK(run(folder, "simplify in.glb out.glb").code == 7);
-    CHECK(run(folder, "simplify in.glb new.glb --report report.json").code == 7);
-    CHECK(run(folder, "render in.glb out.png --size 16").code == 7);
-    for (const char* file : {"out.glb", "report.json", "out.png"}) CHECK(read(folder / file) == "precious");
-    CHECK(!fs::exists(folder / "new.glb"));
-
-    CHECK(run(folder, "simplify in.glb out.glb --bake none --report report.json --force").code == 0);
-    CHECK(run(folder, "render in.glb out.png --size 16 --force").code == 0);
-    for (const char* file : {"out.glb", "report.json", "out.png"}) CHECK(read(folder / file) != "precious");
+    const std::map<std::string, std::string> commands = {
+        {"out.glb", "simplify in.glb out.glb --bake none"},
+        {"report.json", "simplify in.glb new.glb --bake none --report report.json"},
+        {"out.png", "render in.glb out.png --size 16"},
+        {"in_LOD1.glb", "lod in.glb . --levels 0.5 --bake none"},
+        {"page.html", "report in.glb in.glb page.html --without-view --size 16 --views 1 --samples 100"}};
+    for (const auto& [file, command] : commands) {
+        CAPTURE(command);
+        write(folder / file, "precious");
+        CHECK(run(folder, command).code == 7);
+        CHECK(read(folder / file) == "precious");
+        for (const char* other : {"new.glb", "in_LOD0.glb"}) CHECK(!fs::exists(folder / other));
+    }
+    for (const auto& [file, command] : commands) {
+        CHECK(run(folder, command + " --force").code == 0);
+        CHECK(read(folder / file) != "precious");
+    }
 }
 
 TEST_CASE("output files that cannot be written are reported before the input is read") {

@@ -138,17 +138,6 @@ TEST_CASE("levels of a mesh ten million units from the origin keep shape and pos
     }
 }
 
-TEST_CASE("lod overwrites existing files only with --force") {
-    const ModelFolder folder("a.glb", sheet(8, 0.2));
-    write(folder / "a_LOD1.glb", "mine");
-    const std::string command = "lod a.glb . --levels 0.5 --bake none";
-    CHECK(run(folder, command).code == 7);
-    CHECK(read(folder / "a_LOD1.glb") == "mine");
-    CHECK_FALSE(fs::exists(folder / "a_LOD0.glb"));
-    CHECK(run(folder, command + " --force").code == 0);
-    CHECK(close_to(faces(folder / "a_LOD1.glb"), 64));
-}
-
 TEST_CASE("lod writes nothing if a level misses its target or maximum error") {
     const ModelFolder folder("a.glb", sheet(8, 0.2));
     const Outcome outcome =

@@ -76,13 +76,9 @@ TEST_CASE("file names are escaped in a report page") {
     CHECK(has(read(folder / "p.html"), "&lt;script&gt;&amp;.glb"));
 }
 
-TEST_CASE("report overwrites a file only with --force and writes only .html files") {
+TEST_CASE("report writes only .html files") {
     const Folder folder;
     save_two(folder);
-    write(folder / "page.html", "mine");
-    CHECK(run(folder, std::string("report a.glb b.glb -o page.html") + small).code == 7);
-    CHECK(read(folder / "page.html") == "mine");
-    CHECK(run(folder, std::string("report a.glb b.glb -o page.html --force") + small).code == 0);
     CHECK(run(folder, "report a.glb b.glb -o page.pdf").code == 2);
     CHECK(run(folder, "report a.glb b.glb").code == 2);
     CHECK(run(folder, "report a.glb missing.glb -o other.html").code == 3);

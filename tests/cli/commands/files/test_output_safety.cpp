@@ -112,18 +112,6 @@ TEST_CASE("an output directory that is not writable exits with 7") {
     CHECK(contains(outcome.err, "/proc/new.glb: cannot create a temporary file in its folder"));
 }
 
-TEST_CASE("an output file that is the input in a linked directory is rejected") {
-    const Folder folder;
-    fs::create_directory(folder / "real");
-    fs::create_directory_symlink("real", folder / "alias");
-    faqem::save(sheet(4), folder / "real/in.glb");
-    const std::string before = read(folder / "real/in.glb");
-    const Outcome outcome = run(folder, "simplify real/in.glb alias/in.glb --force");
-    CHECK(outcome.code == 2);
-    CHECK(contains(outcome.err, "is the same file as the input"));
-    CHECK(read(folder / "real/in.glb") == before);
-}
-
 TEST_CASE("the next run in a folder removes temporary files of dead runs, but not those in use") {
     const ModelFolder folder("in.glb", sheet(4));
     fs::create_directory(folder / "out");
