@@ -12,6 +12,7 @@
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/messages.hpp"
+#include "asset/scene/rest_pose.hpp"
 #include "bake/onto/onto_map.hpp"
 #include "bake/onto/onto_target.hpp"
 #include "bake/scene/unencoded_result.hpp"
@@ -78,12 +79,18 @@ Asset flat_source(const Asset& source, bool keeps_extensions, Report& report) {
 }
 
 /// Bakes the pages, and puts the result together.
-void bake_parts(const Asset& source, const Asset& target, const Options& options, const OntoOptions& onto,
-                double max_distance, const RunContext& context, SimplifiedAsset& result) {
+/// \param source  the scene as one part
+void bake_parts(const Asset& scene, const Asset& source, const Asset& target, const Options& options,
+                const OntoOptions& onto, double max_distance, const RunContext& context,
+                SimplifiedAsset& result) {
     detail::FlatTarget flat = detail::flat_target(target);
     if (flat.flat.triangles.empty()) throw InputError("", "target", "its scene has no faces");
     const auto mesh = detail::target_mesh(flat.flat, options.bake, context);
-    auto own_map = std::make_unique<const detail::OntoMap>(source, mesh->part, max_distance, context);
+    auto own_map = std::make_unique<const detail::OntoMap>(
+        source, mesh->part,
+        detail::pair_parts(detail::boxed_parts(scene, detail::posed_instances(scene), source.parts[0]),
+                           detail::boxed_parts(target, flat.pieces, flat.flat)),
+        max_distance, context);
     const detail::OntoMap& map = *own_map;
     // For baking the source is the original of the mesh.
     mesh->part.source = &source.parts[0];
@@ -188,7 +195,7 @@ SimplifiedAsset bake_onto(const Asset& given_source, const Asset& given_target, 
         const Asset flat = flat_source(source, keeps_extensions, result.report);
         const double max_distance =
             detail::scene_size(source)(onto.max_distance.value_or(of_diagonal(usual_max_distance)));
-        bake_parts(flat, target, options, onto, max_distance, context, result);
+        bake_parts(source, flat, target, options, onto, max_distance, context, result);
         for (Material& material : result.asset.materials) {
             material.rebaked = true;  // variants of the target are of other materials
             if (!keeps_extensions) material.source = no_index;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bake/parts/corner_normals.hpp"
 #include "bake/source/source_normals.hpp"
@@ -41,10 +42,11 @@ void raise(std::atomic<double>& to, double value) {
 
 }  // namespace
 
-OntoMap::OntoMap(const Asset& source, const BakePart& target, double max_distance,
+OntoMap::OntoMap(const Asset& source, const BakePart& target, FacePairs pairs, double max_distance,
                  const engine::RunContext& context)
     : source_(source.parts[0]),
       target_(target),
+      pairs_(std::move(pairs)),
       max_distance_squared_(max_distance * max_distance),
       normals_(source_.triangles.size()),
       tree_(source_.positions, source_.triangles, context),
@@ -64,13 +66,16 @@ Vector3 OntoMap::corner(Index face, std::size_t i) const {
     return to_eigen(source_.positions[source_.triangles[face][i]]);
 }
 
-Bvh::Hit OntoMap::closest_facing(const Vector3& p, const Vector3& normal, bool from_behind,
+bool OntoMap::is_shown(Index face, const Vector3& normal, bool from_behind, Index f) const {
+    if (!pairs_.show(face, f)) return false;
+    if (normal.isZero(0)) return true;
+    return from_behind ? is_double_sided_[f] && normals_[f].dot(normal) <= -min_facing_cosine
+                       : normals_[f].dot(normal) >= min_facing_cosine;
+}
+
+Bvh::Hit OntoMap::closest_facing(Index face, const Vector3& p, const Vector3& normal, bool from_behind,
                                  const SurfacePoint* near) const {
-    const auto faces_point = [&](Index f) {
-        if (normal.isZero(0)) return true;
-        return from_behind ? is_double_sided_[f] && normals_[f].dot(normal) <= -min_facing_cosine
-                           : normals_[f].dot(normal) >= min_facing_cosine;
-    };
+    const auto faces_point = [&](Index f) { return is_shown(face, normal, from_behind, f); };
     Bvh::Hit known;
     if (near && faces_point(near->face)) {
         const ClosestPoint at =
@@ -87,8 +92,8 @@ Bvh::Hit OntoMap::closest_facing(const Vector3& p, const Vector3& normal, bool f
 SurfacePoint OntoMap::find(Index face, const Vec3& barycentric, const SurfacePoint* near) const {
     const Vector3 p = point_on(target_.simplified->mesh, face, barycentric),
                   normal = normal_at(target_, face, barycentric);
-    Bvh::Hit hit = closest_facing(p, normal, false, near);
-    if (hit.face == no_index && !is_double_sided_.empty()) hit = closest_facing(p, normal, true, near);
+    Bvh::Hit hit = closest_facing(face, p, normal, false, near);
+    if (hit.face == no_index && !is_double_sided_.empty()) hit = closest_facing(face, p, normal, true, near);
     if (hit.face == no_index) return {};
     is_matched_[face].store(1, std::memory_order_relaxed);
     raise(largest_distance_, std::sqrt(hit.distance_squared));

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bake/onto/pair_parts.hpp"
 #include "bake/parts/corners.hpp"
 #include "bake/parts/point_map.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
@@ -14,13 +15,15 @@
 
 namespace faqem::detail {
 
-/// Maps points of a mesh to the closest points of a source that is turned to the same side.
+/// Maps points of a mesh to the closest points of a source that is turned to the same side, except for those of parts
+/// that belong to other parts of the mesh.
 class OntoMap final : public PointMap {
 public:
     /// \param source        its first part, with faces; must outlive this
     /// \param target        the mesh with its normals, in the space of the source; must outlive this
+    /// \param pairs         of their parts
     /// \param max_distance  of find()
-    OntoMap(const Asset& source, const BakePart& target, double max_distance,
+    OntoMap(const Asset& source, const BakePart& target, FacePairs pairs, double max_distance,
             const engine::RunContext& context);
 
     /// The point of find() or, if there is none, the closest one of all.
@@ -34,11 +37,13 @@ public:
 
 private:
     engine::Vector3 corner(Index face, std::size_t i) const;
-    Bvh::Hit closest_facing(const engine::Vector3& p, const engine::Vector3& normal, bool from_behind,
-                            const SurfacePoint* near) const;
+    bool is_shown(Index face, const engine::Vector3& normal, bool from_behind, Index of_source) const;
+    Bvh::Hit closest_facing(Index face, const engine::Vector3& p, const engine::Vector3& normal,
+                            bool from_behind, const SurfacePoint* near) const;
 
     const Part& source_;
     const BakePart& target_;
+    const FacePairs pairs_;
     const double max_distance_squared_;
     std::vector<engine::Vector3> normals_;       // by face of the source: oriented by the vertex normals
     std::vector<std::uint8_t> is_double_sided_;  // by face of the source; empty: none is

@@ -146,6 +146,37 @@ TEST_CASE("nested shells each show their own one") {
           }) < 1e-6);
 }
 
+TEST_CASE("a part shows that of its name, although another one is nearer") {
+    const auto sphere = [](double radius, const char* name, const Vec4f& color) {
+        Asset result = painted(scaled(icosphere(3), radius), color);
+        result.parts[0].name = name;
+        return result;
+    };
+    const Asset source = together(sphere(1, "bolt", red), sphere(1.02, "nut", blue));
+    const bool named = GENERATE(true, false);
+    const Asset target =
+        together(sphere(1.005, named ? "nut" : "", red), sphere(1.015, named ? "bolt" : "", red));
+    const SimplifiedAsset baked = bake_onto(source, target, lossless());
+    CHECK(worst(baked.asset, [&](std::size_t part, const Vec3&) {
+              return (part == 0) == named ? Color{0, 0, 255} : Color{255, 0, 0};
+          }) < 1e-6);
+}
+
+TEST_CASE("parts without names show those whose boxes are like theirs, and a whole all of them") {
+    const TriangleMesh left = icosphere(4), right = moved(left, {1.2, 0, 0});
+    const Asset source = together(painted(left, red), painted(right, blue));
+    const Asset target = together(plain(scaled(left, 1.01)), plain(right));
+    const SimplifiedAsset each = bake_onto(source, target, lossless());
+    CHECK(worst(each.asset, [](std::size_t part, const Vec3&) {
+              return part == 0 ? Color{255, 0, 0} : Color{0, 0, 255};
+          }) < 1e-6);
+    const SimplifiedAsset whole = bake_onto(source, plain(both(left, right)), lossless());
+    for_each_color(whole.asset, [](std::size_t, const Vec3& p, const Color& got) {
+        if (p[0] < 0) CHECK(got[0] > 254);
+        if (p[0] > 1.2) CHECK(got[2] > 254);
+    });
+}
+
 TEST_CASE("texels above a hole of the source are counted, and have the colours around it") {
     TriangleMesh holed = moved(grid(16), {});
     std::erase_if(holed.triangles, [&](const Triangle& t) {

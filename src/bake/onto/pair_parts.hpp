@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// Which parts of two scenes are the same thing.
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "faqem/asset.hpp"
+#include "faqem/engine/mesh/vector.hpp"
+
+namespace faqem::detail {
+
+/// The boxes of instances of parts in world space.
+struct BoxedParts {
+    std::vector<std::string> names;
+    std::vector<Eigen::AlignedBox3d> boxes;
+    std::vector<Index> of_face;
+};
+
+/// \param instances  with their parts, in the order of the faces of `flat`
+template <class Instances>
+BoxedParts boxed_parts(const Asset& asset, const Instances& instances, const Part& flat) {
+    BoxedParts result;
+    for (const auto& instance : instances) {
+        const Part& part = asset.parts[instance.part];
+        Eigen::AlignedBox3d& box = result.boxes.emplace_back();
+        for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+            for (const Index v : flat.triangles[result.of_face.size()])
+                box.extend(engine::to_eigen(flat.positions[v]));
+            result.of_face.push_back(static_cast<Index>(result.names.size()));
+        }
+        result.names.push_back(part.name);
+    }
+    return result;
+}
+
+/// By face: the number of the pair of its part, from 1 on; 0: it has none. A pair has one part of the target.
+struct FacePairs {
+    std::vector<Index> source, target;
+
+    /// Whether a face of the target may show one of the source, which must not belong to another part of the target.
+    bool show(Index target_face, Index source_face) const {
+        if (target.empty() || target[target_face] == 0) return true;
+        const Index other = source[source_face];
+        return other == 0 || other == target[target_face];
+    }
+};
+
+/// A part of the source belongs to the part of the target that has its name and a box that touches, otherwise to the one
+/// whose box is most like its own, if they have more than half of their volume in common.
+/// \return empty if one of the scenes has a single part
+FacePairs pair_parts(const BoxedParts& source, const BoxedParts& target);
+
+}  // namespace faqem::detail
