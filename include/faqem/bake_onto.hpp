@@ -36,11 +36,9 @@ FAQEM_EXPORT OntoOptions onto_options(std::string_view uvs, std::string_view max
 /// Bakes the appearance of one asset onto the surface of another one, which need not be made from it: textures,
 /// materials, UVs as OntoOptions::uvs says, and vertex normals where a normal map needs them. Both are taken in scene
 /// space, in their poses at rest; a part with several instances gets the appearance at its first one. A point of the
-/// target shows the nearest point of the source along its normal, in both directions, on a face that is turned to the
-/// same side, up to three times as far as the closest such point, which it shows if there is none; or else the closest
-/// one on the back of a double-sided face. Where both have several parts, a part does not show what belongs to another
-/// one: parts belong together if they have the same name and touch, or else boxes with more than half of their volume
-/// in common.
+/// target shows the closest point of the source on a face that is turned to the same side, or else on the back of a
+/// double-sided one. Where both have several parts, a part does not show what belongs to another one: parts belong
+/// together if they have the same name and touch, or else boxes with more than half of their volume in common.
 /// The target keeps its nodes, names, skins, morph targets and animations; its materials and vertex colours are
 /// replaced. Extensions of materials of the source are baked as by bake(); OBJ files, and files whose materials have
 /// numbers (VRM), lose them with a warning. Warnings of the models begin with `source` or `target`.

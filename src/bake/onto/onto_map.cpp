@@ -19,9 +19,6 @@ using engine::Vector3;
 // SuccessiveProjection.
 constexpr double min_facing_cosine = 0.17;
 
-// Length along the normal of the mesh to a plane, over the distance of the plane, at most: for an angle of 70 degrees.
-constexpr double max_slant = 3;
-
 Vector3 point_on(const TriangleMesh& mesh, Index face, const Vec3& w) {
     Vector3 p = Vector3::Zero();
     for (std::size_t i = 0; i < 3; ++i) p += w[i] * to_eigen(mesh.positions[mesh.triangles[face][i]]);
@@ -92,35 +89,10 @@ Bvh::Hit OntoMap::closest_facing(Index face, const Vector3& p, const Vector3& no
     return hit.face != no_index ? hit : known;
 }
 
-// The nearest point along the normal, in both directions.
-Bvh::Hit OntoMap::along_normal(Index face, const Vector3& p, const Vector3& normal, double range) const {
-    Bvh::Hit result{.distance_squared = std::min(range * range, max_distance_squared_)};
-    Vector3 point;
-    tree_.any_hit(engine::to_array(p - range * normal), engine::to_array(normal), [&](Index f, Bvh::Side) {
-        if (!is_shown(face, normal, false, f)) return false;
-        const double t = (corner(f, 0) - p).dot(normals_[f]) / normals_[f].dot(normal);
-        if (t * t < result.distance_squared || (t * t == result.distance_squared && f < result.face)) {
-            result.face = f;
-            result.distance_squared = t * t;
-            point = p + t * normal;
-        }
-        return false;
-    });
-    if (result.face == no_index) return result;
-    const ClosestPoint at = closest_point_on_triangle(point, corner(result.face, 0), corner(result.face, 1),
-                                                      corner(result.face, 2));
-    result.barycentric = engine::to_array(at.barycentric);
-    return result;
-}
-
 SurfacePoint OntoMap::find(Index face, const Vec3& barycentric, const SurfacePoint* near) const {
     const Vector3 p = point_on(target_.simplified->mesh, face, barycentric),
                   normal = normal_at(target_, face, barycentric);
     Bvh::Hit hit = closest_facing(face, p, normal, false, near);
-    if (hit.face != no_index && hit.distance_squared > 0 && !normal.isZero(0)) {
-        const Bvh::Hit seen = along_normal(face, p, normal, max_slant * std::sqrt(hit.distance_squared));
-        if (seen.face != no_index) hit = seen;
-    }
     if (hit.face == no_index && !is_double_sided_.empty()) hit = closest_facing(face, p, normal, true, near);
     if (hit.face == no_index) return {};
     is_matched_[face].store(1, std::memory_order_relaxed);

@@ -15,9 +15,8 @@
 
 namespace faqem::detail {
 
-/// Maps points of a mesh to points of a source that is turned to the same side, except for those of parts that belong to
-/// other parts of the mesh: to the nearest one along the normal of the mesh, within a small multiple of the distance of
-/// the source, else to the closest one.
+/// Maps points of a mesh to the closest points of a source that is turned to the same side, except for those of parts
+/// that belong to other parts of the mesh.
 class OntoMap final : public PointMap {
 public:
     /// \param source        its first part, with faces; must outlive this
@@ -39,8 +38,6 @@ public:
 private:
     engine::Vector3 corner(Index face, std::size_t i) const;
     bool is_shown(Index face, const engine::Vector3& normal, bool from_behind, Index of_source) const;
-    Bvh::Hit along_normal(Index face, const engine::Vector3& p, const engine::Vector3& normal,
-                          double range) const;
     Bvh::Hit closest_facing(Index face, const engine::Vector3& p, const engine::Vector3& normal,
                             bool from_behind, const SurfacePoint* near) const;
 

@@ -146,20 +146,6 @@ TEST_CASE("nested shells each show their own one") {
           }) < 1e-6);
 }
 
-TEST_CASE("a point shows what is above or below it, not what is closest") {
-    TriangleMesh slope = grid(8);
-    for (Vec3& p : slope.positions) p[2] = 0.5 * (p[0] - 4);
-    const Asset source = painted(slope, [](const Vec3& p) {
-        return Vec4f{float(0.25 + p[0] / 16), 0, 0, 1};
-    });
-    const SimplifiedAsset baked =
-        bake_onto(source, plain(scaled(grid(1), 8)), lossless(), {.max_distance = model_units(3)});
-    // The closest point of the slope to the one at x is at 4 + (x - 4) / 1.25.
-    CHECK(worst(baked.asset, [](std::size_t, const Vec3& p) {
-              return Color{255 * detail::srgb_from_linear(0.25 + p[0] / 16), 0, 0};
-          }) < 4);
-}
-
 TEST_CASE("a part shows that of its name, although another one is nearer") {
     const auto sphere = [](double radius, const char* name, const Vec4f& color) {
         Asset result = painted(scaled(icosphere(3), radius), color);
