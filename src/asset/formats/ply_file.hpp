@@ -88,20 +88,17 @@ public:
     [[noreturn]] void fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
 
     double value(NumberType type) {
-        return visit_type(type, [&](auto number) -> double { return take<decltype(number)>(); });
+        return visit_type(type, [&](auto number) -> double {
+            if (remaining_bytes() < sizeof(number)) fail("unexpected end of the file");
+            std::array<std::uint8_t, sizeof(number)> bytes;
+            std::memcpy(bytes.data(), at_, sizeof(number));
+            at_ += sizeof(number);
+            if (swap_) std::reverse(bytes.begin(), bytes.end());
+            return std::bit_cast<decltype(number)>(bytes);
+        });
     }
 
 private:
-    template <class T>
-    T take() {
-        if (remaining_bytes() < sizeof(T)) fail("unexpected end of the file");
-        std::array<std::uint8_t, sizeof(T)> bytes;
-        std::memcpy(bytes.data(), at_, sizeof(T));
-        at_ += sizeof(T);
-        if (swap_) std::reverse(bytes.begin(), bytes.end());
-        return std::bit_cast<T>(bytes);
-    }
-
     const std::uint8_t* at_;
     const std::uint8_t* end_;
     std::string file_;
