@@ -84,8 +84,10 @@ faqem_status faqem_asset_bake_onto(const faqem_asset* source, const faqem_asset*
                                    faqem_asset** baked, faqem_error* error) {
     return capi::catch_exceptions(error, {{source, "source"}, {target, "target"}, {baked, "baked"}}, [&] {
         const OntoOptions onto = onto_options(uvs ? uvs : "", max_distance ? max_distance : "");
-        *baked = new faqem_asset(
-            bake_onto(source->asset, target->asset, capi::options_or_defaults(options), onto));
+        SimplifiedAsset made =
+            bake_onto(source->asset, target->asset, capi::options_or_defaults(options), onto);
+        capi::warn_of_idle_options(options, target->asset, made.report);
+        *baked = new faqem_asset(std::move(made));
     });
 }
 

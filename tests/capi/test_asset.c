@@ -46,6 +46,11 @@ static void a_model_is_saved_loaded_and_simplified(void) {
     CHECK(faqem_asset_bake_onto(loaded, simplified, "new", "1%", options, &baked, &error) == FAQEM_OK);
     CHECK(faqem_asset_face_count(baked, 0) == faqem_asset_face_count(simplified, 0));
     CHECK(strstr(faqem_asset_report_json(baked), "\"missing_texels\": 0.0") != NULL);
+    faqem_asset_destroy(baked);
+    CHECK(faqem_options_set(options, "compress", "none", &error) == FAQEM_OK);
+    CHECK(faqem_options_set(options, "uv-bits", "12", &error) == FAQEM_OK);
+    CHECK(faqem_asset_bake_onto(loaded, simplified, "", "", options, &baked, &error) == FAQEM_OK);
+    CHECK(strstr(faqem_asset_report_json(baked), "uv_bits has no effect") != NULL);
     CHECK(faqem_asset_bake_onto(loaded, simplified, "old", NULL, NULL, &baked, &error) == FAQEM_ERROR_OPTION);
     CHECK(strstr(error.message, "'old' is not auto, keep or new") != NULL);
     faqem_asset_destroy(baked);
