@@ -66,16 +66,14 @@ Vector3 OntoMap::corner(Index face, std::size_t i) const {
     return to_eigen(source_.positions[source_.triangles[face][i]]);
 }
 
-bool OntoMap::is_shown(Index face, const Vector3& normal, bool from_behind, Index f) const {
-    if (!pairs_.show(face, f)) return false;
-    if (normal.isZero(0)) return true;
-    return from_behind ? is_double_sided_[f] && normals_[f].dot(normal) <= -min_facing_cosine
-                       : normals_[f].dot(normal) >= min_facing_cosine;
-}
-
 Bvh::Hit OntoMap::closest_facing(Index face, const Vector3& p, const Vector3& normal, bool from_behind,
                                  const SurfacePoint* near) const {
-    const auto faces_point = [&](Index f) { return is_shown(face, normal, from_behind, f); };
+    const auto faces_point = [&](Index f) {
+        if (!pairs_.show(face, f)) return false;
+        if (normal.isZero(0)) return true;
+        return from_behind ? is_double_sided_[f] && normals_[f].dot(normal) <= -min_facing_cosine
+                           : normals_[f].dot(normal) >= min_facing_cosine;
+    };
     Bvh::Hit known;
     if (near && faces_point(near->face)) {
         const ClosestPoint at =

@@ -37,7 +37,6 @@ public:
 
 private:
     engine::Vector3 corner(Index face, std::size_t i) const;
-    bool is_shown(Index face, const engine::Vector3& normal, bool from_behind, Index of_source) const;
     Bvh::Hit closest_facing(Index face, const engine::Vector3& p, const engine::Vector3& normal,
                             bool from_behind, const SurfacePoint* near) const;
 

@@ -238,9 +238,10 @@ inline CompactedMesh surface_of(const Mesh& mesh, std::size_t slots) {
         out.positions.push_back(engine::to_eigen(at.p));
     }
     for (Index v = 0; v < mesh.merged_into.size(); ++v) {
-        Index survivor = v;
-        while (mesh.merged_into[survivor] != no_index) survivor = mesh.merged_into[survivor];
-        out.vertex_map[v] = out.vertex_map[survivor];
+        // Each vertex on the way to a known one becomes known, so that long chains are walked once.
+        Index known = v;
+        while (out.vertex_map[known] == no_index) known = mesh.merged_into[known];
+        for (Index at = v; at != known; at = mesh.merged_into[at]) out.vertex_map[at] = out.vertex_map[known];
     }
     for (const Face& f : mesh.faces) {
         out.faces.push_back(f.slot);
