@@ -15,10 +15,13 @@ namespace faqem::detail {
 struct BoxedParts {
     std::vector<std::string> names;
     std::vector<Eigen::AlignedBox3d> boxes;
-    std::vector<Index> of_face;
+    std::vector<Index> of_face;  ///< the instance of each face of the flat scene
 };
 
-/// \param instances  with their parts, in the order of the faces of `flat`
+/// The names and boxes of the instances of a scene. O(faces)
+/// \param asset      has the parts of the instances
+/// \param instances  in the order of the faces of `flat`
+/// \param flat       the scene as one part, in world space
 template <class Instances>
 BoxedParts boxed_parts(const Asset& asset, const Instances& instances, const Part& flat) {
     BoxedParts result;

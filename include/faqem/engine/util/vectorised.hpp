@@ -8,6 +8,7 @@ FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
 #if defined(__GNUC__) && defined(__x86_64__)
+/// Calls work(), with all that it calls inlined and compiled for AVX2. \pre the processor has it
 template <class Work>
 [[gnu::target("avx2"), gnu::flatten, gnu::noinline]] void with_avx2(const Work& work) {
     work();
