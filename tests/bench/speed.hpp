@@ -1,9 +1,8 @@
 #pragma once
 /// \file
-/// The sections of the speed benchmark. Each section passes its rows, one JSON object each, to a function.
+/// Measurements of time and memory, which pass their rows, one JSON object each, to a function.
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -46,15 +45,5 @@ struct SpeedOptions {
 /// are measured in one additional run.
 /// \throws OptionError  there is no such simplifier
 void measure_simplifiers(const FloatMesh& mesh, const SpeedOptions& options, const WriteRow& write);
-
-/// Times loading and saving of the mesh in each format, with and without UVs.
-/// \param folder  directory for the temporary files
-void measure_files(const FloatMesh& mesh, const std::filesystem::path& folder, int repetitions,
-                   const WriteRow& write);
-
-/// Times the phases of simplifying a textured GLB file to 10,000 faces with a new texture of 2048^2 texels,
-/// with one and with four samples per texel.
-/// \param folder  directory for the temporary files
-void measure_pipeline(const FloatMesh& mesh, const std::filesystem::path& folder, const WriteRow& write);
 
 }  // namespace faqem::bench

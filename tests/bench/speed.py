@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes tables and a plot of the results of faqem-bench-speed.
+"""Writes a table and a plot of the results of faqem-bench-speed.
 
 Usage: speed.py [--out DIR] [--no-plots] SPEED.jsonl...
-Prints the tables and writes them to DIR/performance.md, the rows to DIR/performance.json and a plot of CPU time over
+Prints a table and writes it to DIR/performance.md, the rows to DIR/performance.json and a plot of CPU time over
 mesh size to DIR/speed.svg. Later rows of the same mesh, size and simplifier replace earlier ones.
 """
 
@@ -21,13 +21,8 @@ def load(files):
     for file in files:
         for line in pathlib.Path(file).read_text(encoding="utf-8").splitlines():
             row = json.loads(line)
-            key = [row.get(k) for k in ("section", "mesh", "faces", "simplifier", "format", "uvs", "preset", "samples")]
-            rows[tuple(key)] = row
+            rows[row["mesh"], row["faces"], row["simplifier"]] = row
     return list(rows.values())
-
-
-def section(rows, name):
-    return [row for row in rows if row["section"] == name]
 
 
 def subjects(rows):
@@ -61,24 +56,6 @@ def simplifiers(rows):
                   "B per face"], lines)
 
 
-def files(rows):
-    lines = []
-    for row in rows:
-        line = [row["format"], "yes" if row["uvs"] else "no", number(row["megabytes"], 3)]
-        for way in ("load", "save"):
-            line += [number(row[way]["median"], 3)]
-            line += [f"{row['megabytes'] / row[way][kind]:.0f}" for kind in ("median", "cpu")]
-        lines.append(line)
-    return table(["format", "UVs", "MB", "load s", "MB/s", "MB per CPU s", "save s", "MB/s", "MB per CPU s"], lines)
-
-
-def pipeline(rows):
-    phases = ["load", "weld", "simplify", "map", "bake", "save", "total"]
-    return table(["preset", "samples"] + phases + ["CPU"],
-                 [[row["preset"], f"{row['samples']}x{row['samples']}"] +
-                  [number(row["phases"][phase], 3) for phase in phases] + [number(row["cpu"], 3)] for row in rows])
-
-
 def plot(rows, file):
     from plots import plt, save
 
@@ -106,13 +83,12 @@ def main():
     args = parser.parse_args()
     rows = load(args.results)
     args.out.mkdir(parents=True, exist_ok=True)
-    parts = [("simplify", "Simplifying", simplifiers), ("files", "Files", files), ("pipeline", "Phases", pipeline)]
-    text = "\n".join(f"## {title}\n\n{make(section(rows, name))}\n" for name, title, make in parts if section(rows, name))
+    text = simplifiers(rows)
     (args.out / "performance.md").write_text(text, encoding="utf-8")
     (args.out / "performance.json").write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
     print(text)
-    if not args.no_plots and section(rows, "simplify"):
-        plot(section(rows, "simplify"), args.out / "speed.svg")
+    if not args.no_plots:
+        plot(rows, args.out / "speed.svg")
 
 
 main()

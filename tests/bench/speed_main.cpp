@@ -4,7 +4,6 @@
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <fstream>
 #include <iostream>
 
@@ -21,14 +20,10 @@ namespace fs = std::filesystem;
 
 struct Arguments {
     std::string models, out;
-    fs::path folder = fs::temp_directory_path();
     std::size_t min_faces = 1'000'000;
     std::uint64_t seed = 1;
     std::vector<std::size_t> sizes = {1'000'000};
-    std::vector<std::string> sections = {"simplify", "files", "pipeline"};
     SpeedOptions speed = {.simplifiers = {"meshoptimizer", "fast-1", "fast-2", "balanced-2"}};
-
-    bool has(const char* section) const { return std::ranges::find(sections, section) != sections.end(); }
 };
 
 void add_options(CLI::App& app, Arguments& a) {
@@ -37,7 +32,6 @@ void add_options(CLI::App& app, Arguments& a) {
         ->envname("FAQEM_BENCH_MODELS");
     app.add_option("--min-faces", a.min_faces, "skip smaller models");
     app.add_option("--sizes", a.sizes, "face counts of generated surfaces")->delimiter(',');
-    app.add_option("--sections", a.sections, "the last two use the first generated surface")->delimiter(',');
     app.add_option(
            "--simplifiers", a.speed.simplifiers,
            "meshoptimizer, cgal-lt, PRESET-THREADS, and versions of meshoptimizer from npm: wasm-0.18, "
@@ -48,7 +42,6 @@ void add_options(CLI::App& app, Arguments& a) {
         ->check(CLI::PositiveNumber);
     app.add_flag("!--no-quality", a.speed.quality, "do not measure distances");
     app.add_option("--seed", a.seed, "seed of the generated surfaces");
-    app.add_option("--folder", a.folder, "directory for temporary files");
     app.add_option("--out", a.out,
                    "append rows to this file, one JSON object per line, instead of standard output");
 }
@@ -59,16 +52,12 @@ void run(const Arguments& a) {
     const WriteRow write = [&](const Json& row) {
         (a.out.empty() ? std::cout : file) << row.dump() << std::endl;
     };
-    bool first = true;
     for (const std::size_t size : a.sizes) {
         const FloatMesh mesh = float_mesh("isosurface", isosurface_of(size, a.seed));
         std::cerr << mesh.name << ", " << mesh.triangles.size() << " faces\n";
-        if (a.has("simplify")) measure_simplifiers(mesh, a.speed, write);
-        if (first && a.has("files")) measure_files(mesh, a.folder, a.speed.repetitions, write);
-        if (first && a.has("pipeline")) measure_pipeline(mesh, a.folder, write);
-        first = false;
+        measure_simplifiers(mesh, a.speed, write);
     }
-    if (a.models.empty() || !a.has("simplify")) return;
+    if (a.models.empty()) return;
     for (const fs::path& model : mesh_files(a.models)) {
         // In all formats a face takes at least 10 bytes: skips small files without loading them.
         if (fs::file_size(model) < 10 * a.min_faces) continue;

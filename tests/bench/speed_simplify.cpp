@@ -211,11 +211,8 @@ void measure_simplifiers(const FloatMesh& mesh, const SpeedOptions& options, con
     }
     benchmark::RunSpecifiedBenchmarks(&times);
     for (const std::string& name : options.simplifiers) {
-        Json row = {{"section", "simplify"},
-                    {"mesh", mesh.name},
-                    {"faces", mesh.triangles.size()},
-                    {"target", target},
-                    {"simplifier", name}};
+        Json row = {
+            {"mesh", mesh.name}, {"faces", mesh.triangles.size()}, {"target", target}, {"simplifier", name}};
         for (const char* order : {"file", "shuffled"}) {
             const std::string label = std::string(order) + ":" + name;
             if (times.errors.contains(label)) {
