@@ -183,8 +183,7 @@ TEST_CASE("nodes keep their numbers beside extensions that are not known") {
     CHECK(json["meshes"].size() == 1);
 }
 
-TEST_CASE(
-    "joints of the finest level stay where they are nodes of a coarser one, and skins of coarser ones go") {
+TEST_CASE("joints of the finest level that are nodes of a coarser one stay, and skins of coarser ones go") {
     GltfBuilder builder = chain();
     const auto joints = builder.accessor(std::vector<std::array<std::uint8_t, 4>>(3), u8, "VEC4");
     const auto weights = builder.accessor(std::vector<Vec4f>(3, Vec4f{1, 0, 0, 0}), f32, "VEC4");

@@ -93,9 +93,7 @@ TEST_CASE("near triangles: a result is that of all triangles, bit by bit") {
     CHECK(found > queries * 9 / 10);
 }
 
-TEST_CASE(
-    "near triangles: where the triangle of the query before is certainly the closest, the result is the "
-    "same") {
+TEST_CASE("near triangles: the result is the same where the triangle found before is certainly the closest") {
     const std::vector<NearTriangles::Entry> strip = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3},
                                                      {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 2}};
     NearTriangles near;

@@ -200,8 +200,7 @@ TEST_CASE("levels: distances and face counts may be mixed") {
     CHECK(levels[2].error > 0.03);
 }
 
-TEST_CASE(
-    "levels: a level of a distance equals the result of simplify() within that error, after any others") {
+TEST_CASE("levels: a level of a distance equals the result of simplify() within it, after any others") {
     const TriangleMesh mesh = test::lump(4);
     for (const Preset preset : {Preset::fast, Preset::best}) {
         Options options = with(preset);

@@ -45,9 +45,7 @@ TriangleMesh fine_cube(Index n) {
 
 }  // namespace
 
-TEST_CASE(
-    "covering: the bound of a triangle over a plane of many faces is its height and the share that it "
-    "shrinks") {
+TEST_CASE("covering: the bound over a plane of many faces is the height and the share that it shrinks") {
     const TriangleMesh plane = test::moved(test::grid(20), {0, 0, 0.5});
     CHECK(bound(plane, large, 1) == Approx(0.5 + 1.0 / 8));
     CHECK(bound(plane, {large[0], large[2], large[1]}, 1) == Approx(0.5 + 1.0 / 8));
@@ -117,8 +115,7 @@ TEST_CASE("covering: bounds are never below the distances of samples") {
     CHECK(found > 40);
 }
 
-TEST_CASE(
-    "covering: two faces and a plate of many, 12 and a box of many are at distance 0 after few pieces") {
+TEST_CASE("covering: two faces and a plate of many, 12 and a box of many have distance 0 after few pieces") {
     const TriangleMesh plate = test::square(100, 1, 0), two = test::square(1, 1, 0);
     const DistanceBound flat = hausdorff(plate.view(), two.view());
     CHECK(flat.bound < 1e-8);

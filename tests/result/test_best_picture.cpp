@@ -126,8 +126,7 @@ TEST_CASE("only options that leave the face count open are followed by a search 
     CHECK_FALSE(searches_best_picture(options));
 }
 
-TEST_CASE(
-    "--max-bytes sees the rounding of vertices, and chooses finer positions where the bytes are enough") {
+TEST_CASE("--max-bytes sees the rounding of vertices, and chooses finer positions where bytes are enough") {
     const ModelFolder folder("in.glb", painted_sheet(40));
     const auto written = [&](const std::string& options) {
         REQUIRE(
@@ -155,9 +154,7 @@ TEST_CASE(
     CHECK(report(folder)["compared_results"][0]["position_bits"].is_null());
 }
 
-TEST_CASE(
-    "--max-bytes leaves out normals that the source does not have where faces are shown better without "
-    "them") {
+TEST_CASE("--max-bytes leaves out normals that the source has not where faces look better without them") {
     const Folder folder;
     faqem::Asset asset = painted_sheet(40);
     asset.parts[0].normals.clear();

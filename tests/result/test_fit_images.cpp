@@ -20,8 +20,7 @@ std::string size_in_message(const Outcome& outcome) {
 
 }  // namespace
 
-TEST_CASE(
-    "lod: each level has at most --max-bytes and the faces that it has without, and more bytes show more") {
+TEST_CASE("lod: each level has at most --max-bytes and the same faces as without, and more bytes show more") {
     const ModelFolder folder("in.glb", painted_sheet(40));
     const std::string command = "lod in.glb out --force --levels 0.5,0.1 ";
     REQUIRE(run(folder, command).code == 0);

@@ -85,9 +85,7 @@ TEST_CASE("choices: without images all bytes go to faces, and errors that are no
     CHECK(best.faces == 6400);
 }
 
-TEST_CASE(
-    "choices: finer positions where the bytes are enough for all faces, coarser ones where faces are "
-    "missing") {
+TEST_CASE("choices: finer positions where the bytes are enough for all faces, otherwise coarser ones") {
     const TriedImages images = {{{4000, {1e-6, 1e-6}, 512}}};
     const std::vector<TriedRounding> roundings = {
         {14, 64000, {1e-5, 1e-5}}, {13, 60000, {4e-5, 4e-5}}, {16, 72000, {1e-6, 1e-6}}};

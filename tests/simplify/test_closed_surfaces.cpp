@@ -109,9 +109,7 @@ void everywhere(Check check) {
 
 }  // namespace
 
-TEST_CASE(
-    "closed surfaces: handles and components are removed without opening "
-    "the surface") {
+TEST_CASE("closed surfaces: handles and components are removed without opening the surface") {
     everywhere([](const TriangleMesh& mesh, Options options) {
         for (const double share : {0.3, 0.1, 0.03, 0.01}) {
             options.target = ratio(share);
@@ -123,9 +121,7 @@ TEST_CASE(
     });
 }
 
-TEST_CASE(
-    "closed surfaces: locked vertices and preserved attributes stay, "
-    "with the surface closed") {
+TEST_CASE("closed surfaces: locked vertices and preserved attributes stay, with the surface closed") {
     for (TriangleMesh mesh : closed_surfaces()) {
         std::vector<std::uint8_t> locks(mesh.positions.size(), 0);
         for (std::size_t v = 0; v < locks.size(); v += 29) locks[v] = 1;
@@ -149,9 +145,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "closed surfaces: the torus of seven vertices has no smaller torus, "
-    "and becomes a sphere") {
+TEST_CASE("closed surfaces: the torus of seven vertices has no smaller torus, and becomes a sphere") {
     TriangleMesh torus;
     for (Index i = 0; i < 7; ++i) {
         torus.positions.push_back({1.0 * i, 1.0 * (i * i % 7), 0.1 * i + i * i * i % 7});
@@ -168,9 +162,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "closed surfaces: every level, and every truncation of its history, "
-    "is closed") {
+TEST_CASE("closed surfaces: every level, and every truncation of its history, is closed") {
     for (const TriangleMesh& mesh : closed_surfaces()) {
         for (const Preset preset : presets) {
             Options options = options_of(preset, LinkCondition::as_preset);

@@ -114,9 +114,7 @@ TEST_CASE("a place that reaches the error early does not keep faces elsewhere") 
     CHECK(left.triangles.size() <= 200);
 }
 
-TEST_CASE(
-    "with max_error a terrain that is rough in one half has far fewer faces than with their number as the "
-    "target") {
+TEST_CASE("with max_error a terrain rough in one half has far fewer faces than with a number of faces") {
     TriangleMesh terrain = test::square(40, 1, 0);
     const TriangleMesh noise = test::shaken(terrain, 0.01, 3);
     for (std::size_t v = 0; v < terrain.positions.size(); ++v) {

@@ -111,8 +111,7 @@ TEST_CASE("the extension is required, and accessors have the counts of the data 
     CHECK(json["accessors"][primitive["indices"].get<int>()]["count"] == 3456);
 }
 
-TEST_CASE(
-    "vertices and triangles of unchanged parts keep their order in draco data, with their morph targets") {
+TEST_CASE("vertices and triangles of unchanged parts keep their order in draco data, with morph targets") {
     if (!detail::has_codec(detail::draco_name)) return;
     Asset asset = numbered_grid();
     Part& part = asset.parts[0];

@@ -253,8 +253,7 @@ TEST_CASE("unsupported required extensions are rejected with their name") {
         CHECK(required(name) == "accepted");
 }
 
-TEST_CASE(
-    "URIs outside the folder are rejected for buffers, and images with them are left out with a warning") {
+TEST_CASE("URIs outside the folder are rejected for buffers, and images with them left out with a warning") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "inside");
     put(folder / "secret.bin", std::string(60, 'x'));

@@ -270,8 +270,7 @@ TEST_CASE("integers of a file are kept as they are, normalised or not, and at th
     CHECK(rewritten(asset).parts[0].positions == asset.parts[0].positions);
 }
 
-TEST_CASE(
-    "quantised normals and texture coordinates are integers, read and written again with equal values") {
+TEST_CASE("quantised normals and texture coordinates are integers, and keep their values when rewritten") {
     Asset asset = load_glb(tilted_gltf());
     Part& part = asset.parts[0];
     for (std::size_t v = 0; v < 4; ++v) {

@@ -197,9 +197,7 @@ TEST_CASE("textures of extensions of a new asset are written") {
     CHECK(json["extensionsUsed"] == Json({"KHR_materials_sheen"}));
 }
 
-TEST_CASE(
-    "a texture whose image is encoded again keeps its sampler, name and extras; that of a new page does "
-    "not") {
+TEST_CASE("a texture keeps its sampler, name and extras if its image is encoded again, not for a new page") {
     GltfBuilder builder = square_gltf();
     add_texture(builder, 1);
     add_texture(builder, 2);
@@ -231,8 +229,7 @@ TEST_CASE(
     CHECK_FALSE(baked["textures"][0].contains("name"));
 }
 
-TEST_CASE(
-    "faces without a material are no metal, except those of a glTF file, which are written without one") {
+TEST_CASE("faces without a material are no metal, except those of a glTF file, which get none") {
     Asset asset = new_square();
     asset.parts[0].face_material = {no_index, no_index};
     const Json json = json_of(saved(asset));

@@ -48,8 +48,7 @@ TEST_CASE("files are found by the end of a path and by other letter case") {
         CHECK(found(folder, name) == "-");
 }
 
-TEST_CASE(
-    "URIs are percent-decoded before they are searched, and found as written and without a query, too") {
+TEST_CASE("URIs are percent-decoded before the search, and found as written and without a query, too") {
     const TemporaryFolder folder;
     fs::create_directories(folder / "in/Tex");
     for (const char* name : {"in/my pic.png", "in/Tex/a.png", "in/b%20c.png", "in/d?.png", "secret.png"})

@@ -23,8 +23,7 @@ GltfBuilder coated_square() {
 
 }  // namespace
 
-TEST_CASE(
-    "extensions of a material of the source are on another mesh, with baked textures and their factors") {
+TEST_CASE("material extensions of the source are on another mesh, with baked textures and their factors") {
     const Asset source = load_glb(coated_square());
     GltfBuilder other = square_gltf();
     other.json["nodes"][0]["name"] = "own node";

@@ -98,8 +98,7 @@ TEST_CASE("KTX2, AVIF and DDS images as core sources are those of extensions, wh
     }
 }
 
-TEST_CASE(
-    "an image of an unknown kind, or of an unknown extension, stays as it is, with the UVs of the source") {
+TEST_CASE("an image of an unknown kind or extension stays as it is, with the UVs of the source") {
     GltfBuilder builder = passed_square({"VENDOR_image", "image/other", "bytes of no known kind"});
     builder.json.erase("extensionsRequired");
     if (GENERATE(true, false)) builder.json["textures"][0] = {{"source", 0}};
@@ -111,8 +110,7 @@ TEST_CASE(
     CHECK(load_glb(out).parts[0].uvs.size() == 1);
 }
 
-TEST_CASE(
-    "a model with VRM keeps its UVs, and its materials and images their numbers; images are encoded again") {
+TEST_CASE("a model with VRM keeps its UVs and the numbers of materials and images, which are encoded again") {
     // A noisy picture, and one that no mesh uses.
     constexpr std::uint32_t side = 64;
     Pixels pixels{side, side, {}, false};

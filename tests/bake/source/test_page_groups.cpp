@@ -56,8 +56,7 @@ TEST_CASE("textures that fit on a page share it") {
     CHECK(sizes(page_groups(tiled_scan(4), pages_of(2 * image_side))) == std::vector<std::size_t>{4});
 }
 
-TEST_CASE(
-    "textures with four times the texels of a page are on four pages, each with consecutive materials") {
+TEST_CASE("textures with four times the texels of a page are on four pages of consecutive materials") {
     const MaterialGroups groups = page_groups(tiled_scan(16), pages_of(2 * image_side));
     REQUIRE(sizes(groups) == std::vector<std::size_t>{4, 4, 4, 4});
     for (Index m = 0; m < 16; ++m) CHECK(groups.group_of(m) == m / 4);

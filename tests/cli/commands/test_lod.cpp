@@ -58,8 +58,7 @@ TEST_CASE("lod writes the original, one model per level and a manifest") {
     for (std::size_t i = 0; i < 4; ++i) CHECK(close_to(json["levels"][i]["faces"], targets[i]));
 }
 
-TEST_CASE(
-    "lod prints the bytes of the source and of all levels, and warns of a share without its percent sign") {
+TEST_CASE("lod prints the bytes of the source and of all levels, and warns of a share without percent sign") {
     const ModelFolder folder("a.glb", sheet(20, 0.2));
     const auto size = [&](const char* file) { return faqem::cli::shown_bytes(fs::file_size(folder / file)); };
     const Outcome folder_of_files = run(folder, "lod a.glb out --levels 40,4 --without-original --bake none");

@@ -21,9 +21,7 @@ TEST_CASE("rule exceptions: a rule is lifted for one pair only, until it is clea
     CHECK(!exceptions.any(1));
 }
 
-TEST_CASE(
-    "rule exceptions: lifting costs the fourth power of the length, for folds at least two distance "
-    "weights") {
+TEST_CASE("rule exceptions: lifting costs the length^4, for folds at least two distance weights") {
     RuleExceptions exceptions(1);
     CHECK(exceptions.lift(0, Refusal::link, 9, 100) == 81);
     CHECK(exceptions.lift(0, Refusal::fold, 9, 1) == 81);

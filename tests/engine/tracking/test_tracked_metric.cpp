@@ -86,8 +86,7 @@ TEST_CASE("tracked metric: a collapse with a point of a new face beyond the limi
     }
 }
 
-TEST_CASE(
-    "tracked metric: without tracking, the limit is compared with the cost for the area around the pair") {
+TEST_CASE("tracked metric: without tracking, the limit is compared with the cost per area around the pair") {
     // The area is the square root of two.
     const Candidate flat{{0, 0, 0}, 7};
     const double limit = std::sqrt(7 / std::sqrt(2)) / 0.5;
