@@ -16,13 +16,7 @@ struct LoopsBench {
           pairs(collapse_mesh, {}),
           loops(collapse_mesh, pairs) {}
 
-    Index pair(Index u, Index v) const {
-        Index found = no_index;
-        pairs.for_each_pair(u, [&](Neighbour n) {
-            if (n.vertex == v) found = n.pair;
-        });
-        return found;
-    }
+    Index pair(Index u, Index v) const { return test::pair_of(pairs, u, v); }
     double squared_distance(Index u, Index v) {
         return loops.squared_distance(collapse_mesh, pairs, u, v, pair(u, v));
     }

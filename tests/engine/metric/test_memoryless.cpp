@@ -11,14 +11,19 @@ using namespace faqem::engine;
 namespace {
 
 Candidate evaluated(const CollapseMesh& collapse_mesh, Index u, Index v,
-                    const MemorylessWeights& weights = {}) {
+                    const MemorylessWeights& weights = {},
+                    AllowedPosition position = AllowedPosition::anywhere) {
     const PairTable pairs(collapse_mesh, {});
     MemorylessMetric metric(weights);
     metric.initialise(collapse_mesh, pairs);
-    const auto found =
-        metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, u, v), AllowedPosition::anywhere);
+    const auto found = metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, u, v), position);
     REQUIRE(found);
     return *found;
+}
+
+// The cost of collapsing (0, 2) to 2.
+double cost_at_2(const CollapseMesh& collapse_mesh, const MemorylessWeights& weights) {
+    return evaluated(collapse_mesh, 0, 2, weights, AllowedPosition::at_second).cost;
 }
 
 // Two unit squares side by side in the plane, as four triangles:
@@ -37,17 +42,9 @@ TEST_CASE("memoryless: a boundary edge costs its squared length times the square
     // Collapsing (0, 1) to a point at height y: the faces are in the plane, so that only boundary planes
     // count. At 0: x = 0 and y = 0; at 1: y = 0 twice, from the edges (0, 1) and (1, 2); minus half of the
     // planes of the shared edge (0, 1).
-    const CollapseMesh collapse_mesh = strip();
-    const PairTable pairs(collapse_mesh, {});
-    MemorylessMetric metric;
-    metric.initialise(collapse_mesh, pairs);
-    const Candidate at_first =
-        *metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 1), AllowedPosition::at_first);
-    CHECK(at_first.cost == Approx(0).margin(1e-15));
+    CHECK(evaluated(strip(), 0, 1, {}, AllowedPosition::at_first).cost == Approx(0).margin(1e-15));
     // Squared distance 1 from the plane x = 0 of edge (0, 3), which has length 1.
-    const Candidate at_second =
-        *metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 1), AllowedPosition::at_second);
-    CHECK(at_second.cost == Approx(1));
+    CHECK(evaluated(strip(), 0, 1, {}, AllowedPosition::at_second).cost == Approx(1));
 }
 
 TEST_CASE("memoryless: without edge weights all collapses in a plane cost nothing") {
@@ -57,22 +54,16 @@ TEST_CASE("memoryless: without edge weights all collapses in a plane cost nothin
 TEST_CASE("memoryless: a shared face counts one and a half times") {
     // A ridge: two triangles at the edge (0, 1), one in z = 0, one in y = 0; both vertices are in both
     // faces.
-    const CollapseMesh collapse_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}});
-    const PairTable pairs(collapse_mesh, {});
-    MemorylessMetric metric({0, 0, 0});
-    metric.initialise(collapse_mesh, pairs);
-    const Candidate found =
-        *metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second);
+    const CollapseMesh ridge({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}});
     // (0, 2) shares the face in z = 0, which contains vertex 2; the other face has area 1/2 and distance 1.
-    CHECK(found.cost == Approx(0.5));
+    CHECK(cost_at_2(ridge, {0, 0, 0}) == Approx(0.5));
 }
 
 TEST_CASE("memoryless: collapsing an edge of a cube has a high cost") {
-    const TriangleMesh cube = test::cube();
-    const CollapseMesh collapse_mesh = test::collapse_mesh_of(cube);
-    const Triangle& t = collapse_mesh.triangle(0);
-    const Candidate found = evaluated(collapse_mesh, t[0], t[1]);
-    CHECK(found.cost > 0.1);  // any point off a corner or edge is outside the plane of a face of area 1
+    const CollapseMesh cube = test::collapse_mesh_of(test::cube());
+    const Triangle& t = cube.triangle(0);
+    // Any point off a corner or edge is outside the plane of a face of area 1.
+    CHECK(evaluated(cube, t[0], t[1]).cost > 0.1);
 }
 
 TEST_CASE("memoryless: edges at which the surface folds back have planes, edges of a cube do not") {
@@ -81,10 +72,7 @@ TEST_CASE("memoryless: edges at which the surface folds back have planes, edges 
     const auto cost = [](double height, double fold) {
         const CollapseMesh blade({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, height}},
                                  {{1, 0, 2}, {0, 1, 3}});
-        const PairTable pairs(blade, {});
-        MemorylessMetric metric({0, 0, fold});
-        metric.initialise(blade, pairs);
-        return metric.evaluate(blade, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second)->cost;
+        return cost_at_2(blade, {0, 0, fold});
     };
     // Vertex 2 has distance 1 from the fold edge of length 1, along which each face has a plane.
     CHECK(cost(0.01, 0.2) - cost(0.01, 0) == Approx(0.4).epsilon(1e-3));
@@ -93,16 +81,8 @@ TEST_CASE("memoryless: edges at which the surface folds back have planes, edges 
 
 TEST_CASE("memoryless: a flat edge between inconsistent windings is not a fold") {
     // Two coplanar triangles at the edge (0, 1) with inconsistent windings.
-    const CollapseMesh collapse_mesh({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}},
-                                     {{1, 0, 2}, {1, 0, 3}});
-    const PairTable pairs(collapse_mesh, {});
-    const auto cost = [&](double fold) {
-        MemorylessMetric metric({0, 0, fold});
-        metric.initialise(collapse_mesh, pairs);
-        return metric.evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second)
-            ->cost;
-    };
-    CHECK(cost(0.2) == cost(0));
+    const CollapseMesh flat({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}}, {{1, 0, 2}, {1, 0, 3}});
+    CHECK(cost_at_2(flat, {0, 0, 0.2}) == cost_at_2(flat, {0, 0, 0}));
 }
 
 TEST_CASE("memoryless: a non-manifold edge has planes if a face ends there, not if all faces continue") {
@@ -112,15 +92,7 @@ TEST_CASE("memoryless: a non-manifold edge has planes if a face ends there, not 
                                     {0.5, -1, 0}, {0.5, 0, 1}, {0.5, 0, -1}};
     const auto held = [&](const std::vector<Triangle>& triangles) {
         const CollapseMesh collapse_mesh(p, triangles);
-        const PairTable pairs(collapse_mesh, {});
-        const auto cost = [&](double weight) {
-            MemorylessMetric metric({0, weight, 0});
-            metric.initialise(collapse_mesh, pairs);
-            return metric
-                .evaluate(collapse_mesh, pairs, test::pair_of(pairs, 0, 2), AllowedPosition::at_second)
-                ->cost;
-        };
-        return cost(5) - cost(0);
+        return cost_at_2(collapse_mesh, {0, 5, 0}) - cost_at_2(collapse_mesh, {0, 0, 0});
     };
     // The planes along the edge are y = 0 twice and z = 0. Vertex 2 has distance 1 from the first two.
     CHECK(held({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}) == Approx(2 * 5));
