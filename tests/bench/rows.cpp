@@ -29,9 +29,7 @@ json connectivity(const TriangleMesh& mesh) {
 /// square.
 void add_distances(json& row, const TriangleMesh& original, const TriangleMesh& result,
                    std::uint64_t samples) {
-    CompareOptions options;
-    options.samples = samples;
-    const Comparison c = compare(original.view(), result.view(), options);
+    const Comparison c = compare(original.view(), result.view(), {.samples = samples});
     const double d = c.diagonal;
     row["hausdorff"] = c.hausdorff / d;
     row["hausdorff_there"] = c.a_to_b.max / d;

@@ -70,8 +70,7 @@ NamedSimplifier faqem_named(std::string_view spec) {
         rest.remove_prefix(std::min(rest.size(), word.size() + 1));
         return word;
     };
-    Options options;
-    options.preset = preset_named(next());
+    Options options{.preset = preset_named(next())};
     while (!rest.empty()) {
         const std::string_view word = next();
         const std::size_t equals = word.find('=');

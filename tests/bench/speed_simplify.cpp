@@ -115,8 +115,7 @@ Simplifier simplifier_of(const std::string& name) {
     if (name == "cgal-lt") return run_cgal;
 #endif
     const std::size_t dash = name.find('-');
-    Options options;
-    options.preset = preset_named(name.substr(0, dash));
+    Options options{.preset = preset_named(name.substr(0, dash))};
     const char *first = name.data() + std::min(dash, name.size() - 1) + 1, *end = name.data() + name.size();
     if (std::from_chars(first, end, options.threads).ptr != end || first == end)
         throw OptionError("simplifier " + name + ": expected PRESET-THREADS");
@@ -149,10 +148,8 @@ void add_run(Json& row, const FloatMesh& mesh, const Run& run, bool quality) {
             static_cast<double>(run.bytes) / static_cast<double>(mesh.triangles.size());
     if (!run.report.is_null()) row["phases"] = run.report["seconds"];
     if (!quality) return;
-    CompareOptions options;
-    options.tolerance = std::numeric_limits<double>::infinity();
-    const Comparison c =
-        compare({.positions = mesh.positions, .triangles = mesh.triangles}, run.mesh.view(), options);
+    const Comparison c = compare({.positions = mesh.positions, .triangles = mesh.triangles}, run.mesh.view(),
+                                 {.tolerance = std::numeric_limits<double>::infinity()});
     row["chamfer"] = c.chamfer / (c.diagonal * c.diagonal);
     row["hausdorff"] = c.hausdorff / c.diagonal;
 }

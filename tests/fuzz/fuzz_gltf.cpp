@@ -26,9 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!asset || fuzz::face_count(*asset) == 0 || fuzz::face_count(*asset) > 64) return 0;
     fuzz::written_and_read(*asset, "a.ply");
     // Simplification that keeps UVs, skins and morph targets.
-    Options options{.target = ratio(0.5)};
-    options.bake.kind = Bake::keep;
-    options.threads = 1;
+    Options options{.target = ratio(0.5), .bake = {.kind = Bake::keep}, .threads = 1};
     const auto simplified = fuzz::refusable("", [&] { return simplify(*asset, options); });
     if (simplified) fuzz::written_and_read(simplified->asset, "b.glb");
     return 0;

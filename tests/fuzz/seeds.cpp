@@ -305,10 +305,7 @@ void history_seeds() {
     std::uint32_t number = 0;
     for (const TriangleMesh& mesh : {test::grid(3), test::icosphere(1), test::soup(1, 12, 30)})
         for (const Preset preset : {Preset::paper, Preset::best}) {
-            Options options;
-            options.preset = preset;
-            options.target = ratio(0.3);
-            options.history = Recording::on;
+            Options options{.target = ratio(0.3), .preset = preset, .history = Recording::on};
             std::ostringstream out;
             write(simplify(mesh.view(), options).history, out);
             put("history", std::to_string(number++), out.view());

@@ -64,10 +64,7 @@ public:
     void run_all(std::uint32_t number) {
         const soak::DirtyMesh dirty = soak::dirty_mesh(number);
         for (const Preset preset : all_presets) {
-            Options options;
-            options.preset = preset;
-            options.target = ratio(share);
-            options.threads = 1 + number % 3;
+            Options options{.target = ratio(share), .preset = preset, .threads = 1 + number % 3};
             Row row;
             const std::string fault = run(dirty, options, row);
             row.tried = 1;
