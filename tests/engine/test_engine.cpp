@@ -23,20 +23,11 @@ struct PresetRules {
 PresetRules qem_rules() { return {{}, {LinkCondition::on, 0, 0}}; }
 
 PresetRules paper_rules() {
-    PresetRules n;
-    n.weights.base = BaseWeight::inverse_area;
-    n.weights.boundary = 500;
-    n.weights.normal = 0.01;
-    n.weights.area = 100;
-    return n;
+    return {{.base = BaseWeight::inverse_area, .boundary = 500, .normal = 0.01, .area = 100}, {}};
 }
 
 PresetRules stmw_rules() {
-    PresetRules n;
-    n.weights.base = BaseWeight::area;
-    n.weights.area = 1;
-    n.weights.area_term = AreaTerm::before_placement;
-    return n;
+    return {{.base = BaseWeight::area, .area = 1, .area_term = AreaTerm::before_placement}, {}};
 }
 
 }  // namespace
@@ -104,9 +95,8 @@ TEST_CASE("engine: on a flat hexagon qem takes the first equal pair, other metri
 }
 
 TEST_CASE("engine: the cheapest pair is collapsed first and the loop stops at the target") {
-    Script script;
-    script.offers = {{{0, 1}, {0.5, 0, 0}}, {{3, 4}, {0.5, 1, 0}}, {{6, 7}, {0.5, 2, 0}}};
-    Play<Script> play(test::grid(2), script);
+    Play<Script> play(test::grid(2),
+                      Script({{{0, 1}, {0.5, 0, 0}}, {{3, 4}, {0.5, 1, 0}}, {{6, 7}, {0.5, 2, 0}}}));
     const LoopResult& result = play.run(5, {LinkCondition::off, 0, 0});
     CHECK(result.stop == StopReason::reached_target);
     CHECK(result.collapses == 2);
@@ -152,9 +142,7 @@ TEST_CASE("engine: the only pair is collapsed regardless of its exact cost") {
 }
 
 TEST_CASE("engine: a locked vertex does not move and a pair of two locked vertices is not collapsed") {
-    Script script;
-    script.offers = {{{0, 1}, {0.5, 0, 0}}, {{1, 2}, {1.5, 0, 0}}};
-    Play<Script> play(test::grid(2), script);
+    Play<Script> play(test::grid(2), Script({{{0, 1}, {0.5, 0, 0}}, {{1, 2}, {1.5, 0, 0}}}));
     play.locked = {1, 1, 0, 0, 0, 0, 0, 0, 0};
     const LoopResult& result = play.run(1, {LinkCondition::off, 0, 0});
     CHECK(result.collapses == 1);
@@ -168,9 +156,7 @@ TEST_CASE("engine: a locked vertex does not move and a pair of two locked vertic
 TEST_CASE("engine: the collapse of a virtual pair connects two components") {
     const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {1.5, 0, 0}));
     const std::vector<Ends> extra = {{1, 4}};
-    Script script;
-    script.offers = {{{1, 4}, {1.25, 0, 0}}, {{2, 3}, {0.5, 1, 0}}};
-    Play<Script> play(mesh, script, extra);
+    Play<Script> play(mesh, Script({{{1, 4}, {1.25, 0, 0}}, {{2, 3}, {0.5, 1, 0}}}), extra);
     CHECK(play.run(3, {LinkCondition::off, 0, 0}).collapses == 2);
     CHECK(components(play.collapse_mesh).size() == 1);
 }
