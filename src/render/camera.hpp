@@ -19,6 +19,8 @@ using engine::Vector3;
 struct PlacedMesh {
     std::span<const Vector3> positions;  ///< by vertex
     std::span<const Triangle> triangles;
+    /// By face: 1 if it is seen from its counter-clockwise side only, -1 if from the other one only, 0 if from both.
+    std::span<const std::int8_t> sides = {};  ///< empty: all faces are seen from both sides
 };
 
 /// A perspective camera with a square field of view. `right`, `up` and `back` are orthonormal.

@@ -15,6 +15,8 @@ std::vector<VisiblePoint> visible_points(std::span<const PlacedMesh> meshes, con
             const ScreenFace face = {points[t[0]], points[t[1]], points[t[2]]};
             const double area = twice_area(face);
             if (!(std::abs(area) > 0) || !std::isfinite(area)) continue;
+            // y points down in the picture, so the area of counter-clockwise faces is negative.
+            if (!meshes[m].sides.empty() && meshes[m].sides[f] * area > 0) continue;
             for_each_pixel(face, area, size, [&](std::size_t pixel, const Vector3& w, double inverse_depth) {
                 if (!(inverse_depth > nearest[pixel])) return;
                 nearest[pixel] = inverse_depth;

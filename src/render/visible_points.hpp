@@ -65,7 +65,7 @@ struct VisiblePoint {
     Vec3 barycentric = {};
 };
 
-/// Draws meshes; both sides of every face are seen. Of points at the same depth, that of the first face is taken.
+/// Draws meshes. Of points at the same depth, that of the first face is taken.
 /// \param size  width and height of the picture in pixels
 /// \return size * size points, top row first
 /// Complexity: O(faces + pixels of their bounding boxes).

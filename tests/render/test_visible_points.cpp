@@ -3,6 +3,7 @@
 #include "render/visible_points.hpp"
 
 #include <cmath>
+#include <tuple>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
@@ -89,6 +90,21 @@ TEST_CASE(
     below.eye.z() = -2;
     CHECK(sees_nothing(mesh, beside));
     CHECK(sees_nothing(mesh, below));
+}
+
+TEST_CASE("visible points: a face that is seen from one side only hides nothing from the other side") {
+    const Part part = faqem::test::square();
+    const std::vector<Vector3> low = positions(part, -1), high = positions(part, 0);
+    const std::vector<std::int8_t> front(part.triangles.size(), 1), back(part.triangles.size(), -1);
+    Camera below;
+    below.eye = {0.5, 0.5, -3.5};
+    below.right = -below.right, below.back = -below.back;
+    for (const auto& [sides, from_above_sees, from_below_sees] :
+         {std::tuple(&front, 1u, 0u), std::tuple(&back, 0u, 1u)}) {
+        const std::vector<PlacedMesh> meshes = {{low, part.triangles}, {high, part.triangles, *sides}};
+        CHECK(visible_points(meshes, from_above(), 3)[4].mesh == from_above_sees);
+        CHECK(visible_points({&meshes[1], 1}, below, 3)[4].mesh == (from_below_sees ? 0u : no_index));
+    }
 }
 
 TEST_CASE("cameras in even directions show the whole scene") {

@@ -3,13 +3,16 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "asset/image/srgb.hpp"
 #include "asset/scene/affine.hpp"
+#include "asset/scene/material_textures.hpp"
 #include "bake/parts/corner_normals.hpp"
 #include "bake/source/source_normals.hpp"
 #include "render/visible_points.hpp"
+#include "scene/material_groups.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
@@ -49,13 +52,22 @@ struct Placement {
 
 // One version of the parts in the scene.
 struct PlacedParts {
-    void add(std::span<const Vec3> of_part, std::span<const Triangle> triangles, const Placement& at) {
+    // \param material_of  gives the material of a face, of the asset
+    template <class MaterialOf>
+    void add(std::span<const Vec3> of_part, std::span<const Triangle> triangles, const Asset& asset,
+             const Placement& at, const MaterialOf& material_of) {
         std::vector<Vector3>& own = positions.emplace_back();
         for (const Vec3& p : of_part) own.push_back(engine::to_eigen(transformed_point(at.matrix, p)));
-        meshes.push_back({own, triangles});
+        // Viewers hide the back of single-sided faces.
+        const std::int8_t front = at.normals.is_mirrored() ? -1 : 1;
+        std::vector<std::int8_t>& seen = sides.emplace_back();
+        for (std::size_t f = 0; f < triangles.size(); ++f)
+            seen.push_back(material_or_default(asset, material_of(f)).double_sided ? 0 : front);
+        meshes.push_back({own, triangles, seen});
     }
 
     std::vector<std::vector<Vector3>> positions;  // by mesh
+    std::vector<std::vector<std::int8_t>> sides;  // by mesh
     std::vector<render::PlacedMesh> meshes;
 };
 
@@ -123,9 +135,13 @@ public:
                 placements_.emplace_back(first[p] ? first[p]->transform : identity_transform);
             const Part &part = scenes.source.parts[p], &kept = scenes.kept.parts[p];
             const TriangleMesh& baked = scenes.parts[p].simplified->mesh;
-            source_.add(part.positions, part.triangles, at);
-            kept_.add(kept.positions, kept.triangles, at);
-            baked_.add(baked.positions, baked.triangles, at);
+            const std::vector<Index>& origin = scenes.parts[p].simplified->history.remaining_faces;
+            source_.add(part.positions, part.triangles, scenes.source, at,
+                        [&](std::size_t f) { return face_material(part, f); });
+            kept_.add(kept.positions, kept.triangles, scenes.kept, at,
+                      [&](std::size_t f) { return face_material(kept, f); });
+            baked_.add(baked.positions, baked.triangles, scenes.source, at,
+                       [&](std::size_t f) { return face_material(part, origin[f]); });
         }
     }
 
