@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "asset/scene/affine.hpp"
@@ -88,12 +87,14 @@ void report_removed_components(const Asset& source, SimplifiedParts& result) {
             faces.push_back({of_part[instance.part].component[f], {place(t[0]), place(t[1]), place(t[2])}});
         }
     }
-    for (FoundComponent& found : removed_components(faces, is_left)) {
-        const auto after = std::upper_bound(first.begin(), first.end(), found.component);
-        found.removed.part = part_title(source, static_cast<std::size_t>(after - first.begin()) - 1);
-        report.removed_components.push_back(std::move(found.removed));
+    const FoundComponents found = removed_components(faces, is_left);
+    for (const FoundComponent& one : found.visible) {
+        const auto after = std::upper_bound(first.begin(), first.end(), one.component);
+        report.removed_components.push_back(one.removed);
+        report.removed_components.back().part =
+            part_title(source, static_cast<std::size_t>(after - first.begin()) - 1);
     }
-    warn_of_removed_components(report);
+    warn_of_removed_components(report, found);
 }
 
 }  // namespace faqem::detail

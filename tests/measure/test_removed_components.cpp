@@ -10,7 +10,7 @@ using namespace faqem;
 namespace {
 
 // removed_components() of a mesh of which the given components are left.
-std::vector<detail::FoundComponent> removed_of(const TriangleMesh& mesh, std::vector<std::uint8_t> is_left) {
+detail::FoundComponents removed_of(const TriangleMesh& mesh, std::vector<std::uint8_t> is_left) {
     const detail::FaceComponents components = detail::face_components(mesh.positions, mesh.triangles);
     REQUIRE(components.count == is_left.size());
     std::vector<detail::PlacedFace> faces;
@@ -39,11 +39,11 @@ TEST_CASE("removed components: faces at equal positions are one component, also 
 }
 
 TEST_CASE("removed components: nothing is listed if every component is left") {
-    CHECK(removed_of(two_squares(1), {1, 1}).empty());
+    CHECK(removed_of(two_squares(1), {1, 1}).visible.empty());
 }
 
 TEST_CASE("removed components: the share of the area is that of the removed square") {
-    const auto found = removed_of(two_squares(1), {1, 0});
+    const auto found = removed_of(two_squares(1), {1, 0}).visible;
     REQUIRE(found.size() == 1);
     CHECK(found[0].component == 1);
     CHECK(found[0].removed.faces == 2);
@@ -53,15 +53,36 @@ TEST_CASE("removed components: the share of the area is that of the removed squa
 }
 
 TEST_CASE("removed components: components up to 0.5% of the area are not listed") {
-    CHECK(removed_of(two_squares(0.07), {1, 0}).empty());
-    CHECK(removed_of(two_squares(0.075), {1, 0}).size() == 1);
+    CHECK(removed_of(two_squares(0.07), {1, 0}).visible.empty());
+    CHECK(removed_of(two_squares(0.075), {1, 0}).visible.size() == 1);
+}
+
+TEST_CASE("removed components: a warning tells of small ones that had more than 2% of the area together") {
+    const auto warnings_without = [](std::size_t count) {
+        TriangleMesh mesh = test::quad();
+        for (std::size_t i = 0; i < count; ++i)
+            mesh =
+                test::both(mesh, test::moved(test::scaled(test::quad(), 0.07), {2 + 0.1 * double(i), 0, 0}));
+        std::vector<std::uint8_t> is_left(count + 1, 0);
+        is_left[0] = 1;
+        const detail::FoundComponents found = removed_of(mesh, is_left);
+        CHECK(found.small == count);
+        CHECK(found.small_share == Approx(0.0049 * double(count) / (1 + 0.0049 * double(count))));
+        Report report;
+        detail::warn_of_removed_components(report, found);
+        return report.warnings;
+    };
+    CHECK(warnings_without(4).empty());
+    const std::vector<std::string> warnings = warnings_without(5);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].starts_with("5 small components were removed, together 2.4% of the area;"));
 }
 
 TEST_CASE("removed components: the largest share comes first, and shares do not depend on the scale") {
     for (const double scale : {1e-300, 1.0, 1e300}) {
         const TriangleMesh mesh =
             test::both(two_squares(0.5), test::moved(test::scaled(test::quad(), 0.8), {0, 2, 0}));
-        const auto found = removed_of(test::scaled(mesh, scale), {1, 0, 0});
+        const auto found = removed_of(test::scaled(mesh, scale), {1, 0, 0}).visible;
         REQUIRE(found.size() == 2);
         CHECK(found[0].component == 2);
         CHECK(found[1].component == 1);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"
@@ -62,24 +61,30 @@ FAQEM_INLINE FaceComponents face_components(const PositionView& positions, Trian
     return found;
 }
 
-FAQEM_INLINE std::vector<FoundComponent> removed_components(std::span<const PlacedFace> faces,
-                                                            std::span<const std::uint8_t> is_left) {
-    std::vector<FoundComponent> removed;
-    if (faces.empty() || std::find(is_left.begin(), is_left.end(), 0) == is_left.end()) return removed;
+FAQEM_INLINE FoundComponents removed_components(std::span<const PlacedFace> faces,
+                                                std::span<const std::uint8_t> is_left) {
+    FoundComponents found;
+    if (faces.empty() || std::find(is_left.begin(), is_left.end(), 0) == is_left.end()) return found;
     const std::vector<ComponentMeasures> sizes = component_sizes(faces, is_left.size());
     double all = 0;
     for (const ComponentMeasures& size : sizes) all += size.area;
     for (Index c = 0; c < is_left.size(); ++c) {
         const ComponentMeasures& size = sizes[c];
-        if (is_left[c] || !(size.area > RemovedComponent::min_share * all)) continue;
-        removed.push_back({c,
-                           {"", size.faces, size.area / all, engine::to_array(4 * size.box.min()),
-                            engine::to_array(4 * size.box.max())}});
+        if (is_left[c]) continue;
+        if (!(size.area > RemovedComponent::min_share * all)) {
+            ++found.small;
+            found.small_share += all > 0 ? size.area / all : 0;
+            continue;
+        }
+        found.visible.push_back({c,
+                                 {"", size.faces, size.area / all, engine::to_array(4 * size.box.min()),
+                                  engine::to_array(4 * size.box.max())}});
     }
-    std::stable_sort(removed.begin(), removed.end(), [](const FoundComponent& a, const FoundComponent& b) {
-        return a.removed.area_share > b.removed.area_share;
-    });
-    return removed;
+    std::stable_sort(found.visible.begin(), found.visible.end(),
+                     [](const FoundComponent& a, const FoundComponent& b) {
+                         return a.removed.area_share > b.removed.area_share;
+                     });
+    return found;
 }
 
 FAQEM_INLINE void report_removed_components(const MeshView& mesh, SimplifyResult& result) {
@@ -95,24 +100,32 @@ FAQEM_INLINE void report_removed_components(const MeshView& mesh, SimplifyResult
         faces.push_back(
             {components.component[f], {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}});
     }
-    for (FoundComponent& found : removed_components(faces, is_left))
-        report.removed_components.push_back(std::move(found.removed));
-    warn_of_removed_components(report);
+    const FoundComponents found = removed_components(faces, is_left);
+    for (const FoundComponent& one : found.visible) report.removed_components.push_back(one.removed);
+    warn_of_removed_components(report, found);
 }
 
-FAQEM_INLINE void warn_of_removed_components(Report& report) {
+/// Rounded to a tenth of a percent, below 10%.
+inline std::string percent_of_area(double share) {
+    const long tenths = std::lround(1000 * share);
+    std::string percent = std::to_string(tenths / 10);
+    if (tenths < 100) percent.append(".").append(std::to_string(tenths % 10));
+    return percent + "% of the area; a higher target keeps more";
+}
+
+FAQEM_INLINE void warn_of_removed_components(Report& report, const FoundComponents& found) {
+    constexpr double seen_share = 0.02;
+    if (found.small_share > seen_share)
+        report.warnings.push_back(std::to_string(found.small) + " small components were removed, together " +
+                                  percent_of_area(found.small_share));
     if (report.removed_components.empty()) return;
     const RemovedComponent& largest = report.removed_components.front();
     const std::size_t count = report.removed_components.size();
-    const long tenths = std::lround(1000 * largest.area_share);  // of a percent
-    std::string percent = std::to_string(tenths / 10);
-    if (tenths < 100) percent.append(".").append(std::to_string(tenths % 10));
     report.warnings.push_back(
         (count == 1 ? std::string("a visible component was removed: ")
                     : std::to_string(count) + " visible components were removed, the largest with ") +
         std::to_string(largest.faces) + (largest.faces == 1 ? " face" : " faces") +
-        (largest.part.empty() ? "" : " in " + largest.part) + ", " + percent +
-        "% of the area; a higher target keeps more");
+        (largest.part.empty() ? "" : " in " + largest.part) + ", " + percent_of_area(largest.area_share));
 }
 
 }  // namespace detail

@@ -33,6 +33,14 @@ struct FoundComponent {
     RemovedComponent removed;  ///< without the name of the part
 };
 
+/// Components without a face in the result.
+struct FoundComponents {
+    std::vector<FoundComponent>
+        visible;              ///< of more than RemovedComponent::min_share, in descending order of it
+    std::uint64_t small = 0;  ///< number of the others
+    double small_share = 0;   ///< of the area, the sum over these
+};
+
 /// Finds the components of a mesh.
 /// \param positions  one per vertex; read where faces refer to them
 /// \param triangles  indices into `positions`
@@ -40,13 +48,12 @@ struct FoundComponent {
 /// Complexity: O(vertices log vertices + faces)
 FAQEM_EXPORT FaceComponents face_components(const PositionView& positions, TriangleView triangles);
 
-/// Finds the components without a face in the result that had more than RemovedComponent::min_share of the area.
+/// Finds the components without a face in the result.
 /// \param faces    of the source, over all instances
 /// \param is_left  one per component: nonzero if the result has a face of it
-/// \return in descending order of the share
 /// Complexity: O(faces)
-FAQEM_EXPORT std::vector<FoundComponent> removed_components(std::span<const PlacedFace> faces,
-                                                            std::span<const std::uint8_t> is_left);
+FAQEM_EXPORT FoundComponents removed_components(std::span<const PlacedFace> faces,
+                                                std::span<const std::uint8_t> is_left);
 
 /// Adds the components without a face in the result to its report, with a warning. Does nothing unless the report
 /// counts components that were collapsed, deleted or pruned.
@@ -55,8 +62,9 @@ FAQEM_EXPORT std::vector<FoundComponent> removed_components(std::span<const Plac
 /// Complexity: O(1), or O(vertices log vertices + faces) if there are such components
 FAQEM_EXPORT void report_removed_components(const MeshView& mesh, SimplifyResult& result);
 
-/// Adds a warning that names the largest of Report::removed_components. Does nothing if there are none.
-FAQEM_EXPORT void warn_of_removed_components(Report& report);
+/// Adds a warning that names the largest of Report::removed_components if there are any, and one of the small
+/// components if these had more than 2% of the area together.
+FAQEM_EXPORT void warn_of_removed_components(Report& report, const FoundComponents& found);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END
