@@ -56,6 +56,9 @@ set(faqem_debian_libdeflate libdeflate-dev)
 # Of the image plugin, not of a component.
 set(faqem_target_OpenImageIO faqem::openimageio)
 set(faqem_debian_OpenImageIO libopenimageio-dev)
+# Of the plugin for KTX2.
+set(faqem_target_zstd faqem::zstd)
+set(faqem_debian_zstd libzstd-dev)
 
 # Targets that the project that uses faqem has already found are used, for example static libraries.
 function(faqem_find_openimageio problem)
@@ -145,6 +148,8 @@ function(faqem_find_libraries missing)
             faqem_find_webp()
         elseif(library STREQUAL "libdeflate")
             faqem_find_by_header(libdeflate libdeflate.h libdeflate::libdeflate_shared libdeflate::libdeflate_static)
+        elseif(library STREQUAL "zstd")
+            faqem_find_by_header(zstd zstd.h)
         elseif(library STREQUAL "libmd")
             faqem_find_by_header(libmd sha2.h)
         else()

@@ -40,7 +40,7 @@ ORDER = [
     ["src/asset/formats", "src/asset/gltf"],
     ["src/asset/gltf/read", "src/asset/gltf/write"],
     ["src/asset"],
-    ["src/image_plugin"],
+    ["src/image_plugin", "src/ktx2_plugin"],
     ["src/render"],
     ["src/scene"],
     ["src/bake/atlas", "src/bake/source"],

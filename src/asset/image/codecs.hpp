@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Decoding and encoding of PNG, JPEG and WebP files, and decoding of others by a plugin, which is loaded when it is first
-/// needed.
+/// Decoding and encoding of PNG, JPEG and WebP files, and decoding of others by plugins, which are loaded when they are
+/// first needed.
 
 #include <cstdint>
 #include <string>
@@ -64,14 +64,15 @@ FAQEM_EXPORT Image write_jpeg(const Pixels& pixels, const std::string& name, con
 /// O(pixels + bytes)
 Pixels read_webp(const Image& image);
 
-/// Function table of the plugin.
+/// Function table of a plugin.
 struct ImagePlugin {
     /// Version of faqem that the plugin was built with.
     const char* version;
     /// Decodes an image.
-    /// \param format  the name that OpenImageIO has for the format, for example targa
+    /// \param format  the name that OpenImageIO has for the format, for example targa; ktx2 for KTX2
     /// \throws InputError        the image is damaged
-    /// \throws UnsupportedError  it has more than 8 channels, or more than 32 bits per channel
+    /// \throws UnsupportedError  it has more than 8 channels, or more than 32 bits per channel; a KTX2 image is no
+    ///                           single picture that Basis Universal encoded
     /// \pre the size in the header is plausible
     Pixels (*decode)(const Image& image, const std::string& format);
 };
@@ -82,5 +83,13 @@ struct ImagePlugin {
 /// \throws Error  the plugin cannot be loaded from the folder of the calling program or library, nor from its
 ///                installed location, or belongs to another version; the next call tries again
 const ImagePlugin& image_plugin();
+
+/// Whether KTX2 images are decoded: this build has the option for it, and there is a plugin for them where image_plugin()
+/// searches. The first call decides.
+bool reads_ktx2();
+
+/// Loads the plugin for KTX2 images, with the first call.
+/// \throws Error  as image_plugin()
+const ImagePlugin& ktx2_plugin();
 
 }  // namespace faqem::detail

@@ -25,7 +25,7 @@ constexpr std::array<FileSignature, 10> file_signatures = {
     {{{"\x89PNG\r\n\x1a\n", 8}, 0, "image/png", ".png"},
      {{"\xff\xd8\xff", 3}, 0, "image/jpeg", ".jpg"},
      {{"WEBP", 4}, 8, "image/webp", ".webp"},
-     {{"\xabKTX 20\xbb", 8}, 0, "image/ktx2", ".ktx2"},
+     {{"\xabKTX 20\xbb", 8}, 0, ktx2_media_type, ".ktx2"},
      {{"ftypavif", 8}, 4, "image/avif", ".avif"},
      {{"DDS ", 4}, 0, "image/vnd-ms.dds", ".dds"},
      {{"GIF8", 4}, 0, "image/gif", ".gif"},
@@ -101,8 +101,13 @@ bool is_passed_through(const Image& image) {
     return !image.encoded.empty() && !needs_plugin(image) && !can_decode_image(media_type(image));
 }
 
+bool keeps_encoding(const Image& image) {
+    return is_passed_through(image) || media_type(image) == ktx2_media_type;
+}
+
 bool can_decode_image(const std::string& mime_type) {
-    return mime_type == "image/png" || mime_type == "image/jpeg" || mime_type == "image/webp";
+    return mime_type == "image/png" || mime_type == "image/jpeg" || mime_type == "image/webp" ||
+           (mime_type == ktx2_media_type && reads_ktx2());
 }
 
 std::string file_extension(const std::string& mime_type) {
@@ -130,6 +135,7 @@ Pixels decode(const Image& image) {
 #else
     if (!format.empty()) return detail::image_plugin().decode(image, format);
 #endif
+    if (type == detail::ktx2_media_type) return detail::ktx2_plugin().decode(image, "ktx2");
     if (type == "image/png") return detail::read_png(image);
     if (type == "image/jpeg") return detail::read_jpeg(image);
     return detail::read_webp(image);

@@ -31,10 +31,16 @@ FAQEM_EXPORT std::string media_type(const Image& image);
 /// Whether decode() uses the plugin: for TGA, BMP, TIFF and GIF. glTF cannot hold such images.
 bool needs_plugin(const Image& image);
 
-/// Whether an image is of a kind that decode() does not know (KTX2, AVIF, DDS ...): it stays as it is.
+inline constexpr const char* ktx2_media_type = "image/ktx2";
+
+/// Whether an image is of a kind that decode() does not know (AVIF, DDS ..., KTX2 without its plugin): it stays as it is.
 FAQEM_EXPORT bool is_passed_through(const Image& image);
 
-/// Whether glTF images of the media type, which is that of PNG, JPEG or WebP, are read.
+/// Whether an image stays as it is wherever its UVs are kept: those that are passed through, and all of KTX2, which are
+/// made for the memory of GPUs.
+FAQEM_EXPORT bool keeps_encoding(const Image& image);
+
+/// Whether glTF images of the media type, which is that of PNG, JPEG, WebP or, with its plugin, KTX2, are read.
 bool can_decode_image(const std::string& mime_type);
 
 /// Usual file name extension of a media type, including the dot; ".bin" for unknown types.

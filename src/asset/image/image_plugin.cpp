@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <new>
+#include <string>
 #include <system_error>
 
 #include "faqem/error.hpp"
@@ -13,9 +14,12 @@
 namespace faqem::detail {
 namespace {
 
-/// Finds the plugin: in the folder of the program or shared library that contains this code (build tree), at the
-/// installed location relative to that folder, or, for other programs, at the installed location of faqem.
-std::filesystem::path plugin_path() {
+constexpr const char* ktx2_plugin_file = "faqem-ktx2.so";
+
+/// Finds a plugin by the name of its file: in the folder of the program or shared library that contains this code
+/// (build tree), at the installed location relative to that folder, or, for other programs, at the installed location
+/// of faqem.
+std::filesystem::path plugin_path(const char* name) {
     Dl_info info = {};
     link_map* module = nullptr;
     dladdr1(reinterpret_cast<const void*>(&plugin_path), &info, reinterpret_cast<void**>(&module),
@@ -25,18 +29,17 @@ std::filesystem::path plugin_path() {
     const std::filesystem::path own_path = is_library ? std::filesystem::absolute(module->l_name)
                                                       : std::filesystem::read_symlink("/proc/self/exe");
     const std::filesystem::path folder = own_path.parent_path();
-    const std::filesystem::path build_tree_path = folder / FAQEM_IMAGE_PLUGIN_FILE;
+    const std::filesystem::path build_tree_path = folder / name;
     if (exists(build_tree_path)) return build_tree_path;
     const char* const installed_folder =
         is_library ? FAQEM_IMAGE_PLUGIN_FOLDER_FROM_LIBRARY : FAQEM_IMAGE_PLUGIN_FOLDER_FROM_PROGRAM;
-    const std::filesystem::path moved_path =
-        (folder / installed_folder / FAQEM_IMAGE_PLUGIN_FILE).lexically_normal();
+    const std::filesystem::path moved_path = (folder / installed_folder / name).lexically_normal();
     if (exists(moved_path)) return moved_path;
-    return std::filesystem::path(FAQEM_IMAGE_PLUGIN_FOLDER) / FAQEM_IMAGE_PLUGIN_FILE;
+    return std::filesystem::path(FAQEM_IMAGE_PLUGIN_FOLDER) / name;
 }
 
-const ImagePlugin& load_plugin() {
-    const std::string file = plugin_path().string();
+const ImagePlugin& load_plugin(const char* name) {
+    const std::string file = plugin_path(name).string();
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!module) {
         const std::string error = dlerror();
@@ -55,7 +58,21 @@ const ImagePlugin& load_plugin() {
 }  // namespace
 
 const ImagePlugin& image_plugin() {
-    static const ImagePlugin& plugin = load_plugin();
+    static const ImagePlugin& plugin = load_plugin("faqem-images.so");
+    return plugin;
+}
+
+#ifdef FAQEM_WITH_KTX2
+bool reads_ktx2() {
+    static const bool is_installed = exists(plugin_path(ktx2_plugin_file));
+    return is_installed;
+}
+#else
+bool reads_ktx2() { return false; }
+#endif
+
+const ImagePlugin& ktx2_plugin() {
+    static const ImagePlugin& plugin = load_plugin(ktx2_plugin_file);
     return plugin;
 }
 

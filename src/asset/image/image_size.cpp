@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "asset/image/codecs.hpp"
 #include "asset/image/image.hpp"
 
 namespace faqem::detail {
@@ -140,6 +141,12 @@ std::optional<ImageSize> tiff_size(Bytes bytes) {
     return size;
 }
 
+/// Of images that are not decoded there is no size.
+std::optional<ImageSize> ktx2_size(Bytes bytes) {
+    if (bytes.size() < 28 || !reads_ktx2()) return {};
+    return ImageSize{little_endian(bytes, 20, 4), little_endian(bytes, 24, 4)};
+}
+
 }  // namespace
 
 std::optional<ImageSize> declared_size(const Image& image) {
@@ -152,6 +159,7 @@ std::optional<ImageSize> declared_size(const Image& image) {
     if (type == "image/gif") return gif_size(bytes);
     if (type == "image/tiff") return tiff_size(bytes);
     if (type == tga_media_type) return tga_size(bytes);
+    if (type == ktx2_media_type) return ktx2_size(bytes);
     return {};
 }
 
@@ -170,6 +178,7 @@ std::uint64_t decoding_memory(const Image& image) {
     std::uint64_t per_pixel = 16;
     if (type == "image/png") per_pixel = 0;  // libpng keeps single rows
     if (type == "image/jpeg") per_pixel = jpeg_coefficient_bytes(bytes);
+    if (type == ktx2_media_type) per_pixel = 1;  // blocks of 4 x 4 pixels have 16 bytes
     return bytes.size() + per_pixel * size->pixels();
 }
 

@@ -87,7 +87,7 @@ std::vector<ImageUse> image_uses(const Asset& asset, std::span<const KeptPart> p
     }
     const bool has_other_uses = names_objects_by_number(asset);
     for (std::size_t i = 0; i < result.size(); ++i) {
-        if (is_passed_through(asset.images[i])) result[i].is_fixed = true;
+        if (keeps_encoding(asset.images[i])) result[i].is_fixed = true;
         if (has_other_uses) result[i].needs_alpha = true;
     }
     return result;

@@ -31,7 +31,7 @@ void move_sources_to_extensions(SourceDocument& source, std::vector<std::string>
         for (std::size_t t = 0; t < array_size(document, "textures"); ++t) {
             Json& texture = document["textures"][t];
             const Index image = index_member(texture, "source");
-            if (image == no_index || !is_passed_through(source.images[image]) ||
+            if (image == no_index || !keeps_encoding(source.images[image]) ||
                 source.images[image].mime_type != extension.media_type ||
                 member(texture, "extensions", extension.name).contains("source"))
                 continue;
