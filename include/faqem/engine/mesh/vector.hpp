@@ -17,6 +17,11 @@ using Vector3 = Eigen::Vector3d;
 inline Vector3 to_eigen(const Vec3& p) { return {p[0], p[1], p[2]}; }
 inline Vec3 to_array(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
 
+/// The product m v. Eigen's own fuse multiplication and addition where the processor can, whatever the compiler may.
+inline Vector3 product(const Eigen::Matrix3d& m, const Vector3& v) {
+    return v[0] * m.col(0) + v[1] * m.col(1) + v[2] * m.col(2);
+}
+
 /// Area vector of triangle abc: its unit normal times twice its area.
 inline Vector3 area_vector(const Vector3& a, const Vector3& b, const Vector3& c) {
     return (b - a).cross(c - a);

@@ -75,15 +75,14 @@ inline Vector3 optimal_position(const Quadric& q, const Vector3& a, const Vector
 inline Vector3 optimal_position_in(const Flat& flat, const Vector3& origin, const Quadric& q,
                                    const Vector3& a, const Vector3& b, const Eigen::AlignedBox3d& bounds) {
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - flat.along;
-    const Vector3 foot = across * (flat.point - origin);  // the point in the flat nearest to the origin
-    Eigen::Matrix3d all;
-    all << q.xx, q.xy, q.xz, q.xy, q.yy, q.yz, q.xz, q.yz, q.zz;
-    const Vector3 slope = flat.along * (q.apply(foot) + q.b);
+    const Vector3 foot = product(across, flat.point - origin);  // the point in the flat nearest to the origin
+    const Vector3 slope = product(flat.along, q.apply(foot) + q.b);
     // The second term makes the quadric regular; its minimum is in the flat.
-    const Eigen::Matrix3d m = flat.along * all * flat.along + all.trace() * across;
+    Eigen::Matrix3d m = (q.xx + q.yy + q.zz) * across;
+    for (int k = 0; k < 3; ++k) m.col(k) += product(flat.along, q.apply(flat.along.col(k)));
     const Quadric inside = {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2), slope, 0};
-    return foot + flat.along * optimal_position(inside, flat.along * a, flat.along * b,
-                                                AllowedPosition::anywhere, &bounds);
+    return foot + product(flat.along, optimal_position(inside, product(flat.along, a), product(flat.along, b),
+                                                       AllowedPosition::anywhere, &bounds));
 }
 
 }  // namespace engine
