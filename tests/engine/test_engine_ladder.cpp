@@ -34,9 +34,7 @@ TEST_CASE("ladder: the link condition is lifted before flips are allowed") {
     // The diagonal of a square is collapsed to its midpoint. The mesh has two more faces, so that some are
     // left.
     TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {5, 0, 0}));
-    Script script;
-    script.offers = {{{0, 2}, {0.5, 0.5, 0}}};
-    Play<Script> play(mesh, script);
+    Play<Script> play(mesh, Script({{{0, 2}, {0.5, 0.5, 0}}}));
     const LoopResult& result = play.run(2, {LinkCondition::on, 0, 0});
     CHECK(result.stop == StopReason::reached_target);
     CHECK(taken(result, Rung::reseed) == 1);
@@ -110,9 +108,7 @@ TEST_CASE("ladder: by_size allows a fold at a cost of the fourth power of the pa
 
 TEST_CASE("ladder: a strict link condition is never lifted") {
     const TriangleMesh mesh = test::both(test::quad(), test::moved(test::quad(), {5, 0, 0}));
-    Script script;
-    script.offers = {{{0, 2}, {0.5, 0.5, 0}}};
-    Play<Script> play(mesh, script);
+    Play<Script> play(mesh, Script({{{0, 2}, {0.5, 0.5, 0}}}));
     play.locked[0] = play.locked[7] = 1;  // so that no component is deleted
     const LoopResult& result = play.run(2, {LinkCondition::strict, -0.5, 0});
     CHECK(result.stop == StopReason::no_legal_collapse);
