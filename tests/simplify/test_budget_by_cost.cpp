@@ -46,8 +46,7 @@ TEST_CASE("cost curve: flat surfaces have zero cost at any scale") {
 }
 
 TEST_CASE("cost curve: locked vertices limit the number of steps") {
-    Options options;
-    options.topology.boundary = Boundary::locked;
+    Options options{.topology = {.boundary = Boundary::locked}};
     // A fan of six triangles of which only the centre vertex is free.
     const CostCurve curve = curve_of(test::fan(6), options);
     CHECK(curve.steps.size() <= 1);
@@ -55,8 +54,7 @@ TEST_CASE("cost curve: locked vertices limit the number of steps") {
 }
 
 TEST_CASE("cost curve: a cancelled curve is incomplete") {
-    Options options;
-    options.progress = [](Phase, double) { return Continue::cancel; };
+    Options options{.progress = [](Phase, double) { return Continue::cancel; }};
     CHECK(curve_of(test::icosphere(4), options).stop == StopReason::cancelled);
 }
 
@@ -90,14 +88,11 @@ TEST_CASE("face budget: each mesh keeps at least four faces") {
 
 TEST_CASE("face budget: costs scale with the fourth power of the size and with the weight") {
     // The second mesh is twice as large: its first step costs 16 times as much as that of the first mesh.
-    const std::vector<double> weights = {1, 1};
-    CHECK(distribute_face_budget(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, weights,
-                                 22) == Shares{10, 12});
-    CHECK(distribute_face_budget(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, weights,
-                                 20) == Shares{10, 10});
-    const std::vector<double> seen_twice = {1, 1.0 / 32};
-    CHECK(distribute_face_budget(std::vector{stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)}, seen_twice,
-                                 22) == Shares{12, 10});
+    const std::vector<CostCurve> curves = {stairs({1, 17, 18, 19}), stairs({1, 2, 3, 4}, 2)};
+    const std::vector<double> weights = {1, 1}, seen_twice = {1, 1.0 / 32};
+    CHECK(distribute_face_budget(curves, weights, 22) == Shares{10, 12});
+    CHECK(distribute_face_budget(curves, weights, 20) == Shares{10, 10});
+    CHECK(distribute_face_budget(curves, seen_twice, 22) == Shares{12, 10});
 }
 
 TEST_CASE("face budget: a mesh keeps its floor, however cheap its collapses are beside those of others") {

@@ -21,8 +21,7 @@ TriangleMesh tile(Index n) {
 }
 
 SimplifyResult simplified(const TriangleMesh& mesh, Preset preset, Target target) {
-    Options options{.target = target, .preset = preset};
-    return simplify(mesh.view(), options);
+    return simplify(mesh.view(), {.target = target, .preset = preset});
 }
 
 // The largest distance in plan of a boundary vertex from the sides of the unit square.
@@ -66,12 +65,7 @@ TEST_CASE("the border of a tile that is split into blocks stays straight") {
 TEST_CASE("corners of a border give way to the target") {
     // Sixteen tiles with four corners each need 32 faces.
     TriangleMesh mesh;
-    for (Index i = 0; i < 16; ++i) {
-        const TriangleMesh one = tile(3);
-        for (const Triangle& t : one.triangles)
-            mesh.triangles.push_back({t[0] + 16 * i, t[1] + 16 * i, t[2] + 16 * i});
-        for (const Vec3& p : one.positions) mesh.positions.push_back({p[0] + 2 * i, p[1], p[2]});
-    }
+    for (int i = 0; i < 16; ++i) mesh = test::both(mesh, test::moved(tile(3), {2.0 * i, 0, 0}));
     const SimplifyResult result = simplified(mesh, Preset::balanced, faces(12));
     CHECK(result.report.stop == StopReason::reached_target);
     CHECK(result.mesh.triangles.size() <= 12);
