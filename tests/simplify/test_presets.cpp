@@ -10,8 +10,7 @@ using engine::BaseWeight;
 namespace {
 
 detail::Settings of(Preset preset, const Weights& weights = {}, const Topology& topology = {}) {
-    Options options{.preset = preset, .weights = weights, .topology = topology};
-    return detail::settings(options);
+    return detail::settings({.preset = preset, .weights = weights, .topology = topology});
 }
 
 }  // namespace
@@ -68,15 +67,8 @@ TEST_CASE("preset stmw weights planes by area and uses the area term for placeme
 }
 
 TEST_CASE("every weight and topology option overrides the preset") {
-    Weights w;
-    w.area = 1;
-    w.boundary = 2;
-    w.normal = 3;
-    w.uv = 4;
-    w.plane_area = 5;
-    Topology t;
-    t.link = LinkCondition::on;
-    t.weld_distance = 6;
+    Weights w{.area = 1, .boundary = 2, .normal = 3, .uv = 4, .plane_area = 5};
+    Topology t{.link = LinkCondition::on, .weld_distance = 6};
     for (const Preset preset : {Preset::qem, Preset::paper, Preset::stmw}) {
         const detail::Settings s = of(preset, w, t);
         CHECK(s.weights.area == 1);
@@ -94,8 +86,7 @@ TEST_CASE("every weight and topology option overrides the preset") {
 
 TEST_CASE("the link condition by_size applies to memoryless presets and is on for others") {
     for (const Preset preset : all_presets) {
-        Options o{.preset = preset};
-        o.topology.link = LinkCondition::by_size;
+        Options o{.preset = preset, .topology = {.link = LinkCondition::by_size}};
         const detail::Settings s = detail::settings(o);
         const bool has_memory = s.quadric_policy == detail::Settings::QuadricPolicy::memory;
         CHECK(s.link == (has_memory ? LinkCondition::on : LinkCondition::by_size));
@@ -103,7 +94,5 @@ TEST_CASE("the link condition by_size applies to memoryless presets and is on fo
 }
 
 TEST_CASE("plane_area 0 gives unweighted planes as in the ablation of the paper") {
-    Weights w;
-    w.plane_area = 0;
-    CHECK(of(Preset::paper, w).weights.base == BaseWeight::unit);
+    CHECK(of(Preset::paper, {.plane_area = 0}).weights.base == BaseWeight::unit);
 }

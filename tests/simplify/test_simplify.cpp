@@ -76,9 +76,7 @@ TEST_CASE("float positions are returned without rounding") {
     const TriangleMesh grid = test::shaken(test::grid(2), 0.1, 1);
     for (const Vec3& p : grid.positions)
         positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
-    MeshView view;
-    view.positions = positions;
-    view.triangles = grid.triangles;
+    MeshView view{.positions = positions, .triangles = grid.triangles};
     const SimplifyResult result = simplify(view, options(Preset::qem, ratio(1)));
     for (std::size_t i = 0; i < positions.size(); ++i)
         CHECK(result.mesh.positions[i] == Vec3{positions[i][0], positions[i][1], positions[i][2]});
@@ -217,8 +215,7 @@ TEST_CASE("locked vertices keep their positions exactly") {
     const TriangleMesh mesh = test::shaken(test::icosphere(2), 0.02, 4);
     std::vector<std::uint8_t> locks(mesh.positions.size(), 0);
     for (std::size_t v = 0; v < locks.size(); v += 9) locks[v] = 1;
-    MeshView view = mesh.view();
-    view.vertex_locks = locks;
+    MeshView view{.positions = mesh.positions, .triangles = mesh.triangles, .vertex_locks = locks};
     for (const Preset preset : all_presets) {
         const SimplifyResult result = simplify(view, options(preset, ratio(0.3)));
         CHECK(result.report.faces_out < 110);
@@ -234,8 +231,7 @@ TEST_CASE("locked vertices keep their positions exactly") {
 TEST_CASE("a mesh with all vertices locked is returned unchanged with the reason") {
     const TriangleMesh mesh = test::icosphere(1);
     const std::vector<std::uint8_t> locks(mesh.positions.size(), 1);
-    MeshView view = mesh.view();
-    view.vertex_locks = locks;
+    MeshView view{.positions = mesh.positions, .triangles = mesh.triangles, .vertex_locks = locks};
     const SimplifyResult result = simplify(view, options(Preset::paper, ratio(0.1)));
     CHECK(same_bits(result.mesh, mesh));
     CHECK(result.report.stop == StopReason::no_legal_collapse);

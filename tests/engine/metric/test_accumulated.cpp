@@ -13,13 +13,7 @@ const double root2 = std::sqrt(2.0);
 
 // Weights of Table 1 of the paper, for a mesh in engine units.
 CompositeWeights paper_weights() {
-    CompositeWeights w;
-    w.base = BaseWeight::inverse_area;
-    w.boundary = 500;
-    w.normal = 0.01;
-    w.area = 100;
-    w.seam = 5000;
-    return w;
+    return {.base = BaseWeight::inverse_area, .boundary = 500, .normal = 0.01, .area = 100, .seam = 5000};
 }
 
 struct MetricBench {
@@ -84,9 +78,7 @@ TEST_CASE("accumulated: the cost is the quadric at the chosen position plus the 
 TEST_CASE("accumulated: with before_placement the area term affects the position") {
     // Unit square, unit base weights: 3 z^2 and ((y^2 + z^2) + (x^2 + z^2) + ((1 - x)^2 + z^2)) / 2 for the
     // pair 0-1.
-    CompositeWeights w;
-    w.area = 1;
-    w.area_term = AreaTerm::before_placement;
+    CompositeWeights w{.area = 1, .area_term = AreaTerm::before_placement};
     const auto found = MetricBench(test::quad(), w).evaluate(0, 1);
     REQUIRE(found);
     CHECK((found->point - Vector3(0.5, 0, 0)).norm() < 1e-12);
@@ -94,9 +86,7 @@ TEST_CASE("accumulated: with before_placement the area term affects the position
 }
 
 TEST_CASE("accumulated: with after_placement the area term does not affect the position") {
-    CompositeWeights w;
-    w.area = 1e9;
-    CHECK(MetricBench(test::quad(), w).evaluate(0, 1)->point == Vector3(0, 0, 0));
+    CHECK(MetricBench(test::quad(), {.area = 1e9}).evaluate(0, 1)->point == Vector3(0, 0, 0));
 }
 
 TEST_CASE("accumulated: the seam weight multiplies the whole initial quadric of a seam vertex") {
@@ -138,9 +128,7 @@ TEST_CASE("accumulated: the survivor of a collapse has the sum of both quadrics"
 TEST_CASE("accumulated: the area term refers to the current boundary") {
     // Unit square, 1 merged into 0 at (1/2, 0, 0): the triangle 0 2 3 is left, whose edges are all boundary
     // edges.
-    CompositeWeights w;
-    w.area = 1;
-    MetricBench bench(test::quad(), w);
+    MetricBench bench(test::quad(), {.area = 1});
     bench.collapse(0, 1, {0.5, 0, 0});
     const auto found = bench.evaluate(2, 3, AllowedPosition::at_second);
     REQUIRE(found);
@@ -164,8 +152,7 @@ TEST_CASE("accumulated: a tiny mesh far from the centre has the costs of the sam
     const Vec3 far = {0.5, 0.25, -0.5};
     const TriangleMesh stray = test::make({{-1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}}, {{0, 1, 2}});
     for (const BaseWeight base : {BaseWeight::unit, BaseWeight::area}) {
-        CompositeWeights weights;
-        weights.base = base;
+        CompositeWeights weights{.base = base};
         weights.area = weights.normal = weights.boundary = 1;
         MetricBench near(test::both(grid, test::scaled(stray, 64 * size)), weights);
         MetricBench together(test::both(test::moved(grid, far), stray), weights);

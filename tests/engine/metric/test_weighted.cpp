@@ -44,11 +44,8 @@ struct Globe {
         }
     }
     SimplifyResult simplified(Preset preset) const {
-        MeshView view = mesh.view();
-        view.vertex_weights = weights;
-        Options options{.target = ratio(0.1)};
-        options.preset = preset;
-        return simplify(view, options);
+        MeshView view{.positions = mesh.positions, .triangles = mesh.triangles, .vertex_weights = weights};
+        return simplify(view, {.target = ratio(0.1), .preset = preset});
     }
 
     TriangleMesh mesh = test::icosphere(4);
@@ -154,9 +151,7 @@ TEST_CASE("vertex weights: weights of 1 do not change the result") {
     for (const Preset preset : all_presets) {
         CAPTURE(name(preset));
         const SimplifyResult ones = none.simplified(preset);
-        Options options{.target = ratio(0.1)};
-        options.preset = preset;
-        const SimplifyResult plain = simplify(none.mesh.view(), options);
+        const SimplifyResult plain = simplify(none.mesh.view(), {.target = ratio(0.1), .preset = preset});
         CHECK(ones.mesh.positions == plain.mesh.positions);
         CHECK(ones.mesh.triangles == plain.mesh.triangles);
     }
@@ -172,11 +167,9 @@ TEST_CASE("vertex weights: a uniform weight does not change the result, lifted r
     const std::vector<float> weights(mesh.positions.size(), 4);
     for (const Preset preset : all_presets) {
         CAPTURE(name(preset));
-        Options options{.target = ratio(0.1)};
-        options.preset = preset;
+        Options options{.target = ratio(0.1), .preset = preset};
         const SimplifyResult plain = simplify(mesh.view(), options);
-        MeshView view = mesh.view();
-        view.vertex_weights = weights;
+        MeshView view{.positions = mesh.positions, .triangles = mesh.triangles, .vertex_weights = weights};
         const SimplifyResult weighted = simplify(view, options);
         CHECK(weighted.mesh.positions == plain.mesh.positions);
         CHECK(weighted.mesh.triangles == plain.mesh.triangles);
@@ -202,8 +195,7 @@ TEST_CASE("vertex weights: welded vertices have the largest of their weights") {
         }
         split.triangles.push_back(own);
     }
-    MeshView view = split.view();
-    view.vertex_weights = weights;
+    MeshView view{.positions = split.positions, .triangles = split.triangles, .vertex_weights = weights};
     const SimplifyResult a = simplify(view, {.target = ratio(0.1)});
     const SimplifyResult b = globe.simplified(Preset::balanced);
     CHECK(a.report.faces_out == b.report.faces_out);
@@ -216,14 +208,12 @@ TEST_CASE("vertex weights: a weight out of range is an error that names the vert
                             std::numeric_limits<float>::infinity()}) {
         CAPTURE(bad);
         const std::vector<float> weights = {1, 1e-6f, bad, 1e6f};
-        MeshView view = mesh.view();
-        view.vertex_weights = weights;
+        MeshView view{.positions = mesh.positions, .triangles = mesh.triangles, .vertex_weights = weights};
         CHECK_THROWS_WITH(simplify(view), Catch::StartsWith("vertex 2: weight ") &&
                                               Catch::EndsWith(" is not in [1e-6, 1e6]"));
         CHECK_THROWS_AS(simplify(view), InputError);
     }
     const std::vector<float> few = {1, 1, 1};
-    MeshView view = mesh.view();
-    view.vertex_weights = few;
+    MeshView view{.positions = mesh.positions, .triangles = mesh.triangles, .vertex_weights = few};
     CHECK_THROWS_WITH(simplify(view), "vertex_weights: needs one entry per vertex or none, but has 3 for 4");
 }
