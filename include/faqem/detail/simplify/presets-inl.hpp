@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/export.hpp"
 #include "faqem/options.hpp"
@@ -13,42 +15,29 @@ using engine::BaseWeight;
 // Table 1 of the paper. Its terms have different units, so that their balance depends on the model size. The
 // weights were tuned on Thingi10K, whose models are in millimetres with diagonals near 100.
 inline Settings paper() {
-    Settings s;
-    s.weights.base = BaseWeight::inverse_area;
-    s.weights.plane_area = 1;
-    s.weights.boundary = 500;
-    s.weights.normal = 0.01;
-    s.weights.area = 100;
-    s.weights.seam = 5000;
-    s.diagonal = 100;
-    s.weld_distance = 1e-6;
-    return s;
+    const engine::CompositeWeights table{.base = BaseWeight::inverse_area,
+                                         .plane_area = 1,
+                                         .boundary = 500,
+                                         .normal = 0.01,
+                                         .area = 100,
+                                         .seam = 5000};
+    return {.weights = table, .diagonal = 100, .weld_distance = 1e-6};
 }
 
-inline Settings qem() {
-    Settings s;
-    s.link = LinkCondition::on;
-    return s;
-}
+inline Settings qem() { return {.link = LinkCondition::on}; }
 
 // Both terms have the unit of a squared area, so that their balance does not depend on the scale.
 inline Settings stmw() {
-    Settings s;
-    s.weights.base = BaseWeight::area;
-    s.weights.area = 1;
-    s.weights.area_term = AreaTerm::before_placement;
-    return s;
+    return {.weights = {.base = BaseWeight::area, .area = 1, .area_term = AreaTerm::before_placement}};
 }
 
 // Memoryless quadrics are computed from the current surface, so that small normal deviations of earlier
 // collapses are not penalised later. The flip test is therefore stricter than that of the paper.
 inline Settings fast() {
-    Settings s;
-    s.quadric_policy = Settings::QuadricPolicy::memoryless;
-    s.link = LinkCondition::by_size;
-    s.min_normal_cosine = 0.3;
-    s.min_fold_cosine = -0.9;
-    return s;
+    return {.quadric_policy = Settings::QuadricPolicy::memoryless,
+            .link = LinkCondition::by_size,
+            .min_fold_cosine = -0.9,
+            .min_normal_cosine = 0.3};
 }
 
 inline Settings balanced() {
@@ -64,21 +53,9 @@ inline Settings best() {
 }
 
 inline Settings named(Preset preset) {
-    switch (preset) {
-        case Preset::qem:
-            return qem();
-        case Preset::paper:
-            return paper();
-        case Preset::stmw:
-            return stmw();
-        case Preset::fast:
-            return fast();
-        case Preset::balanced:
-            return balanced();
-        case Preset::best:
-            break;
-    }
-    return best();
+    constexpr std::array all = {qem, paper, stmw, fast, balanced, best};  // in the order of the enumerators
+    static_assert(all.size() == all_presets.size());
+    return all[static_cast<std::size_t>(preset)]();
 }
 
 FAQEM_INLINE Settings settings(const Options& options) {

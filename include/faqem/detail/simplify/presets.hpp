@@ -15,7 +15,7 @@ struct Settings {
     /// current surface. tracked: as memoryless, and the distance to the original is part of the cost.
     enum class QuadricPolicy { memory, memoryless, tracked };
     QuadricPolicy quadric_policy = QuadricPolicy::memory;
-    engine::CompositeWeights weights;
+    engine::CompositeWeights weights = {};
     LinkCondition link = LinkCondition::off;
     bool fit_vertices = false;  ///< vertices are fitted to the original after the last collapse
     double min_fold_cosine =
