@@ -87,9 +87,7 @@ bool is_closed(const std::vector<Triangle>& triangles) {
 }
 
 Options options_of(Preset preset, LinkCondition link) {
-    Options options{.preset = preset};
-    options.topology.link = link;
-    return options;
+    return {.preset = preset, .topology = {.link = link}};
 }
 
 // Calls check(mesh, options) for every surface, preset and link condition.

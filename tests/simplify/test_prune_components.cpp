@@ -48,9 +48,7 @@ std::vector<std::size_t> left(const std::vector<double>& sizes, const Length& si
 using Which = std::vector<std::size_t>;
 
 Options pruning(const Length& size, double keep = 1) {
-    Options options{.target = ratio(keep)};
-    options.topology.prune = size;
-    return options;
+    return {.target = ratio(keep), .topology = {.prune = size}};
 }
 
 // A sphere with two small components beside it, a tetrahedron and a quad.
