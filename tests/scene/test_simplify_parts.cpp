@@ -25,11 +25,9 @@ Part with_speck(Part part, double x) {
 }  // namespace
 
 TEST_CASE("the budget by error gives a flat part few faces") {
-    Asset asset;
-    asset.parts = {bumpy(20), bumpy(20), Part{}};
+    Asset asset = asset_with({bumpy(20), bumpy(20), Part{}});
     for (Vec3& p : asset.parts[1].positions) p[2] = 0;
-    Options options{.target = GENERATE(ratio(0.25), faces(400))};
-    const SimplifiedParts simplified = simplify_parts(asset, options);
+    const SimplifiedParts simplified = simplify_parts(asset, {.target = GENERATE(ratio(0.25), faces(400))});
     CHECK(simplified.report.target_faces == 400);
     CHECK(simplified.report.faces_out <= 400);
     CHECK(simplified.report.stop == StopReason::reached_target);
@@ -39,13 +37,11 @@ TEST_CASE("the budget by error gives a flat part few faces") {
 }
 
 TEST_CASE("a part keeps 65% of its share, however small it is beside another one") {
-    Asset asset;
-    asset.parts = {bumpy(20), bumpy(20)};
+    Asset asset = asset_with({bumpy(20), bumpy(20)});
     const double size = GENERATE(30.0, 1e3, 1e6);
     for (Vec3& p : asset.parts[1].positions)
         for (double& x : p) x *= size;
-    Options options{.target = ratio(0.25)};
-    const SimplifiedParts simplified = simplify_parts(asset, options);
+    const SimplifiedParts simplified = simplify_parts(asset, {.target = ratio(0.25)});
     CHECK(simplified.report.faces_out <= 400);
     CHECK(simplified.report.faces_out > 390);
     CHECK(simplified.report.warnings.empty());
@@ -54,24 +50,20 @@ TEST_CASE("a part keeps 65% of its share, however small it is beside another one
 }
 
 TEST_CASE("within an error, a small part keeps only what the error needs") {
-    Asset asset;
-    asset.parts = {bumpy(20), bumpy(20)};
+    Asset asset = asset_with({bumpy(20), bumpy(20)});
     for (Vec3& p : asset.parts[1].positions)
         for (double& x : p) x *= 1000;
-    Options options{.max_error = model_units(100)};
-    const SimplifiedParts simplified = simplify_parts(asset, options);
+    const SimplifiedParts simplified = simplify_parts(asset, {.max_error = model_units(100)});
     CHECK(simplified.parts[1].mesh.triangles.size() > 100);
     CHECK(simplified.parts[0].mesh.triangles.size() <= 4);
     CHECK(simplified.report.warnings.empty());
 }
 
 TEST_CASE("a warning names a flat part that keeps less than a tenth of its share") {
-    Asset asset;
-    asset.parts = {bumpy(20), bumpy(20)};
+    Asset asset = asset_with({bumpy(20), bumpy(20)});
     for (Vec3& p : asset.parts[1].positions) p[2] = 0;
     asset.parts[1].name = "floor";
-    Options options{.target = ratio(0.5)};
-    const SimplifiedParts simplified = simplify_parts(asset, options);
+    const SimplifiedParts simplified = simplify_parts(asset, {.target = ratio(0.5)});
     REQUIRE(simplified.report.warnings.size() == 1);
     CHECK(simplified.report.warnings[0].find("part 'floor' (") != std::string::npos);
 }
@@ -83,8 +75,7 @@ TEST_CASE("a surface split into two parts gets about as many faces as one part")
     cut.parts = {bumpy(30), bumpy(30)};
     cut.parts[0].triangles.resize(1200);
     cut.parts[1].triangles.erase(cut.parts[1].triangles.begin(), cut.parts[1].triangles.begin() + 1200);
-    Options options{.target = ratio(0.3)};
-    options.topology.boundary = Boundary::locked;
+    Options options{.target = ratio(0.3), .topology = {.boundary = Boundary::locked}};
     const SimplifyResult one = simplify_parts(whole, options).parts[0];
     const SimplifiedParts two = simplify_parts(cut, options);
     const auto low =
@@ -94,12 +85,9 @@ TEST_CASE("a surface split into two parts gets about as many faces as one part")
 }
 
 TEST_CASE("the budget per mesh is proportional to face counts and tiny parts keep their faces") {
-    Asset asset;
-    asset.parts = {bumpy(20), bumpy(10), square(), Part{}};
+    Asset asset = asset_with({bumpy(20), bumpy(10), square(), Part{}});
     asset.parts[2].face_material.clear();
-    Options options{.target = faces(500)};
-    options.budget = Budget::mesh;
-    const SimplifiedParts simplified = simplify_parts(asset, options);
+    const SimplifiedParts simplified = simplify_parts(asset, {.target = faces(500), .budget = Budget::mesh});
     REQUIRE(simplified.parts.size() == 4);
     // The square keeps its 2 faces. In proportion to 800 and 200 faces, the other 498 are 398.4 and 99.6.
     CHECK(simplified.parts[0].report.target_faces == 398);
@@ -119,11 +107,8 @@ TEST_CASE("the budget per mesh is proportional to face counts and tiny parts kee
 }
 
 TEST_CASE("with a budget per mesh the ratio applies to every part") {
-    Asset asset;
-    asset.parts = {bumpy(20), bumpy(10)};
-    Options options{.target = ratio(0.25)};
-    options.budget = Budget::mesh;
-    const SimplifiedParts simplified = simplify_parts(asset, options);
+    Asset asset = asset_with({bumpy(20), bumpy(10)});
+    const SimplifiedParts simplified = simplify_parts(asset, {.target = ratio(0.25), .budget = Budget::mesh});
     CHECK(simplified.parts[0].mesh.triangles.size() <= 200);
     CHECK(simplified.parts[1].mesh.triangles.size() <= 50);
     CHECK(simplified.report.target_faces == 250);
@@ -131,8 +116,7 @@ TEST_CASE("with a budget per mesh the ratio applies to every part") {
 
 TEST_CASE("a part with many small components keeps all of them") {
     // Twelve squares in one part, and another part of 800 faces, at the expense of which they are kept.
-    Asset asset;
-    asset.parts = {bumpy(20), Part{}};
+    Asset asset = asset_with({bumpy(20), Part{}});
     Part& labels = asset.parts[1];
     for (Index i = 0; i < 12; ++i) {
         for (Vec3 p : square().positions) labels.positions.push_back({p[0], p[1] + 2 * i, p[2]});
@@ -156,8 +140,7 @@ TEST_CASE("a part with many small components keeps all of them") {
 
 TEST_CASE("components are counted after welding equal positions") {
     // The second grid is a triangle soup: its budget is in proportion to its faces, not all of them.
-    Asset asset;
-    asset.parts = {bumpy(20), bumpy(10)};
+    Asset asset = asset_with({bumpy(20), bumpy(10)});
     Part soup;
     for (const Triangle& t : asset.parts[1].triangles) {
         const Index n = static_cast<Index>(soup.positions.size());
@@ -170,10 +153,8 @@ TEST_CASE("components are counted after welding equal positions") {
 }
 
 TEST_CASE("report counts are sums over the parts") {
-    Asset asset;
-    asset.parts = {bumpy(20), bumpy(10)};
-    Options options{.preset = Preset::best};
-    const SimplifiedParts simplified = simplify_parts(asset, options);
+    Asset asset = asset_with({bumpy(20), bumpy(10)});
+    const SimplifiedParts simplified = simplify_parts(asset, {.preset = Preset::best});
     const Report &sum = simplified.report, &a = simplified.parts[0].report, &b = simplified.parts[1].report;
     CHECK(sum.faces_in == a.faces_in + b.faces_in);
     CHECK(sum.vertices_out == a.vertices_out + b.vertices_out);
@@ -186,11 +167,8 @@ TEST_CASE("report counts are sums over the parts") {
 TEST_CASE("small components are pruned from every part except its largest one") {
     // Two grids of side 20, each with a small triangle of side 1; the second part is scaled by 10.
     const Part dusty = with_speck(bumpy(20), 30);
-    Part speck;
-    speck.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    speck.triangles = {{0, 1, 2}};
-    Asset asset;
-    asset.parts = {dusty, dusty, speck};
+    const Part speck = part_of(make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+    Asset asset = asset_with({dusty, dusty, speck});
     for (Vec3& p : asset.parts[1].positions) p = {10 * p[0], 10 * p[1], 10 * p[2]};
     Options options{.bake = {.kind = Bake::none}};
     options.topology.prune = GENERATE(model_units(5), of_diagonal(0.015));
@@ -205,8 +183,7 @@ TEST_CASE("small components are pruned from every part except its largest one") 
 }
 
 TEST_CASE("cancelling the simplification returns an asset without parts") {
-    Asset asset;
-    asset.parts = {bumpy(20), bumpy(20)};
+    Asset asset = asset_with({bumpy(20), bumpy(20)});
     Options options{.budget = GENERATE(Budget::scene, Budget::mesh)};
     options.progress = [](Phase, double) { return Continue::cancel; };
     const SimplifiedAsset simplified = simplify(asset, options);
@@ -215,8 +192,7 @@ TEST_CASE("cancelling the simplification returns an asset without parts") {
 }
 
 TEST_CASE("progress over several parts never decreases") {
-    Asset asset;
-    asset.parts = {bumpy(60), bumpy(40)};
+    Asset asset = asset_with({bumpy(60), bumpy(40)});
     Options options{.budget = GENERATE(Budget::scene, Budget::mesh)};
     std::vector<double> seen = {0};
     options.progress = [&](Phase, double fraction) {
@@ -236,9 +212,7 @@ TEST_CASE("simplifying and baking preserves the colours of the source") {
     const auto uv_of = [](const Vec3& p) { return std::array{p[0] / 24, p[1] / 24}; };
     asset.parts = {uv_mapped(bumpy(24), uv_of)};
     const Part& part = asset.parts[0];
-    Options options{.target = ratio(0.2)};
-    options.bake.texture_size = 512;
-    options.history = Recording::on;
+    Options options{.target = ratio(0.2), .history = Recording::on, .bake = {.texture_size = 512}};
     const SimplifiedAsset simplified = simplify(asset, options);
     REQUIRE(simplified.asset.parts[0].triangles.size() <= part.triangles.size() / 5);
     CHECK(simplified.histories.size() == 1);
@@ -266,8 +240,7 @@ TEST_CASE("invalid assets are rejected with the name of the part or material") {
         spoil(asset, asset.parts[0]);
         for (const Bake kind :
              {Bake::automatic, Bake::atlas, Bake::per_triangle, Bake::vertex, Bake::keep, Bake::none}) {
-            Options options{.bake = {.kind = kind}};
-            CHECK_THROWS_WITH(simplify(asset, options), why);
+            CHECK_THROWS_WITH(simplify(asset, {.bake = {.kind = kind}}), why);
         }
     };
     const std::string part = "part 'square': ";
@@ -307,8 +280,7 @@ TEST_CASE("coincident faces with different materials are kept although they shar
     part.triangles = {{0, 1, 2}, {4, 5, 3}, {3, 4, 5}, {0, 2, 1}, {3, 4, 2}};
     part.face_material = {0, 1, 0, 0, 2};
     asset.parts = {part};
-    Options options{.target = ratio(1)};
-    const SimplifiedParts simplified = simplify_parts(asset, options);
+    const SimplifiedParts simplified = simplify_parts(asset, {.target = ratio(1)});
     CHECK(simplified.parts[0].face_origin == std::vector<Index>{0, 1, 3, 4});
     CHECK(simplified.report.faces_dropped == 1);
     // They are one group for bake().
@@ -341,8 +313,7 @@ TEST_CASE("coincident layers with opposite normals are kept with any winding") {
     }
     part.face_material.assign(part.triangles.size(), 0);
     asset.parts = {part};
-    Options options{.target = ratio(0.25)};
-    const SimplifiedAsset simplified = simplify(asset, options);
+    const SimplifiedAsset simplified = simplify(asset, {.target = ratio(0.25)});
     CHECK(simplified.report.faces_dropped == 0);
     const Part& out = simplified.asset.parts[0];
     CHECK(out.triangles.size() <= part.triangles.size() / 4);

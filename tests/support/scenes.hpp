@@ -53,6 +53,13 @@ inline Part square() {
     return part;
 }
 
+/// An asset with parts alone.
+inline Asset asset_with(std::vector<Part> parts) {
+    Asset asset;
+    asset.parts = std::move(parts);
+    return asset;
+}
+
 /// A mesh as a part, whose faces have a material or none.
 inline Part part_of(const TriangleMesh& mesh, Index material = no_index) {
     Part part;
@@ -100,11 +107,7 @@ inline Asset textured_square(const Pixels& pixels) {
 }
 
 /// Options of which the images are the baked texels.
-inline Options lossless() {
-    Options options;
-    options.bake.image_format = ImageFormat::png;
-    return options;
-}
+inline Options lossless() { return {.bake = {.image_format = ImageFormat::png}}; }
 
 /// The parts of an asset as simplified parts without collapses. Vertices are not welded.
 inline SimplifiedParts unchanged(const Asset& asset) {
