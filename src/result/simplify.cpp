@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "asset/scene/material_textures.hpp"
 #include "asset/scene/position_rounding.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/detail/simplify/run.hpp"
@@ -316,6 +317,35 @@ SimplifiedAsset simplify_within_bytes(const Asset& source, const Options& reques
     return FaceReduction(source, requested, context)();
 }
 
+// Removes new images that are equal to earlier ones, whose textures take their place: textures of one source image, such as
+// the normals of a material and of its clearcoat, are baked to equal images. Images that are named by number stay.
+// O(images^2 + bytes).
+void share_equal_images(const Asset& source, SimplifiedAsset& result) {
+    std::vector<Image>& images = result.asset.images;
+    std::vector<ResultImage>& reported = result.report.images;
+    if (reported.size() != images.size() || names_objects_by_number(source)) return;
+    std::vector<Index> number(images.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        std::size_t same = 0;
+        while (same < count && (reported[i].is_of_source || images[same].encoded != images[i].encoded))
+            ++same;
+        number[i] = static_cast<Index>(same);
+        if (same < count) continue;
+        if (count != i) {
+            images[count] = std::move(images[i]);
+            reported[count] = std::move(reported[i]);
+        }
+        ++count;
+    }
+    images.resize(count);
+    reported.resize(count);
+    for (Material& material : result.asset.materials)
+        for_each_texture(material, [&](TextureRef& texture) {
+            if (texture) texture.image = number[texture.image];
+        });
+}
+
 // The result of `work()`, with what is known of the files and images of the source; an empty one if it was cancelled.
 template <class Work>
 SimplifiedAsset with_source_report(const Asset& source, const Work& work) {
@@ -332,6 +362,7 @@ SimplifiedAsset with_source_report(const Asset& source, const Work& work) {
         report.images[i].is_of_source =
             std::any_of(source.images.begin(), source.images.end(),
                         [&](const Image& image) { return image.encoded == result.asset.images[i].encoded; });
+    share_equal_images(source, result);
     return result;
 }
 

@@ -224,3 +224,15 @@ TEST_CASE("models without files, bare ones and options without new images have n
     bare.parts[0].face_material.clear();
     CHECK(has_no_rule(halved(from_files(bare, 1))));
 }
+
+TEST_CASE("textures of one image that are baked to equal images share one") {
+    faqem::Asset asset = model_with_small_image();
+    asset.materials[0].emissive_texture.image = 0;
+    asset.materials[0].emissive = {1, 1, 1};
+    const faqem::SimplifiedAsset result = halved(asset, atlas_options());
+    const faqem::Material& material = result.asset.materials.at(0);
+    CHECK(material.base_color_texture.image == 0);
+    CHECK(material.emissive_texture.image == 0);
+    CHECK(result.asset.images.size() == 1);
+    CHECK(result.report.images.size() == 1);
+}
