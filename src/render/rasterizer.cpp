@@ -54,6 +54,7 @@ struct RenderTarget {
     const Camera& camera;
     Shading shading;
     Edges edges;
+    Backs backs;
     std::uint32_t size;                ///< width and height in samples
     std::vector<float> inverse_depth;  ///< of the nearest surface that is not blended; 0 without one
     std::vector<Vector4f> color;       ///< linear RGBA, premultiplied
@@ -249,6 +250,7 @@ std::optional<ScreenTriangle> project_triangle(const RenderTarget& target,
     if (face.normal.dot(camera.eye - face.corners[0].world) < 0) face.normal = -face.normal;
     // y points down on the screen, so the area of counter-clockwise faces is negative.
     face.facing = (face.screen_area < 0) != instance.mirrored ? 1 : -1;
+    if (target.backs == Backs::hidden && face.facing < 0 && !face.material->double_sided) return std::nullopt;
     return face;
 }
 
@@ -311,13 +313,15 @@ Frame downsample(const std::vector<Vector4f>& color, const std::vector<Index>& m
 
 }  // namespace
 
-Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shading shading, Edges edges) {
+Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shading shading, Edges edges,
+             Backs backs) {
     const std::uint32_t fine = size * samples_per_axis;
     const std::size_t samples = std::size_t{fine} * fine;
     RenderTarget target{scene,
                         camera,
                         shading,
                         edges,
+                        backs,
                         fine,
                         std::vector<float>(samples, 0),
                         std::vector<Vector4f>(samples, Vector4f::Zero()),

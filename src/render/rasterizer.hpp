@@ -50,6 +50,9 @@ enum class Shading {
 /// Whether the edges of the triangles are drawn.
 enum class Edges { hidden, drawn };
 
+/// Whether the backs of faces with single-sided materials are drawn. Viewers hide them.
+enum class Backs { drawn, hidden };
+
 /// A square image in premultiplied linear RGBA.
 struct Frame {
     std::uint32_t size = 0;               ///< width and height in pixels
@@ -59,13 +62,15 @@ struct Frame {
     std::vector<Index> materials;
 };
 
-/// Renders a scene with 2 x 2 samples per pixel. Back-facing triangles are drawn with flipped normals.
+/// Renders a scene with 2 x 2 samples per pixel. The backs of faces are drawn with flipped normals.
 /// \param scene    the scene, borrowed
 /// \param camera   the camera
 /// \param size     width and height of the image in pixels
 /// \param shading  whether lights are used
 /// \param edges    whether edges are drawn
+/// \param backs    whether single-sided faces are drawn from both sides
 /// \return the image; pixels without a surface are transparent
-Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shading shading, Edges edges);
+Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shading shading, Edges edges,
+             Backs backs = Backs::drawn);
 
 }  // namespace faqem::render

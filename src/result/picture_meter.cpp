@@ -85,7 +85,8 @@ std::vector<render::Frame> pictures(const render::Scene& scene, const std::vecto
     std::vector<render::Frame> result(cameras.size());
     const Eigen::Vector4f behind = shown_pixel(Eigen::Vector4f::Zero());
     parallel_blocks(cameras.size(), 1, threads, [&](std::size_t i, std::size_t) {
-        result[i] = render::render(scene, cameras[i], picture_size, shading, render::Edges::hidden);
+        result[i] = render::render(scene, cameras[i], picture_size, shading, render::Edges::hidden,
+                                   render::Backs::hidden);
         for (Eigen::Vector4f& pixel : result[i].pixels) pixel = pixel.isZero(0) ? behind : shown_pixel(pixel);
     });
     return result;

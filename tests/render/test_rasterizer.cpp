@@ -12,12 +12,12 @@ constexpr std::uint32_t size = 64;
 
 /// Renders the asset from +z, or rotated about y by `azimuth`, so that it fits into the image.
 Frame picture(const faqem::Asset& asset, Shading shading = Shading::unlit, double azimuth = 0,
-              Edges edges = Edges::hidden) {
+              Edges edges = Edges::hidden, Backs backs = Backs::drawn) {
     const Scene scene = make_scene(asset);
     Camera camera = orbit_camera(azimuth, 0);
     show_all(placed_meshes(scene), {&camera, 1});
     camera.eye *= 1.06;
-    return render(scene, camera, size, shading, edges);
+    return render(scene, camera, size, shading, edges, backs);
 }
 
 /// Pixel at fractions of the width and height from the upper left.
@@ -61,6 +61,18 @@ TEST_CASE("a textured square shows its texture upright, and mirrored from behind
     // From behind, left and right are swapped, and back faces are drawn.
     const Frame behind = picture(tool_test::sheet(4, 0), Shading::unlit, 3.14159265358979);
     CHECK(near(at(behind, 0.25, 0.5), blue));
+}
+
+TEST_CASE("hidden backs are those of single-sided faces") {
+    const auto middle = [](const faqem::Asset& asset, double azimuth) {
+        return at(picture(asset, Shading::unlit, azimuth, Edges::hidden, Backs::hidden), 0.5, 0.5);
+    };
+    faqem::Asset asset = square(0, {1, 0, 0, 1});
+    const double behind = 3.14159265358979;
+    CHECK(near(middle(asset, 0), red));
+    CHECK(near(middle(asset, behind), nothing));
+    asset.materials[0].double_sided = true;
+    CHECK(near(middle(asset, behind), red));
 }
 
 TEST_CASE("texture coordinate v points down") {
