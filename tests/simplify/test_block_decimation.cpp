@@ -243,9 +243,7 @@ TEST_CASE("blocks: with distance tracking each block gets the same collapses as 
     }
     const test::OriginalOf original(fine), originals(triple(fine));
     const test::OriginalOf now(triple(coarse));
-    LoopOptions loop;
-    loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
-    loop.distance_weight = 0.05;
+    LoopOptions loop{.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9}, .distance_weight = 0.05};
     const std::vector<std::uint8_t> locked(3 * size, 0);
     const BlockInput input{now.positions, now.triangles, locked, size};
     const BlockTracking tracking{originals.surface, into_all};
@@ -259,9 +257,7 @@ TEST_CASE("blocks: with boundary tracking each block gets the same collapses as 
     // Three tubes at the same position, one block each.
     const TriangleMesh tube = test::shaken(test::cylinder(16, 12, 2), 0.01, 7);
     const test::OriginalOf original(tube), now(triple(tube));
-    LoopOptions loop;
-    loop.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9};
-    loop.distance_weight = 0.05;
+    LoopOptions loop{.rules = {LinkCondition::by_size, 0.2, 1e-8, -0.9}, .distance_weight = 0.05};
     const auto size = static_cast<Index>(tube.positions.size());
     const std::vector<std::uint8_t> locked(3 * size, 0);
     const BlockInput input{now.positions, now.triangles, locked, size};

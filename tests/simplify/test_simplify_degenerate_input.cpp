@@ -45,9 +45,7 @@ void every_preset(const TriangleMesh& mesh, double share, Check check) {
 
 /// Hausdorff distance of the surfaces (sampled), relative to the diagonal.
 double relative_distance(const TriangleMesh& a, const TriangleMesh& b) {
-    CompareOptions options;
-    options.samples = 1000;
-    const Comparison c = compare(a.view(), b.view(), options);
+    const Comparison c = compare(a.view(), b.view(), {.samples = 1000});
     return c.hausdorff / c.diagonal;
 }
 
@@ -259,8 +257,7 @@ TEST_CASE("meshes too large for 32-bit indices are refused before their arrays a
     void* const memory =
         ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     REQUIRE(memory != MAP_FAILED);
-    MeshView view;
-    view.positions = std::span(static_cast<const Vec3f*>(memory), count);
+    MeshView view{std::span(static_cast<const Vec3f*>(memory), count), {}};
     CHECK_THROWS_WITH(simplify(view), "positions: has 4294967296 vertices, more than 2^32 - 2");
     view.positions = {};
     view.triangles = std::span(static_cast<const Triangle*>(memory), count);

@@ -65,9 +65,7 @@ TEST_CASE("removable components are sorted by size, without the largest and thos
 
 TEST_CASE("a component of zero area is the first removable one regardless of its length") {
     // A face of zero area and length 100, and quads with edge lengths 1 and 2.
-    TriangleMesh line;
-    line.positions = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}};
-    line.triangles = {{0, 1, 2}};
+    const TriangleMesh line = test::make({{0, 0, 0}, {50, 0, 0}, {100, 0, 0}}, {{0, 1, 2}});
     const CollapseMesh collapse_mesh = test::collapse_mesh_of(
         test::both(test::both(test::quad(), line), test::moved(test::scaled(test::quad(), 2), {0, 5, 0})));
     const std::vector<std::uint8_t> locked(collapse_mesh.vertex_slots(), 0);
