@@ -129,10 +129,8 @@ TEST_CASE("vertices that move together are welded beside some that do not") {
 }
 
 TEST_CASE("what moves apart stays apart in the result, with its own joints") {
-    Asset asset;
-    asset.parts = {skinned_sheets(10)};
-    Options options{.target = ratio(0.2)};
-    const SimplifiedAsset result = simplify(asset, options);
+    Asset asset = test::asset_with({skinned_sheets(10)});
+    const SimplifiedAsset result = simplify(asset, {.target = ratio(0.2)});
     const Part& part = result.asset.parts[0];
     REQUIRE(part.joints.size() == part.positions.size());
     REQUIRE(part.triangles.size() > 40);
@@ -147,10 +145,8 @@ TEST_CASE("what moves apart stays apart in the result, with its own joints") {
 }
 
 TEST_CASE("closed lips can be opened by a morph target of the result") {
-    Asset asset;
-    asset.parts = {opening_sheets(10)};
-    Options options{.target = ratio(0.2)};
-    const SimplifiedAsset result = simplify(asset, options);
+    Asset asset = test::asset_with({opening_sheets(10)});
+    const SimplifiedAsset result = simplify(asset, {.target = ratio(0.2)});
     const Part& part = result.asset.parts[0];
     REQUIRE(part.morph_targets.size() == 1);
     for (const Triangle& t : part.triangles) {
@@ -162,10 +158,8 @@ TEST_CASE("closed lips can be opened by a morph target of the result") {
 }
 
 TEST_CASE("a sheet that is flat at rest keeps its shape in a morph target") {
-    Asset asset;
-    asset.parts = {bending_sheet()};
-    Options options{.target = ratio(0.15)};
-    const SimplifiedAsset result = simplify(asset, options);
+    Asset asset = test::asset_with({bending_sheet()});
+    const SimplifiedAsset result = simplify(asset, {.target = ratio(0.15)});
     const Part& part = result.asset.parts[0];
     CHECK(part.triangles.size() <= 172);
     CHECK(part.triangles.size() >= 130);
@@ -175,20 +169,17 @@ TEST_CASE("a sheet that is flat at rest keeps its shape in a morph target") {
 }
 
 TEST_CASE("beside a bumpy part, a flat part with a shape in a morph target gets faces") {
-    Asset asset;
-    asset.parts = {bending_sheet(), test::sheet(cells, [](double x, double y) {
-                       return Vec3{x, y, height(x, y)};
-                   })};
+    Asset asset = test::asset_with({bending_sheet(), test::sheet(cells, [](double x, double y) {
+                                        return Vec3{x, y, height(x, y)};
+                                    })});
     asset.parts[1].face_material.clear();
-    Options options{.target = ratio(0.2)};
-    const SimplifiedParts result = simplify_parts(asset, options);
+    const SimplifiedParts result = simplify_parts(asset, {.target = ratio(0.2)});
     CHECK(result.parts[0].mesh.triangles.size() > 140);
     CHECK(result.report.faces_out <= 460);
 }
 
 TEST_CASE("all levels of a sheet keep its shape") {
-    Asset asset;
-    asset.parts = {bending_sheet()};
+    Asset asset = test::asset_with({bending_sheet()});
     const auto levels = simplify_levels(asset, {Level{ratio(0.4)}, Level{ratio(0.15)}}, {});
     REQUIRE(levels.size() == 2);
     for (const auto& level : levels) CHECK(largest_error(level.result.asset.parts[0]) < 1);

@@ -20,17 +20,12 @@ Part wavy_grid(Index n, double height, double offset) {
 
 MeshView view(const Part& part) { return {part.positions, part.triangles, {}, nullptr, {}}; }
 
-Options within(MaxError error) {
-    Options options{.max_error = error};
-    options.bake.kind = Bake::none;
-    return options;
-}
+Options within(MaxError error) { return {.max_error = error, .bake = {.kind = Bake::none}}; }
 
 }  // namespace
 
 TEST_CASE("every part of an asset is within max_error and the report gives the distance") {
-    Asset asset;
-    asset.parts = {wavy_grid(20, 0.2, 0), wavy_grid(16, 0.05, 2), Part{}};
+    Asset asset = asset_with({wavy_grid(20, 0.2, 0), wavy_grid(16, 0.05, 2), Part{}});
     const double allowed = 0.01;
     const SimplifiedParts simplified = simplify_parts(asset, within(model_units(allowed)));
     REQUIRE(simplified.parts.size() == 3);
@@ -56,8 +51,7 @@ TEST_CASE("every part of an asset is within max_error and the report gives the d
 }
 
 TEST_CASE("max_error relative to the diagonal uses the diagonal of the scene") {
-    Asset asset;
-    asset.parts = {wavy_grid(16, 0.2, 0), wavy_grid(12, 0.05, 2)};
+    Asset asset = asset_with({wavy_grid(16, 0.2, 0), wavy_grid(12, 0.05, 2)});
     Part all = asset.parts[0];
     for (Triangle t : asset.parts[1].triangles) {
         for (Index& v : t) v += static_cast<Index>(asset.parts[0].positions.size());
@@ -75,8 +69,7 @@ TEST_CASE("max_error relative to the diagonal uses the diagonal of the scene") {
 }
 
 TEST_CASE("the result for a target face count is checked against max_error") {
-    Asset asset;
-    asset.parts = {wavy_grid(16, 0.2, 0)};
+    Asset asset = asset_with({wavy_grid(16, 0.2, 0)});
     for (const double allowed : {1e-4, 1.0}) {
         Options options = within(model_units(allowed));
         options.target = faces(50);
@@ -90,8 +83,7 @@ TEST_CASE("the result for a target face count is checked against max_error") {
 }
 
 TEST_CASE("the error bound search for an asset reports progress and can be cancelled") {
-    Asset asset;
-    asset.parts = {wavy_grid(32, 0.2, 0), wavy_grid(32, 0.1, 2)};
+    Asset asset = asset_with({wavy_grid(32, 0.2, 0), wavy_grid(32, 0.1, 2)});
     Options options = within(of_diagonal(0.005));
     double last = 0;
     std::size_t calls = 0;

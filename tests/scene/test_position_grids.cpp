@@ -26,9 +26,7 @@ Asset two_sheets(Index n) {
 }
 
 Options quantized(std::uint32_t bits) {
-    Options options{.bake = {.kind = Bake::none}};
-    options.quantize = {.kind = Quantize::on, .position_bits = bits};
-    return options;
+    return {.bake = {.kind = Bake::none}, .quantize = {.kind = Quantize::on, .position_bits = bits}};
 }
 
 }  // namespace
