@@ -100,18 +100,11 @@ std::uint32_t filter_row(PngFilter filter, const UnfilteredRow& row, int max_dif
         return max_difference > 0 ? apply_filter<true>(row, max_difference, to, predict)
                                   : apply_filter<false>(row, 0, to, predict);
     };
-    switch (filter) {
-        case PngFilter::sub:
-            return apply([](int left, int, int) { return left; });
-        case PngFilter::up:
-            return apply([](int, int up, int) { return up; });
-        case PngFilter::average:
-            return apply([](int left, int up, int) { return (left + up) / 2; });
-        case PngFilter::paeth:
-            return apply(paeth);
-        default:
-            return apply([](int, int, int) { return 0; });
-    }
+    if (filter == PngFilter::sub) return apply([](int left, int, int) { return left; });
+    if (filter == PngFilter::up) return apply([](int, int up, int) { return up; });
+    if (filter == PngFilter::average) return apply([](int left, int up, int) { return (left + up) / 2; });
+    if (filter == PngFilter::paeth) return apply(paeth);
+    return apply([](int, int, int) { return 0; });
 }
 
 /// The rows of an image, each after the number of its filter.

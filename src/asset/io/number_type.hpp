@@ -21,24 +21,13 @@ constexpr bool is_integer(NumberType type) { return type < NumberType::f32; }
 /// Calls visit(T()) for the type T of the numbers, and returns the result.
 template <class Visit>
 auto visit_type(NumberType type, const Visit& visit) {
-    switch (type) {
-        case NumberType::i8:
-            return visit(std::int8_t());
-        case NumberType::u8:
-            return visit(std::uint8_t());
-        case NumberType::i16:
-            return visit(std::int16_t());
-        case NumberType::u16:
-            return visit(std::uint16_t());
-        case NumberType::i32:
-            return visit(std::int32_t());
-        case NumberType::u32:
-            return visit(std::uint32_t());
-        case NumberType::f64:
-            return visit(double());
-        case NumberType::f32:
-            break;
-    }
+    if (type == NumberType::i8) return visit(std::int8_t());
+    if (type == NumberType::u8) return visit(std::uint8_t());
+    if (type == NumberType::i16) return visit(std::int16_t());
+    if (type == NumberType::u16) return visit(std::uint16_t());
+    if (type == NumberType::i32) return visit(std::int32_t());
+    if (type == NumberType::u32) return visit(std::uint32_t());
+    if (type == NumberType::f64) return visit(double());
     return visit(float());
 }
 

@@ -261,16 +261,9 @@ Point2 page_point(const ChartRaster& raster, const ChartPlacement& placement, co
                  height = double(raster.mask.rows) * raster.block_size;
     const Point2 corner = {double(placement.position.x) * raster.block_size,
                            double(placement.position.y) * raster.block_size};
-    switch (placement.quarter_turns) {
-        case 1:
-            return corner + Point2{height - p.y, p.x};
-        case 2:
-            return corner + Point2{width - p.x, height - p.y};
-        case 3:
-            return corner + Point2{p.y, width - p.x};
-        default:
-            return corner + p;
-    }
+    const std::array turned = {p, Point2{height - p.y, p.x}, Point2{width - p.x, height - p.y},
+                               Point2{p.y, width - p.x}};
+    return corner + turned[placement.quarter_turns];
 }
 
 // The page of a successful attempt.
