@@ -33,8 +33,7 @@ float most(const std::vector<float>& weights) { return *std::max_element(weights
 
 TEST_CASE("a convex solid is fully visible at any winding and resolution") {
     const int level = GENERATE(0, 2, 6);
-    Asset asset;
-    asset.parts = {part_of(GENERATE_COPY(icosphere(level), inside_out(icosphere(level))))};
+    Asset asset = test::asset_with({part_of(GENERATE_COPY(icosphere(level), inside_out(icosphere(level))))});
     const VertexVisibility seen = vertex_visibility(asset);
     CHECK(seen.hidden_vertices == 0);
     REQUIRE(seen.weights.size() == 1);
@@ -43,8 +42,7 @@ TEST_CASE("a convex solid is fully visible at any winding and resolution") {
 }
 
 TEST_CASE("an open surface that is visible from both sides has visibility 1") {
-    Asset asset;
-    asset.parts = {part_of(test::grid(4))};
+    Asset asset = test::asset_with({part_of(test::grid(4))});
     CHECK(vertex_visibility(asset).weights[0] == std::vector<float>(25, 1));
 }
 
@@ -103,9 +101,8 @@ TEST_CASE("the free side of a thin plate on a block is fully visible") {
                 p[i] = low[i] + size[i] * (p[i] - least[i]) / (most[i] - least[i]);
         return mesh;
     };
-    Asset asset;
-    asset.parts = {part_of(stretched(plate, {-0.5, -0.5, 0}, {1, 1, 0.005})),
-                   part_of(stretched(block, {-2, -2, -2}, {4, 4, 2}))};
+    Asset asset = test::asset_with({part_of(stretched(plate, {-0.5, -0.5, 0}, {1, 1, 0.005})),
+                                    part_of(stretched(block, {-2, -2, -2}, {4, 4, 2}))});
     const VertexVisibility seen = vertex_visibility(asset);
     for (std::size_t v = 0; v < asset.parts[0].positions.size(); ++v) {
         if (asset.parts[0].positions[v][2] > 0) CHECK(seen.weights[0][v] == 1);
@@ -114,8 +111,8 @@ TEST_CASE("the free side of a thin plate on a block is fully visible") {
 }
 
 TEST_CASE("unreferenced vertices and vertices of degenerate faces have weight 1") {
-    Asset asset;
-    asset.parts = {part_of(test::make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}}, {{0, 1, 2}})), Part{}};
+    Asset asset = test::asset_with(
+        {part_of(test::make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}}, {{0, 1, 2}})), Part{}});
     const VertexVisibility seen = vertex_visibility(asset);
     CHECK(seen.weights[0] == std::vector<float>(4, 1));
     CHECK(seen.weights[1].empty());
@@ -157,8 +154,7 @@ TEST_CASE("visibility of a dynamic scene causes a warning") {
     CHECK(detail::visibility_warning(asset).empty());
     asset.parts[0].morph_targets.resize(1);
     asset.parts[0].morph_targets[0].positions.resize(asset.parts[0].positions.size());
-    Options options{.visibility = Visibility::weighted};
-    const SimplifiedParts simplified = simplify_parts(asset, options);
+    const SimplifiedParts simplified = simplify_parts(asset, {.visibility = Visibility::weighted});
     CHECK(std::count(simplified.report.warnings.begin(), simplified.report.warnings.end(),
                      detail::visibility_warning(asset)) == 1);
 }

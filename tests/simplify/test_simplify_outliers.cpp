@@ -21,8 +21,7 @@ TriangleMesh unit_ball_at(double x, const TriangleMesh& mesh) {
 }
 
 TriangleMesh simplified(const TriangleMesh& mesh, Preset preset, std::uint64_t target) {
-    Options options{.target = faces(target), .preset = preset};
-    return simplify(mesh.view(), options).mesh;
+    return simplify(mesh.view(), {.target = faces(target), .preset = preset}).mesh;
 }
 
 // The unit ball at (x, 0, 0) in `result` has at least 90% of the faces of the unit ball simplified alone, and at
@@ -30,9 +29,7 @@ TriangleMesh simplified(const TriangleMesh& mesh, Preset preset, std::uint64_t t
 void check_ball(const TriangleMesh& result, double x, const TriangleMesh& ball, const TriangleMesh& alone) {
     const TriangleMesh left = unit_ball_at(x, result);
     REQUIRE(left.triangles.size() >= 0.9 * static_cast<double>(alone.triangles.size()));
-    CompareOptions options;
-    options.samples = 20'000;
-    options.tolerance = std::numeric_limits<double>::infinity();
+    CompareOptions options{.samples = 20'000, .tolerance = std::numeric_limits<double>::infinity()};
     const double distance = compare(ball.view(), left.view(), options).chamfer;
     CHECK(distance <= 1.1 * compare(ball.view(), alone.view(), options).chamfer);
 }
