@@ -212,10 +212,8 @@ Report simplify(OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh, Options options = 
     options.topology.weld = Weld::none;
     options.history = Recording::on;
     const openmesh_detail::Arrays<Mesh> arrays = openmesh_detail::read<Mesh>(mesh, region, properties);
-    MeshView view{arrays.positions, arrays.triangles};
-    view.vertex_locks = arrays.locked;
-    view.vertex_weights = arrays.weights;
-    view.face_groups = arrays.groups;
+    const MeshView view{arrays.positions, arrays.triangles, arrays.groups,
+                        nullptr,          arrays.locked,    arrays.weights};
     const SimplifyResult result = simplify(view, options);
     if (result.report.stop == StopReason::cancelled) return result.report;
     openmesh_detail::request_status<Mesh>(mesh);

@@ -21,10 +21,7 @@ ReferencedImage* ReferencedImages::read(const std::string& owner, const std::str
                                       " is read");
         std::unique_ptr<ReferencedImage>& known = images_[found.file];
         if (known) return known.get();
-        Image image;
-        image.uri = found.name;
-        image.name = found.file.stem().string();
-        image.encoded = read_file(found.file);
+        Image image{found.file.stem().string(), {}, read_file(found.file), found.name};
         const std::string reason = no_image_reason(image.encoded);
         if (!reason.empty()) throw InputError(found.name, "", reason);
         image.mime_type = sniff_mime_type(image.encoded);

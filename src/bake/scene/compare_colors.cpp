@@ -128,9 +128,8 @@ bool has_colors(const Asset& asset) {
 
 ColorComparison compare_colors(const Asset& a, const Asset& b, const CompareOptions& options) {
     const Model model_a(a, "first model"), model_b(b, "second model");
-    ColorComparison result;
-    result.a_to_b = one_sided(model_a, model_b, options, 2 * options.seed);
-    result.b_to_a = one_sided(model_b, model_a, options, 2 * options.seed + 1);
+    ColorComparison result{one_sided(model_a, model_b, options, 2 * options.seed),
+                           one_sided(model_b, model_a, options, 2 * options.seed + 1)};
     const double mean_squared = (result.a_to_b.mean_squared + result.b_to_a.mean_squared) / 2;
     result.rmse = std::sqrt(mean_squared);
     result.psnr = detail::psnr(mean_squared);

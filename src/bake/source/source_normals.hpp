@@ -7,7 +7,6 @@
 #include "faqem/asset.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/surface_map.hpp"
-#include "render/texture_sampling.hpp"
 
 namespace faqem::detail {
 

@@ -58,10 +58,7 @@ SimplifiedAsset geometry_only(const SimplifiedParts& simplified_parts) {
             if (t[0] == no_index) t = {0, 0, 0};  // dropped during preprocessing
         }
     }
-    Options geometry_options;
-    geometry_options.bake.kind = Bake::none;
-    geometry_options.bake.normals = Normals::none;
-    return bake(original, simplified_parts, geometry_options);
+    return bake(original, simplified_parts, {.bake = {.kind = Bake::none, .normals = Normals::none}});
 }
 
 /// Bakes the original model.

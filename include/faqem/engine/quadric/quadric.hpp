@@ -23,16 +23,8 @@ struct Quadric {
     /// \param d  offset of the plane
     /// \param w  weight
     static Quadric plane(const Vector3& n, double d, double w) {
-        Quadric q;
-        q.xx = w * n.x() * n.x();
-        q.xy = w * n.x() * n.y();
-        q.xz = w * n.x() * n.z();
-        q.yy = w * n.y() * n.y();
-        q.yz = w * n.y() * n.z();
-        q.zz = w * n.z() * n.z();
-        q.b = w * d * n;
-        q.c = w * d * d;
-        return q;
+        return {w * n.x() * n.x(), w * n.x() * n.y(), w * n.x() * n.z(), w * n.y() * n.y(),
+                w * n.y() * n.z(), w * n.z() * n.z(), w * d * n,         w * d * d};
     }
 
     /// The quadric of the plane with normal `n` through `point`, with weight `w`.
