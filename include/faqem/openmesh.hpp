@@ -52,9 +52,8 @@ template <class Mesh>
 void lock_by_status(const Mesh& mesh, Region region, std::vector<std::uint8_t>& locked) {
     const auto lock = [&](typename Mesh::VertexHandle v) { locked[static_cast<std::size_t>(v.idx())] = 1; };
     if (mesh.has_vertex_status()) {
-        for (const auto v : mesh.vertices()) {
+        for (const auto v : mesh.vertices())
             if (mesh.status(v).locked() || mesh.status(v).feature()) lock(v);
-        }
     }
     if (mesh.has_edge_status()) {
         for (const auto e : mesh.edges()) {
@@ -79,9 +78,8 @@ void read_properties(const Mesh& mesh, const Properties& properties, Arrays<Mesh
         for (const auto v : mesh.vertices())
             arrays.weights[static_cast<std::size_t>(v.idx())] = mesh.property(properties.weight, v);
     }
-    if (properties.group.is_valid()) {
+    if (properties.group.is_valid())
         for (const auto f : arrays.faces) arrays.groups.push_back(mesh.property(properties.group, f));
-    }
 }
 
 template <class Mesh>
@@ -142,9 +140,8 @@ void flip_edge(Mesh& mesh, typename Mesh::FaceHandle& f, typename Mesh::FaceHand
 template <class Mesh>
 void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& history) {
     std::vector<typename Mesh::VertexHandle> handle(history.positions.size() + history.collapses.size());
-    for (std::size_t v = 0; v < history.positions.size(); ++v) {
+    for (std::size_t v = 0; v < history.positions.size(); ++v)
         handle[v] = typename Mesh::VertexHandle(static_cast<int>(v));
-    }
     std::size_t deleted = 0;
     const auto delete_faces_until = [&](std::size_t time) {
         for (; deleted < history.deleted_faces.size() && history.deleted_faces[deleted].time <= time;
@@ -165,13 +162,11 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
     // Faces of zero area that remain are not part of the result.
     std::vector<std::uint8_t> remains(arrays.faces.size(), 0);
     for (const Index f : history.remaining_faces) remains[f] = 1;
-    for (std::size_t f = 0; f < remains.size(); ++f) {
+    for (std::size_t f = 0; f < remains.size(); ++f)
         if (!remains[f] && !mesh.status(arrays.faces[f]).deleted()) mesh.delete_face(arrays.faces[f], true);
-    }
     std::vector<typename Mesh::FaceHandle> faces = arrays.faces;
-    for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k) {
+    for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k)
         flip_edge(mesh, faces[history.patch(k)[0]], faces[history.patch(k)[1]]);
-    }
     for (std::size_t i = 0; i < history.remaining_versions.size(); ++i) {
         const Index version = history.remaining_versions[i];
         const bool original = version < history.positions.size();
@@ -205,9 +200,8 @@ template <class Traits>
 Report simplify(OpenMesh::TriMesh_ArrayKernelT<Traits>& mesh, Options options = {},
                 Region region = Region::all, const Properties& properties = {}) {
     using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
-    if (options.topology.virtual_edges == VirtualEdges::on) {
+    if (options.topology.virtual_edges == VirtualEdges::on)
         throw OptionError("virtual edges must be off: a half-edge mesh cannot represent the result");
-    }
     options.topology.link = LinkCondition::strict;
     options.topology.weld = Weld::none;
     options.history = Recording::on;

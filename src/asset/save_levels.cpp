@@ -50,9 +50,8 @@ void append_level(Asset& to, Asset&& level) {
         to.materials.push_back(std::move(material));
     }
     for (Part& part : level.parts) {
-        for (Index& material : part.face_material) {
+        for (Index& material : part.face_material)
             if (material != no_index) material += first_material;
-        }
         part.source = no_index;
         to.parts.push_back(std::move(part));
     }

@@ -122,9 +122,8 @@ std::vector<double> cost_weights(std::size_t parts, std::span<const Instance> in
     std::vector<double> weights(parts, 0);
     for (const Instance& instance : instances)
         weights[instance.part] += std::pow(squared_scale(instance.transform), 2);
-    for (double& weight : weights) {
+    for (double& weight : weights)
         if (!(weight > 0) || !std::isfinite(weight)) weight = 1;
-    }
     return weights;
 }
 

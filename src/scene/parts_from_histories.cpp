@@ -22,9 +22,8 @@ bool matches(const Part& part, const CollapseHistory& history) {
         for (std::size_t k = 0; k < 3 && history.triangles[f][0] != no_index; ++k) {
             const Vec3 &a = part.positions[part.triangles[f][k]],
                        &b = history.positions[history.triangles[f][k]];
-            for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t i = 0; i < 3; ++i)
                 if (!(std::abs(a[i] - b[i]) <= 0.01 * extent)) return false;
-            }
         }
     }
     return true;

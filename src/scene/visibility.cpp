@@ -46,9 +46,8 @@ InstanceMesh instance_mesh(const Asset& scene, const Instance& instance) {
     InstanceMesh result;
     for (const Vec3& p : part.positions) result.positions.push_back(transformed_point(instance.transform, p));
     result.triangles = part.triangles;
-    if (transform.topLeftCorner<3, 3>().determinant() < 0) {
+    if (transform.topLeftCorner<3, 3>().determinant() < 0)
         for (Triangle& t : result.triangles) std::swap(t[1], t[2]);
-    }
     return result;
 }
 

@@ -279,9 +279,8 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::map<std::st
         }
         m = added[m];
     }
-    if (!libraries.empty() && asset.materials.empty()) {
+    if (!libraries.empty() && asset.materials.empty())
         asset.warnings.push_back("material libraries are referenced, but no face uses a material (usemtl)");
-    }
 }
 
 /// The smoothing that all faces have if no corner has a normal.

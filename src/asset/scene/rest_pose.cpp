@@ -87,9 +87,8 @@ Part posed_part(const Part& part, const PosedInstance& instance) {
 
 double posed_coordinate_bound(const Part& part, double largest, const PosedInstance& instance) {
     const RestPose& pose = *instance.pose;
-    for (std::size_t m = 0; m < part.morph_targets.size() && m < pose.morph_weights.size(); ++m) {
+    for (std::size_t m = 0; m < part.morph_targets.size() && m < pose.morph_weights.size(); ++m)
         largest += std::abs(pose.morph_weights[m]) * largest_component(part.morph_targets[m].positions);
-    }
     // Points between those of two joints are in the box of both.
     double bound = transformed_bound(instance.transform, largest);
     for (const Matrix4& joint : pose.joints) bound = max_or_nan(bound, transformed_bound(joint, largest));

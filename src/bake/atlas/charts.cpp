@@ -20,9 +20,8 @@ constexpr std::uint64_t work_per_region = 24, work_for_merging = 32;
 // Length of the diagonal of the chart's bounding box.
 double bounding_box_diagonal(const Chart& chart) {
     Box2 box;
-    for (const Triangle2& t : chart.points) {
+    for (const Triangle2& t : chart.points)
         for (const Point2& p : t) box.add(p);
-    }
     return length(box.high - box.low);
 }
 

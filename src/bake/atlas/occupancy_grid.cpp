@@ -95,9 +95,8 @@ void OccupancyGrid::update_longest_run(std::uint32_t y) {
 // nowhere in this row.
 bool OccupancyGrid::find_free_columns(std::span<const Run> runs, std::uint32_t y, Row& candidates,
                                       Row& scratch) const {
-    for (const Run& run : runs) {
+    for (const Run& run : runs)
         if (longest_free_run_[y + run.row] < run.length) return false;
-    }
     candidates.assign(free_[0].size(), ~std::uint64_t{0});
     std::size_t begin = 0, end = candidates.size();  // of the words with candidates
     for (const Run& run : runs) {

@@ -183,9 +183,7 @@ public:
                  std::uint32_t height)
         : width_(width), height_(height) {
         rasters_.reserve(shapes.size());
-        for (const OrientedChart& shape : shapes) {
-            rasters_.push_back(rasterize(shape, scale, width, height));
-        }
+        for (const OrientedChart& shape : shapes) rasters_.push_back(rasterize(shape, scale, width, height));
     }
 
     // Returns whether all charts fit.

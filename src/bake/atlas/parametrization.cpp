@@ -156,9 +156,8 @@ bool is_positively_oriented(const std::array<ComplexPoint, 3>& t) {
 
 std::vector<Index> flipped_faces_of(ChartMesh& chart_mesh, const std::vector<ComplexPoint>& z) {
     std::vector<Index> result;
-    for (std::size_t i = 0; i < chart_mesh.size(); ++i) {
+    for (std::size_t i = 0; i < chart_mesh.size(); ++i)
         if (!is_positively_oriented(chart_mesh.triangle(z, i))) result.push_back(chart_mesh.faces()[i]);
-    }
     return result;
 }
 
@@ -356,9 +355,8 @@ Parametrization parametrize(std::span<const PageTriangle> all, std::vector<Index
             }
             if (settled) break;
         }
-        if (best.empty() && (result.flipped_faces.empty() || flipped.size() < result.flipped_faces.size())) {
+        if (best.empty() && (result.flipped_faces.empty() || flipped.size() < result.flipped_faces.size()))
             result.flipped_faces = flipped;
-        }
         if (round == max_iterations || !arap.is_factorized()) break;
         z = arap.iterate(z);
     }

@@ -55,9 +55,8 @@ public:
         : regions_(faces.size()), merged_(faces.size()) {
         for (std::size_t f = 0; f < faces.size(); ++f) init_region(faces, static_cast<Index>(f));
         for (std::size_t f = 0; f < faces.size(); ++f) {
-            for (const SharedBoundary& s : regions_[f].neighbours) {
+            for (const SharedBoundary& s : regions_[f].neighbours)
                 if (s.region > f) enqueue_merge(static_cast<Index>(f), s.region);
-            }
         }
     }
 
@@ -166,9 +165,8 @@ private:
     }
 
     static void replace_neighbour(std::vector<SharedBoundary>& neighbours, Index from, Index to) {
-        for (SharedBoundary& s : neighbours) {
+        for (SharedBoundary& s : neighbours)
             if (s.region == from) s.region = to;
-        }
         sort_and_combine(neighbours);
     }
 

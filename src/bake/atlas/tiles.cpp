@@ -207,9 +207,8 @@ TileOwners tile_owners(const Atlas& atlas, const AtlasChart& chart, std::span<co
     if (chart.is_single_texel) {
         // All triangles share the texel: its samples are assigned to them in turn.
         TileOwners result{chart.triangles, {}};
-        for (std::uint32_t i = 0; i < samples * samples; ++i) {
+        for (std::uint32_t i = 0; i < samples * samples; ++i)
             result.owners.push_back(i % static_cast<std::uint32_t>(chart.triangles.size()));
-        }
         return result;
     }
     SampleOwners owners(atlas, chart, tile, samples);

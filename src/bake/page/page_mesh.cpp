@@ -154,9 +154,8 @@ void use_room(std::span<const WantedDensities> wanted, double WantedDensities::*
 // The factor by which the lengths of a page are larger than the densities say.
 double small_page_factor(std::span<const PageTriangle> triangles) {
     double texels = 0;
-    for (const PageTriangle& t : triangles) {
+    for (const PageTriangle& t : triangles)
         if (std::isfinite(area_vector(t).norm())) texels += wanted_texels(t);
-    }
     return std::clamp(std::sqrt(small_page_texels / texels), 1.0, std::numbers::sqrt2);
 }
 

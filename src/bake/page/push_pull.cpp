@@ -33,9 +33,8 @@ PyramidLevel push(std::uint32_t width, std::uint32_t height, const std::vector<s
             if (count == 0) continue;
             const std::size_t to = std::size_t{y} * result.width + x;
             result.known[to] = 1;
-            for (std::size_t k = 0; k < 4; ++k) {
+            for (std::size_t k = 0; k < 4; ++k)
                 result.rgba[4 * to + k] = static_cast<std::uint8_t>((sum[k] + count / 2) / count);
-            }
         }
     }
     return result;
@@ -62,9 +61,8 @@ void pull(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t>& 
         for (std::uint32_t x = 0; x < width; ++x) {
             const std::size_t at = std::size_t{y} * width + x;
             if (known[at]) continue;
-            for (std::size_t k = channels.begin; k < channels.end; ++k) {
+            for (std::size_t k = channels.begin; k < channels.end; ++k)
                 rgba[4 * at + k] = upsampled(coarse, x, y, k);
-            }
         }
     }
 }

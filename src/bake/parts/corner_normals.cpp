@@ -103,13 +103,11 @@ std::vector<std::uint8_t> faces_with_reversed_winding(const BakePart& part) {
     std::vector<std::uint8_t> result(part.faces(), 0);
     if (part.source->normals.empty()) return result;
     double total = 0;
-    for (std::size_t f = 0; f < part.source->triangles.size(); ++f) {
+    for (std::size_t f = 0; f < part.source->triangles.size(); ++f)
         total += normal_winding_agreement(*part.source, f);
-    }
     if (!(total > 0)) return result;
-    for (std::size_t f = 0; f < result.size(); ++f) {
+    for (std::size_t f = 0; f < result.size(); ++f)
         result[f] = normal_winding_agreement(*part.source, part.simplified->history.remaining_faces[f]) < 0;
-    }
     return result;
 }
 
@@ -191,12 +189,10 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, con
     // The tolerance allows for rounding differences between equal normals.
     const double min_normal_cosine = std::cos(options.crease_angle * (std::acos(-1.0) / 180)) - 1e-6;
     const VertexCorners at = vertex_corners(mesh);
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
         smooth_vertex(mesh, at[v], raw, min_normal_cosine, result);
-    }
-    if (options.normals == Normals::flat) {
+    if (options.normals == Normals::flat)
         std::transform(raw.normals.begin(), raw.normals.end(), result.normals.begin(), to_vec3f);
-    }
     return result;
 }
 

@@ -38,9 +38,8 @@ Vec3f blend(const std::vector<Vec3f>& values, const Triangle& t, const Vec3& w) 
 double shortest_edge(const TriangleMesh& mesh, std::size_t face) {
     const Triangle& t = mesh.triangles[face];
     double least = (to_eigen(mesh.positions[t[0]]) - to_eigen(mesh.positions[t[2]])).norm();
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i)
         least = std::min(least, (to_eigen(mesh.positions[t[i]]) - to_eigen(mesh.positions[t[i + 1]])).norm());
-    }
     return least;
 }
 

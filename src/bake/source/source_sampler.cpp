@@ -303,9 +303,8 @@ bool SourceSampler::has_jump(Index p, const SurfacePoint& a, const SurfacePoint&
     constexpr double visible_jump = 0.06;  // of values in [0, 1], colours in sRGB
     const Appearance first = sample(p, a, 0), second = sample(p, b, 0);
     const auto is_visible = [&](double x, double y) { return !(std::abs(x - y) <= visible_jump); };
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < 4; ++k)
         if (is_visible(srgb_from_linear(first.base[k]), srgb_from_linear(second.base[k]))) return true;
-    }
     for (std::size_t i = 0; i < first.plain.size(); ++i) {
         for (std::size_t k = 0; k < 3; ++k)
             if (is_visible(first.plain[i][k], second.plain[i][k])) return true;

@@ -74,9 +74,8 @@ public:
             grow_group(c);
         }
         std::vector<Vec4f> result(corners_.size());
-        for (std::size_t c = 0; c < result.size(); ++c) {
+        for (std::size_t c = 0; c < result.size(); ++c)
             result[c] = group_[c] == absent ? any_tangent(normal(c)) : tangents_[group_[c]];
-        }
         copy_to_degenerate_faces(result);
         return result;
     }
@@ -162,9 +161,8 @@ private:
             if (face.has_tangent) sum += weighted_tangent(c);
             // Depth-first, in the order of the reference implementation: the order decides which group faces
             // without a tangent join.
-            for (const std::uint32_t other : {adjacent_face_[previous(c)], adjacent_face_[c]}) {
+            for (const std::uint32_t other : {adjacent_face_[previous(c)], adjacent_face_[c]})
                 if (other != absent) stack.push_back(other);
-            }
         }
         const Vector3f tangent = unit(sum);
         // v points down in glTF and up in MikkTSpace: UVs with the winding of the corners are mirrored.
@@ -189,9 +187,8 @@ private:
     // Degenerate triangles get the tangents of other triangles at the same vertices.
     void copy_to_degenerate_faces(std::vector<Vec4f>& result) const {
         std::vector<std::uint32_t> donor(corners_.size(), absent);
-        for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+        for (std::uint32_t c = 0; c < corners_.size(); ++c)
             if (!faces_[c / 3].is_degenerate && donor[vertex_[c]] == absent) donor[vertex_[c]] = c;
-        }
         for (std::size_t c = 0; c < corners_.size(); ++c) {
             if (faces_[c / 3].is_degenerate && donor[vertex_[c]] != absent)
                 result[c] = result[donor[vertex_[c]]];

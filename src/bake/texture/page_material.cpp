@@ -174,9 +174,8 @@ std::array<std::optional<float>, 4> constant_channels(const Pixels& pixels,
         }
     }
     std::array<std::optional<float>, 4> result;
-    for (std::size_t k = 0; k < 4 && !is_empty; ++k) {
+    for (std::size_t k = 0; k < 4 && !is_empty; ++k)
         if (high[k] - low[k] <= 1) result[k] = static_cast<float>(low[k] + high[k]) / 2;
-    }
     return result;
 }
 

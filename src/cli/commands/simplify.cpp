@@ -73,9 +73,8 @@ void print_bytes(std::ostream& out, const Report& report) {
     for (const ResultImage& image : report.images) images += image.bytes;
     images = std::min(images, report.bytes_out);
     std::uint64_t geometry = report.buffer_views.empty() ? report.bytes_out - images : 0, animation = 0;
-    for (const ResultView& view : report.buffer_views) {
+    for (const ResultView& view : report.buffer_views)
         (detail::is_animation(view) ? animation : geometry) += view.bytes;
-    }
     out << shown_bytes(report.bytes_in) << " -> " << shown_bytes(report.bytes_out) << " (geometry "
         << shown_bytes(geometry) << ", images " << shown_bytes(images);
     if (animation > 0) out << ", animation " << shown_bytes(animation);

@@ -90,9 +90,8 @@ void check_output(const fs::path& file, Overwrite overwrite, const std::string& 
     if (fs::is_directory(file, error)) throw WriteError(file.string() + ": is a directory");
     if (fs::exists(file, error) && !fs::is_regular_file(file, error))
         throw WriteError(file.string() + ": is not a regular file");
-    if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error))) {
+    if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error)))
         throw WriteError(file.string() + ": the file exists; " + advice);
-    }
     if (access(folder.c_str(), W_OK) != 0)
         throw WriteError(file.string() + ": the directory is not writable");
 }

@@ -85,9 +85,8 @@ std::string profile_key(const OptionInfo& option) {
 }
 
 const OptionInfo* find_option(const CommandInfo& command, const std::string& key) {
-    for (const OptionInfo& option : command.options) {
+    for (const OptionInfo& option : command.options)
         if (!key.empty() && profile_key(option) == key) return &option;
-    }
     return nullptr;
 }
 
@@ -95,9 +94,8 @@ const OptionInfo* find_option(const CommandInfo& command, const std::string& key
                                     const std::string& file, const std::string& key) {
     std::string text = file + ": '" + key + "' is not an option of faqem " + command.name;
     std::vector<std::string> known;
-    for (const OptionInfo& option : command.options) {
+    for (const OptionInfo& option : command.options)
         if (const std::string name = profile_key(option); !name.empty()) known.push_back(name);
-    }
     const std::string suggested = detail::closest_word(key, known);
     const auto other = std::ranges::find_if(
         tree.commands, [&](const CommandInfo& c) { return find_option(c, key) != nullptr; });

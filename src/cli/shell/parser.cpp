@@ -44,13 +44,11 @@ void add_command(CLI::App& app, const CommandTree& tree, const CommandInfo& info
     CLI::App& command = *app.add_subcommand(info.name);
     std::vector<ParsedOption> options;
     for (const std::vector<OptionInfo>& group : {std::cref(info.positionals), std::cref(info.options)}) {
-        for (const OptionInfo& option : group) {
+        for (const OptionInfo& option : group)
             if (option.read) options.emplace_back(&option, add_to_command(command, option));
-        }
     }
-    for (const auto& [option, parsed] : options) {
+    for (const auto& [option, parsed] : options)
         for (const std::string& other : option->excludes) parsed->excludes(command.get_option(other));
-    }
     command.final_callback([options, &tree, &info, &action] {
         std::vector<ParsedValue> values = typed_values(options);
         if (tree.add_profiles) tree.add_profiles(tree, info, values);
@@ -81,9 +79,8 @@ std::string suggestion(const CommandTree& tree, const std::vector<std::string>& 
     std::vector<std::string> commands;
     for (const CommandInfo& command : tree.commands) commands.push_back(command.name);
     const auto chosen = std::find(commands.begin(), commands.end(), words[0]);
-    if (chosen == commands.end()) {
+    if (chosen == commands.end())
         return detail::closest_word(words[0], words[0].starts_with('-') ? names_of(tree.options) : commands);
-    }
     const std::vector<std::string> known =
         names_of(tree.commands[static_cast<std::size_t>(chosen - commands.begin())].options);
     for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {

@@ -117,9 +117,7 @@ struct Bvh::Build {
     /// \return the beginning of the second part; both parts are nonempty
     std::uint32_t split(const Range& range) {
         AlignedBox3d centres;
-        for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            centres.extend(items[i].centre);
-        }
+        for (std::uint32_t i = range.begin; i < range.end; ++i) centres.extend(items[i].centre);
         int axis = 0;
         centres.sizes().maxCoeff(&axis);
         if (range.size() > max_halved_range && range.depth < sah_levels) {

@@ -37,9 +37,8 @@ inline std::string numbered(const char* what, std::size_t i) {
 }
 
 inline void check_position(const Vec3& position, const char* section, std::size_t i) {
-    for (const double x : position) {
+    for (const double x : position)
         if (!std::isfinite(x)) detail::fail_history(numbered(section, i), "position is not finite");
-    }
 }
 
 inline void check_positions(const CollapseHistory& h) {
@@ -58,9 +57,8 @@ inline void check_faces(const CollapseHistory& h) {
             t[0] < h.positions.size() && t[1] < h.positions.size() && t[2] < h.positions.size();
         if (!dropped && !inside) detail::fail_history(numbered("triangles", f), "vertex index out of range");
     }
-    if (!h.face_groups.empty() && h.face_groups.size() != h.triangles.size()) {
+    if (!h.face_groups.empty() && h.face_groups.size() != h.triangles.size())
         detail::fail_history("face_groups", "needs one entry per face or none");
-    }
 }
 
 // Checks that each version is merged at most once and after its creation. Returns 1 for merged versions.
@@ -92,9 +90,8 @@ inline void check_patches(const CollapseHistory& h) {
     }
     for (std::size_t i = 0; i < h.patch_faces.size(); ++i) {
         const Index f = h.patch_faces[i];
-        if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index) {
+        if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
             detail::fail_history(numbered("patch_faces", i), "face does not exist");
-        }
     }
     for (std::size_t i = 0; i < h.deleted_faces.size(); ++i) {
         if (!(h.deleted_faces[i].face < h.triangles.size()) ||
@@ -142,9 +139,8 @@ inline void check_remaining(const CollapseHistory& h, const std::vector<std::uin
         if (!(v < used.size()) || used[v])
             detail::fail_history(numbered("remaining_versions", i), "version does not exist or was merged");
     }
-    if (!h.final_positions.empty() && h.final_positions.size() != h.remaining_versions.size()) {
+    if (!h.final_positions.empty() && h.final_positions.size() != h.remaining_versions.size())
         detail::fail_history("final_positions", "needs one entry per remaining version or none");
-    }
     for (std::size_t i = 0; i < h.remaining_faces.size(); ++i) {
         const Index f = h.remaining_faces[i];
         if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
@@ -171,9 +167,8 @@ FAQEM_INLINE void validate(const CollapseHistory& history) {
 
 FAQEM_INLINE TriangleMesh replay(const CollapseHistory& history) {
     TriangleMesh mesh;
-    for (std::size_t i = 0; i < history.remaining_versions.size(); ++i) {
+    for (std::size_t i = 0; i < history.remaining_versions.size(); ++i)
         mesh.positions.push_back(history.final_position(i));
-    }
     const std::vector<Triangle> faces = detail::simplified_faces(history);
     for (const Index f : history.remaining_faces) {
         mesh.triangles.push_back(faces[f]);

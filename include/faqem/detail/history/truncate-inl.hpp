@@ -109,9 +109,8 @@ inline bool is_within_contraction(const CollapseHistory& h, std::size_t k,
     }
     std::sort(ends.begin(), ends.end());
     std::sort(opposite.begin(), opposite.end());
-    for (std::size_t i = 2; i < ends.size(); ++i) {
+    for (std::size_t i = 2; i < ends.size(); ++i)
         if (ends[i] == ends[i - 2]) return true;
-    }
     return std::adjacent_find(opposite.begin(), opposite.end()) != opposite.end();
 }
 
@@ -173,9 +172,8 @@ inline void fill_remaining_elements(CollapseHistory& h) {
         h.remaining_faces.push_back(f);
         for (const Index v : now) version_at[slot[v]] = v;
     }
-    for (const Index v : version_at) {
+    for (const Index v : version_at)
         if (v != no_index) h.remaining_versions.push_back(v);
-    }
 }
 
 // \throws InputError  if the parts have different numbers of levels
@@ -217,13 +215,11 @@ FAQEM_INLINE CollapseHistory truncate_to_level(const ChainHistory& history, std:
 
 FAQEM_INLINE CollapseHistory truncate_to_faces(const ChainHistory& history, std::uint64_t faces) {
     const std::size_t levels = history.level_count();
-    for (std::size_t i = 0; i < levels; ++i) {
+    for (std::size_t i = 0; i < levels; ++i)
         if (detail::faces_at_level(history, i) == faces) return truncate_to_level(history, i);
-    }
     const detail::HistoryLength length = detail::length_at_face_count(history.last, faces);
-    for (std::size_t i = 0; i < levels; ++i) {
+    for (std::size_t i = 0; i < levels; ++i)
         if (detail::length_at_level(history, i) == length) return truncate_to_level(history, i);
-    }
     CollapseHistory h = detail::history_prefix(history.last, length.collapses, length.deleted);
     detail::fill_remaining_elements(h);
     return h;

@@ -129,9 +129,8 @@ private:
         std::vector<Result> results = run_(targets_, options_, last.step(Phase::simplify, 0, 0.5));
         const bool is_complete = results.empty() || results.back().report.stop != StopReason::cancelled;
         out_.resize(results.size());
-        for (std::size_t i = 0; i < out_.size(); ++i) {
+        for (std::size_t i = 0; i < out_.size(); ++i)
             if (level_targets_[i].faces) out_[i].result = std::move(results[i]);
-        }
         return is_complete;
     }
 

@@ -72,9 +72,8 @@ inline double distance(const Vec3& a, const Vec3& b) {
 
 inline float mean_edge_length(const std::vector<Vec3>& positions, std::span<const Triangle> corners) {
     double sum = 0;
-    for (const Triangle& t : corners) {
+    for (const Triangle& t : corners)
         for (int c = 0; c < 3; ++c) sum += distance(positions[t[c]], positions[t[(c + 1) % 3]]);
-    }
     return corners.empty() ? 0.0f : static_cast<float>(sum / (3.0 * static_cast<double>(corners.size())));
 }
 
@@ -112,9 +111,8 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history, Before&& be
         for (std::uint64_t e = history.patch_begin[k]; e < history.patch_begin[k + 1]; ++e) {
             Triangle& t = now[history.patch_faces[e]];
             before(k, e, t);
-            for (Index& v : t) {
+            for (Index& v : t)
                 if (v == c.first || v == c.second) v = made;
-            }
         }
     }
     for (std::size_t k = history.collapses.size(); k < history.patch_count(); ++k) {
@@ -130,9 +128,8 @@ std::vector<Triangle> replay_forward(const CollapseHistory& history, Before&& be
 inline void fill_simplified_faces(const CollapseHistory& history, const std::vector<Triangle>& last,
                                   ReplayTables& result) {
     std::vector<Vec3> final_positions = result.positions;
-    for (std::size_t i = 0; i < history.remaining_versions.size(); ++i) {
+    for (std::size_t i = 0; i < history.remaining_versions.size(); ++i)
         final_positions[history.remaining_versions[i]] = history.final_position(i);
-    }
     for (const Index f : history.remaining_faces) {
         const Triangle& t = last[f];
         result.corner_versions.push_back(t);

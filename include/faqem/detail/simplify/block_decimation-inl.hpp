@@ -66,9 +66,8 @@ public:
           first_(static_cast<Index>(b * input.per_block)),
           own_(static_cast<Index>(std::min(input.per_block, input.positions.size() - first_))) {
         for (const Index f : faces) {
-            for (const Index v : input.triangles[f]) {
+            for (const Index v : input.triangles[f])
                 if (!is_own(v)) others_.push_back(v);
-            }
         }
         std::sort(others_.begin(), others_.end());
         others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
@@ -182,9 +181,8 @@ private:
 inline std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking) {
     const bool all = tracking.watched == Watched::borders_and_surface;
     std::vector<std::uint8_t> watched(tracking.vertex_map.size(), all);
-    for (const auto& edge : tracking.original.boundary_edges()) {
+    for (const auto& edge : tracking.original.boundary_edges())
         for (const Index v : edge) watched[v] = 1;
-    }
     for (Index v = 0; v < watched.size(); ++v) watched[v] &= tracking.vertex_map[v] != no_index;
     return watched;
 }
@@ -193,9 +191,8 @@ inline std::vector<std::uint8_t> watched_vertices(const BlockTracking& tracking)
 inline Buckets<Index> watched_by_block(const BlockInput& input, const BlockTracking& tracking) {
     const std::vector<std::uint8_t> watched = watched_vertices(tracking);
     return Buckets<Index>(input.block_count(), [&](auto&& put) {
-        for (Index v = 0; v < watched.size(); ++v) {
+        for (Index v = 0; v < watched.size(); ++v)
             if (watched[v]) put(input.block_of(tracking.vertex_map[v]), v);
-        }
     });
 }
 
@@ -256,9 +253,8 @@ struct StepSelection {
 
     std::size_t removed(const std::vector<BlockResult>& blocks) const {
         std::size_t sum = 0;
-        for (const BlockResult& block : blocks) {
+        for (const BlockResult& block : blocks)
             if (const std::size_t n = steps(block)) sum += block.removed[n - 1];
-        }
         return sum;
     }
 };
@@ -297,9 +293,8 @@ inline StepSelection select_steps(const std::vector<BlockResult>& blocks, std::s
 inline void append_steps(const BlockResult& block, std::size_t steps, Recording patches, BlockSteps& to) {
     to.steps.insert(to.steps.end(), block.steps.begin(),
                     block.steps.begin() + static_cast<std::ptrdiff_t>(steps));
-    for (std::size_t i = 0; i < refusal_kinds; ++i) {
+    for (std::size_t i = 0; i < refusal_kinds; ++i)
         if (i != static_cast<std::size_t>(Refusal::locked)) to.refusals[i] += block.loop_result.refusals[i];
-    }
     for (std::size_t i = 0; i < rung_kinds; ++i) to.rungs[i] += block.loop_result.rungs[i];
     if (patches == Recording::off || steps == 0) return;
     const std::size_t first = to.patch_faces.size();

@@ -29,9 +29,8 @@ FAQEM_INLINE CompactedMesh compacted(std::vector<Index> faces, std::vector<Trian
     out.faces = std::move(faces);
     out.triangles = std::move(triangles);
     std::vector<Index> number(positions.size(), no_index);
-    for (const Triangle& t : out.triangles) {
+    for (const Triangle& t : out.triangles)
         for (const Index v : t) number[v] = 0;
-    }
     for (Index v = 0; v < number.size(); ++v) {
         if (number[v] == no_index) continue;
         number[v] = static_cast<Index>(out.vertices.size());
@@ -39,9 +38,8 @@ FAQEM_INLINE CompactedMesh compacted(std::vector<Index> faces, std::vector<Trian
         out.source_slots.push_back(trace.source_slots()[v]);
         out.positions.push_back(positions[v]);
     }
-    for (Triangle& t : out.triangles) {
+    for (Triangle& t : out.triangles)
         for (Index& v : t) v = number[v];
-    }
     out.vertex_map.reserve(number.size());
     for (Index v = 0; v < number.size(); ++v) {
         const Index root = trace.root(v);

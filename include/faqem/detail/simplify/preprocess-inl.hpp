@@ -47,9 +47,8 @@ inline void check_sizes(const MeshView& mesh) {
     check_count(mesh.vertex_weights.size(), mesh.positions.size(), "vertex_weights", "vertex");
     for (std::size_t v = 0; v < mesh.vertex_weights.size(); ++v) {
         const float weight = mesh.vertex_weights[v];
-        if (!(weight >= 1e-6f && weight <= 1e6f)) {
+        if (!(weight >= 1e-6f && weight <= 1e6f))
             fail("vertex " + std::to_string(v), "weight " + number_text(weight) + " is not in [1e-6, 1e6]");
-        }
     }
     if (mesh.attributes) {
         const CornerAttributes& a = *mesh.attributes;
@@ -86,16 +85,14 @@ inline std::vector<Index> representatives(const MeshView& mesh, const std::vecto
     std::iota(result.begin(), result.end(), Index{0});
     if (settings.weld == Weld::none) return result;
     std::vector<std::uint8_t> is_used(positions.size(), 0);
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
         for (const Index v : mesh.triangles[f]) is_used[v] = 1;
-    }
     if (std::find(is_used.begin(), is_used.end(), 0) == is_used.end())
         return engine::weld_within(positions, settings.weld_distance);
     std::vector<Index> used;
     std::vector<Vec3> used_positions;
-    for (Index v = 0; v < positions.size(); ++v) {
+    for (Index v = 0; v < positions.size(); ++v)
         if (is_used[v]) used.push_back(v), used_positions.push_back(positions[v]);
-    }
     const std::vector<Index> welded = engine::weld_within(used_positions, settings.weld_distance);
     for (std::size_t i = 0; i < used.size(); ++i) result[used[i]] = used[welded[i]];
     return result;
@@ -104,9 +101,8 @@ inline std::vector<Index> representatives(const MeshView& mesh, const std::vecto
 // Moves welded vertices to the position of the first locked vertex in them.
 inline void restore_locked_positions(const MeshView& mesh, const std::vector<Vec3>& positions,
                                      PreprocessedMesh& out) {
-    for (std::size_t v = mesh.vertex_locks.size(); v-- > 0;) {
+    for (std::size_t v = mesh.vertex_locks.size(); v-- > 0;)
         if (mesh.vertex_locks[v]) out.positions[out.welded[v]] = positions[v];
-    }
 }
 
 inline void check_triangles(const MeshView& mesh) {
@@ -134,9 +130,8 @@ inline void apply_weld(const MeshView& mesh, const std::vector<Vec3>& positions,
 }
 
 inline void drop_degenerate_faces(PreprocessedMesh& out) {
-    for (Triangle& t : out.triangles) {
+    for (Triangle& t : out.triangles)
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dropped_face, ++out.dropped_faces;
-    }
 }
 
 // Removes faces that have the corners, winding and group of an earlier face, since they are invisible. Faces
@@ -148,9 +143,8 @@ inline void drop_duplicate_faces(std::span<const Index> groups, PreprocessedMesh
     };
     std::vector<std::size_t> offset(out.positions.size() + 1, 0);
     const auto smallest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
-    for (const Triangle& t : out.triangles) {
+    for (const Triangle& t : out.triangles)
         if (!is_dropped(t)) ++offset[smallest(t) + 1];
-    }
     std::partial_sum(offset.begin(), offset.end(), offset.begin());
     std::vector<FaceKey> faces(offset.back());
     for (Index f = 0; f < out.triangles.size(); ++f) {
@@ -203,9 +197,7 @@ FAQEM_INLINE std::vector<Vector3> PreprocessedMesh::engine_positions() const {
     std::vector<Vector3> result;
     result.reserve(positions.size());
     const Vector3 c = engine::to_eigen(centre);
-    for (const Vec3& p : positions) {
-        result.push_back((engine::to_eigen(p) - c) * scale);
-    }
+    for (const Vec3& p : positions) result.push_back((engine::to_eigen(p) - c) * scale);
     return result;
 }
 
@@ -242,18 +234,16 @@ FAQEM_INLINE std::vector<Triangle> unpruned_triangles(const MeshView& mesh, cons
             is_pruned[pruned.face] = 1;
     }
     std::vector<Triangle> left;
-    for (std::size_t f = 0; f < is_pruned.size(); ++f) {
+    for (std::size_t f = 0; f < is_pruned.size(); ++f)
         if (!is_pruned[f]) left.push_back(mesh.triangles[f]);
-    }
     return left;
 }
 
 FAQEM_INLINE std::vector<std::uint8_t> welded_locks(const MeshView& mesh, std::span<const Index> welded,
                                                     std::size_t vertices) {
     std::vector<std::uint8_t> locked(vertices, 0);
-    for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v) {
+    for (std::size_t v = 0; v < mesh.vertex_locks.size(); ++v)
         if (mesh.vertex_locks[v]) locked[welded[v]] = 1;
-    }
     return locked;
 }
 

@@ -38,9 +38,8 @@ FAQEM_INLINE std::string_view name(Refusal refusal) {
 FAQEM_INLINE std::string_view name(Rung rung) { return detail::rung_names[static_cast<std::size_t>(rung)]; }
 
 FAQEM_INLINE Preset preset_named(std::string_view text) {
-    for (const Preset preset : all_presets) {
+    for (const Preset preset : all_presets)
         if (name(preset) == text) return preset;
-    }
     std::string known;
     for (const std::string_view one : detail::preset_names)
         known += (known.empty() ? "" : ", ") + std::string(one);

@@ -28,9 +28,8 @@ inline std::vector<Index> vertices_in_morton_order(const std::vector<Vector3>& p
         for (const Index v : t) used[v] = 1;
     }
     Eigen::AlignedBox3d box;
-    for (Index v = 0; v < used.size(); ++v) {
+    for (Index v = 0; v < used.size(); ++v)
         if (used[v]) box.extend(positions[v]);
-    }
     const double side = box.isEmpty() ? 0 : box.sizes().maxCoeff();
     const double per_side = side > 0 ? 1 / side : 0;
     std::vector<std::uint64_t> code(positions.size());
@@ -79,9 +78,8 @@ FAQEM_INLINE ReorderedMesh reorder(const PreprocessedMesh& prepared, const RunCo
         }
     });
     out.face = std::move(Buckets<Index>(out.vertex.size(), [&](auto&& put) {
-                             for (Index f = 0; f < first_slot.size(); ++f) {
+                             for (Index f = 0; f < first_slot.size(); ++f)
                                  if (first_slot[f] != no_index) put(first_slot[f], f);
-                             }
                          }).items());
     out.triangles.resize(out.face.size());
     parallel_blocks(out.face.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {

@@ -27,9 +27,8 @@ inline std::vector<Index> duplicate_faces(const CollapseMesh& mesh) {
     }
     std::sort(faces.begin(), faces.end());
     std::vector<Index> duplicates;
-    for (std::size_t i = 1; i < faces.size(); ++i) {
+    for (std::size_t i = 1; i < faces.size(); ++i)
         if (faces[i].first == faces[i - 1].first) duplicates.push_back(faces[i].second);
-    }
     std::sort(duplicates.begin(), duplicates.end());
     return duplicates;
 }

@@ -34,9 +34,7 @@ public:
         // array later would take twice the memory.
         const std::size_t extra_boundary_pairs = mesh.face_count() / 64;
         pairs_.reserve(mesh.face_count() / 2 * 3 + extra_boundary_pairs + virtual_pairs.size());
-        for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-            add_edges_to_larger(mesh, v);
-        }
+        for (Index v = 0; v < mesh.vertex_slots(); ++v) add_edges_to_larger(mesh, v);
         for (const auto& [a, b] : virtual_pairs) pairs_[add(a, b)].is_virtual = true;
         build_pair_lists();
     }
@@ -157,9 +155,8 @@ private:
     // \pre each list size is the number of pairs of the vertex; the lists have no memory yet
     void build_pair_lists() {
         slots_.reserve(2 * pairs_.size(), vertices_.size());
-        for (Vertex& vertex : vertices_) {
+        for (Vertex& vertex : vertices_)
             if (vertex.slots.size > 0) vertex.slots = slots_.allocate(vertex.slots.size);
-        }
         for (Index pair = 0; pair < pairs_.size(); ++pair) {
             slots_.push_back(vertices_[first(pair)].slots, 2 * pair);
             slots_.push_back(vertices_[second(pair)].slots, 2 * pair + 1);

@@ -98,9 +98,8 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
         for (int i = 0; i < 27; ++i) {
             const int dx = i % 3 - 1, dy = i / 3 % 3 - 1, dz = i / 9 - 1;
             const Vec3 neighbour_cell = {cell[0] + dx, cell[1] + dy, cell[2] + dz};
-            for (Index w = *head_of(neighbour_cell); w != no_index; w = next_in_cell[w]) {
+            for (Index w = *head_of(neighbour_cell); w != no_index; w = next_in_cell[w])
                 if (w < found && is_near(v, w)) found = w;
-            }
         }
         if (found != no_index) {
             representative[v] = found;

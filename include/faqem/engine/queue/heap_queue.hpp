@@ -86,9 +86,8 @@ private:
             const std::size_t begin = arity * i + 1;
             const std::size_t end = begin + arity < heap_.size() ? begin + arity : heap_.size();
             std::size_t best = i;
-            for (std::size_t child = begin; child < end; ++child) {
+            for (std::size_t child = begin; child < end; ++child)
                 if (heap_[child] < (best == i ? entry : heap_[best])) best = child;
-            }
             if (best == i) break;
             put(i, heap_[best]);
             i = best;

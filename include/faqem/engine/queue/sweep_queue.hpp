@@ -139,9 +139,8 @@ private:
     void fill_buckets() {
         uses_buckets_ = true;
         buckets_.reserve(costs_.size());
-        for (std::size_t i = 0; i < costs_.size(); ++i) {
+        for (std::size_t i = 0; i < costs_.size(); ++i)
             if (costs_[i] != absent) buckets_.set_scaled(static_cast<Index>(i), costs_[i]);
-        }
         std::vector<float>().swap(costs_);
         std::vector<std::uint8_t>().swap(rounds_);
     }

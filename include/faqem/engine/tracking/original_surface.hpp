@@ -26,9 +26,8 @@ struct TrackedVertices {
     /// \param vertex_map  for each original vertex, the vertex of the current mesh it was merged into, or
     ///     no_index
     explicit TrackedVertices(std::span<const Index> vertex_map) {
-        for (Index v = 0; v < vertex_map.size(); ++v) {
+        for (Index v = 0; v < vertex_map.size(); ++v)
             if (vertex_map[v] != no_index) add(v, vertex_map[v]);
-        }
     }
     TrackedVertices() = default;
 
@@ -54,14 +53,12 @@ public:
           triangles_(triangles),
           boundary_edges_(find_boundary_edges(triangles, positions.size())),
           face_offsets_(positions.size() + 1, 0) {
-        for (const Triangle& t : triangles_) {
+        for (const Triangle& t : triangles_)
             for (const Index v : t) ++face_offsets_[v + 1];
-        }
         std::partial_sum(face_offsets_.begin(), face_offsets_.end(), face_offsets_.begin());
         vertex_faces_.resize(face_offsets_.back());
-        for (Index f = 0; f < triangles_.size(); ++f) {
+        for (Index f = 0; f < triangles_.size(); ++f)
             for (const Index v : triangles_[f]) vertex_faces_[face_offsets_[v]++] = f;
-        }
         // Each offset has moved to the start of the next vertex.
         std::copy_backward(face_offsets_.begin(), face_offsets_.end() - 1, face_offsets_.end());
         face_offsets_.front() = 0;
