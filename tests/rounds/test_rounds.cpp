@@ -7,6 +7,7 @@
 
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
+#include "faqem/engine/mesh/boundary_edges.hpp"
 #include "faqem/simplify.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
@@ -129,10 +130,45 @@ TEST_CASE("rounds: no locked vertex is in a collapse") {
     CHECK(stay);
 }
 
+TEST_CASE("rounds: a border does not move, and 8 faces are left for each of its vertices") {
+    const Rounds rounds(test::grid(100), 2000);
+    const CompactedMesh& left = *rounds.left;
+    CHECK(engine::find_boundary_edges(left.triangles, left.positions.size()).size() == 400);
+    CHECK(left.triangles.size() >= 8 * 400);
+    CHECK(left.triangles.size() <= 8 * 410);
+}
+
+TEST_CASE("rounds: the rim of a thin blade and the corners of narrow faces do not move") {
+    TriangleMesh blade = test::grid(80);  // then two sheets with a common rim
+    const auto on_rim = [](const auto& p) { return p[0] == 0 || p[0] == 80 || p[1] == 0 || p[1] == 80; };
+    const std::vector<Triangle> sheet = blade.triangles;
+    const std::vector<Vec3> above = blade.positions;
+    for (const Vec3& p : above) blade.positions.push_back({p[0], p[1], p[2] - 1});
+    for (Triangle t : sheet) {
+        for (Index& v : t) v = on_rim(above[v]) ? v : v + static_cast<Index>(above.size());
+        blade.triangles.push_back({t[0], t[2], t[1]});
+    }
+    const Rounds thin(blade, 2000);
+    Index stay = 0;
+    for (const Index v : thin.left->vertices) stay += on_rim(blade.positions[thin.input.vertex[v]]);
+    CHECK(stay == 320);
+    TriangleMesh narrow = lump();
+    const Triangle t = narrow.triangles[1000];
+    auto& p = narrow.positions;
+    for (unsigned k = 0; k < 3; ++k) p[t[0]][k] = 0.5 * (p[t[1]][k] + p[t[2]][k]) + 1e-6 * p[t[0]][k];
+    const Rounds rounds(narrow, 2048);
+    const std::vector<engine::Vector3>& left = rounds.left->positions;
+    const auto slot = [&](Index v) {
+        const std::vector<Index>& vertex = rounds.input.vertex;
+        return static_cast<Index>(std::find(vertex.begin(), vertex.end(), v) - vertex.begin());
+    };
+    for (const Index v : t) CHECK(std::count(left.begin(), left.end(), rounds.input.positions[slot(v)]) == 1);
+}
+
 TEST_CASE("rounds: surfaces with many vertices that cannot move are left to blocks") {
-    CHECK(!Rounds(test::grid(100), 4000).left);  // 396 vertices on the border
-    CHECK(!Rounds(test::soup(7, 3000, 9000), 900).left);
-    CHECK(!Rounds(lump(), 18'000).left);  // more than three quarters would remain
+    CHECK(!Rounds(test::soup(7, 9000, 27000), 900).left);
+    CHECK(!Rounds(lump(), 18'000).left);            // more than three quarters would remain
+    CHECK(!Rounds(test::icosphere(4), 1000).left);  // small
 }
 
 TEST_CASE("rounds: no collapse is made after the time limit, and the callback can cancel") {

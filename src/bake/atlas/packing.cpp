@@ -1,6 +1,7 @@
 #include "bake/atlas/packing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>

@@ -21,7 +21,12 @@ inline Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-inline float length(const Vector& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+inline float dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+inline float length(const Vector& a) { return std::sqrt(dot(a, a)); }
+
+/// The squared ratio of height and longest edge below which single precision does not hold the plane of a face.
+inline constexpr float narrow = 1e-8f;
 
 /// Values that are computed at once: as many as a vector register of AVX2 has.
 inline constexpr int lanes = 8;
@@ -145,7 +150,7 @@ inline void compute_planes(Star& s, int count, const float (&x)[3]) {
             s.along[i] = n[0][j] * mx + n[1][j] * my + n[2][j] * mz;
             const float e2 = ex * ex + ey * ey + ez * ez, q2 = qx * qx + qy * qy + qz * qz;
             const float longest = e2 > q2 ? e2 : q2;
-            s.slack[i] = s.after_length[i] - 1e-8f * longest * longest;
+            s.slack[i] = s.after_length[i] - narrow * longest * longest;
         }
         for (int j = 0; j < lanes; ++j) {
             s.before_length[begin + j] = std::sqrt(s.before_length[begin + j]);

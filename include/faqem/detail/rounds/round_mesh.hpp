@@ -22,7 +22,8 @@ namespace rounds {
 
 inline constexpr float never = std::numeric_limits<float>::infinity();
 
-/// Why vertices do not move: `unfit` ones are on a border, or the surface is not a manifold there.
+/// Why vertices do not move: `unfit` ones are on a border, at a fold or a narrow face, or where the surface is not a
+/// manifold.
 inline constexpr std::uint32_t user_lock = 1, unfit = 2;
 
 /// One cache line.
@@ -50,6 +51,7 @@ struct Mesh {
     /// One per vertex of the input: what it was merged into, or no_index. Empty: not recorded.
     std::vector<Index> merged_into;
     std::size_t alive = 0;  ///< number of faces
+    std::size_t unfit = 0;  ///< number of vertices that cannot move though the input does not lock them
     double area = 0;
 
     /// Cost of the edge opposite a corner, at the smaller of its two corners; `never` at the other one, at edges
@@ -69,11 +71,24 @@ void release(std::vector<T>& memory) {
     std::vector<T>().swap(memory);
 }
 
-/// sqrt(area) x n of a face.
+/// sqrt(area) x n of a face; 0 if it is narrow.
 inline Vector root_of(const Mesh& mesh, const Face& f) {
-    const Vector n = cross(mesh.difference(f.v[0], f.v[1]), mesh.difference(f.v[0], f.v[2]));
+    const Vector a = mesh.difference(f.v[0], f.v[1]), b = mesh.difference(f.v[0], f.v[2]),
+                 c = mesh.difference(f.v[1], f.v[2]), n = cross(a, b);
+    const float longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
+    if (!(dot(n, n) > narrow * longest * longest)) return {};
     const float w = std::sqrt(0.5f / std::max(length(n), 1e-30f));
     return {w * n[0], w * n[1], w * n[2]};
+}
+
+/// Whether two neighbouring faces, given by root_of(), are such that the vertices between them cannot move: a face is
+/// narrow, or the normals are more than 120 degrees apart, as at the rim of a thin blade, which planes of faces do not
+/// preserve.
+inline bool is_unfit(const Vector& a, const Vector& b) {
+    const float ab = dot(a, b);
+    if (ab > 0) return false;
+    const float aa = dot(a, a), bb = dot(b, b);
+    return !(aa > 0) || !(bb > 0) || ab * ab > 0.25f * aa * bb;
 }
 
 inline void add_square(const Vector& n, Planes& q) {
@@ -82,7 +97,7 @@ inline void add_square(const Vector& n, Planes& q) {
 }
 
 /// Sums the planes of all vertices that are not locked, and locks those around which the faces are not
-/// one closed fan.
+/// one closed fan or two neighbours are unfit.
 /// \return root_of() of all faces
 inline std::vector<Vector> sum_planes(Mesh& mesh, const RunContext& context) {
     std::vector<Vector> roots(mesh.faces.size());
@@ -90,7 +105,7 @@ inline std::vector<Vector> sum_planes(Mesh& mesh, const RunContext& context) {
         for (std::size_t f = first; f < end; ++f) roots[f] = root_of(mesh, mesh.faces[f]);
     });
     mesh.area = 0;
-    for (const auto& n : roots) mesh.area += static_cast<double>(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (const auto& n : roots) mesh.area += static_cast<double>(dot(n, n));
     for (Index f = static_cast<Index>(roots.size()); f-- > 0;) {
         for (unsigned k = 0; k < 3; ++k) {
             Vertex& at = mesh.vertices[mesh.faces[f].v[k]];
@@ -103,16 +118,19 @@ inline std::vector<Vector> sum_planes(Mesh& mesh, const RunContext& context) {
                         for (std::size_t v = first; v < end; ++v) {
                             Vertex& at = mesh.vertices[v];
                             at.planes = {};
+                            bool is_fit = true;
                             Corner c = at.lock ? no_index : at.cell;
                             while (c != no_index) {
                                 --at.degree;
                                 add_square(roots[c >> 2], at.planes);
                                 const Corner across = mesh.faces[c >> 2].o[next(c & 3)];
+                                if (across != no_index && is_unfit(roots[c >> 2], roots[across >> 2]))
+                                    is_fit = false;
                                 c = across == no_index ? no_index : (across & ~3u) | next(across & 3);
                                 if (c == at.cell) break;
                             }
-                            if (!at.lock && (c == no_index || at.degree > 0))
-                                at.lock = unfit;  // a border, or several fans
+                            // Without a last corner there is a border; with corners left there are several fans.
+                            if (!at.lock && (c == no_index || at.degree > 0 || !is_fit)) at.lock = unfit;
                             at.degree = 0;
                         }
                     });
@@ -148,11 +166,10 @@ inline void evaluate_edges(Mesh& mesh, const std::vector<Vector>& roots, Index f
     flush();
 }
 
-/// Makes the mesh, with the costs of all edges. Locked are the vertices that `input` locks, those on a border, and
-/// those at which the surface is not a manifold with consistent windings. Releases the arrays of the input.
-/// \return no mesh, and positions and triangles as they were, if more than `most_unfit` vertices are locked that the
-///     input does not lock
-inline std::optional<Mesh> load(const RoundInput& input, double most_unfit, const RunContext& context) {
+/// Makes the mesh, with the costs of all edges. Locked are the vertices that `input` locks, and the
+/// unfit ones. Releases the arrays of the input.
+/// \return no mesh, and positions and triangles as they were, if more than `most_unfit` vertices are unfit
+inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit, const RunContext& context) {
     std::optional<Mesh> made(std::in_place);
     Mesh& mesh = *made;
     mesh.alive = input.triangles.size();
@@ -177,9 +194,9 @@ inline std::optional<Mesh> load(const RoundInput& input, double most_unfit, cons
                         }
                     });
     const std::vector<Vector> roots = sum_planes(mesh, context);
-    const auto stuck = std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
-                                     [](const Vertex& v) { return v.lock == unfit; });
-    if (static_cast<double>(stuck) > most_unfit) {
+    mesh.unfit = static_cast<std::size_t>(std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
+                                                        [](const Vertex& v) { return v.lock == unfit; }));
+    if (mesh.unfit > most_unfit) {
         input.triangles.reserve(mesh.alive);
         for (const Face& f : mesh.faces) input.triangles.push_back(f.v);
         return {};

@@ -18,8 +18,8 @@ namespace rounds {
 
 inline constexpr double vertices_per_cell = 4096;
 
-// Vertices that rounds cannot move, as a part of the faces that are kept at least: their neighbourhoods stay dense.
-inline constexpr double most_unfit = 1.0 / 16;
+// Rounds keep this many faces for each vertex that they cannot move, since its neighbourhood stays dense.
+inline constexpr std::size_t faces_per_unfit = 8;
 
 // Rounds that gain little end the work; so does their number.
 inline constexpr std::uint64_t most_rounds = 40;
@@ -111,12 +111,14 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
                                                              BlockSteps& result) {
     using namespace rounds;
     const std::size_t slots = input.positions.size(), faces = input.triangles.size();
-    const auto least = static_cast<std::size_t>(spare_faces * static_cast<double>(target));
-    if (4 * least > 3 * faces) return {};
+    const std::size_t most_left = faces - faces / 4;
+    auto least = static_cast<std::size_t>(spare_faces * static_cast<double>(target));
+    if (slots < min_vertices_of_rounds || least > most_left) return {};
     const RunContext untimed = context.untimed();
-    std::optional<Mesh> made = load(input, most_unfit * static_cast<double>(least), untimed);
+    std::optional<Mesh> made = load(input, most_left / faces_per_unfit, untimed);
     if (!made) return {};
     Mesh& mesh = *made;
+    least = std::max(least, faces_per_unfit * mesh.unfit);
     if (input.merges == Recording::on) mesh.merged_into.assign(slots, no_index);
     if (patches == Recording::on) result.steps.reserve((faces - least) / 2);
     unsigned idle = 0;

@@ -30,21 +30,22 @@ struct RoundInput {
 /// collapses what rounds refuse.
 inline constexpr double spare_faces = 1.25;
 
-/// Targets below this are left to the engine: a surface of one or two cells of rounds has only local orders of costs.
-inline constexpr std::size_t min_target_of_rounds = 13000;
+/// Surfaces with fewer vertices are left to the engine, and lower targets: the order of costs in a cell is coarse, and
+/// few collapses are left to correct it.
+inline constexpr std::size_t min_vertices_of_rounds = 8192, min_target_of_rounds = 5000;
 
 /// Simplifies the whole surface in parallel.
 ///
 /// In each round the surface is divided into the cells of a grid that is shifted at random. Each cell collapses its
-/// cheapest edges, if all faces around them are in the cell. Border vertices and those at which the surface is
-/// not a manifold with consistent windings do not move.
+/// cheapest edges, if all faces around them are in the cell. Vertices do not move on a border, at folds, at faces too
+/// narrow for single precision, and where the surface is not a manifold with consistent windings.
 /// \param input    the surface
-/// \param target   number of faces of the result; rounds keep a quarter more at least
+/// \param target   number of faces of the result; rounds keep a quarter more at least, and 8 for each vertex that
+///     does not move for the reasons above
 /// \param patches  whether steps are recorded, with patch_faces and patch_begin
 /// \param context  reports Phase::simplify; the result does not depend on the number of threads
 /// \param found    the number of collapses, refusals, and the steps
-/// \return the surface after the steps; none if less than a quarter of the faces could be removed, or if vertices that
-///     cannot move would be a large part of the result
+/// \return the surface after the steps; none if less than a quarter of the faces could be removed
 /// \throws engine::Cancelled  if the progress callback cancels; also whatever it throws
 /// Complexity: O(n) time, distributed over the threads; O(n) memory
 std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t target,

@@ -225,7 +225,7 @@ private:
         return reduce_in_blocks(loop_.target_faces, &all);
     }
 
-    bool reduce_in_blocks(std::size_t least, const BlockTracking* tracking) {
+    bool reduce_in_blocks(std::size_t least, const BlockTracking* tracking, bool allows_rounds = true) {
         const std::size_t faces = state_.mesh().triangles.size();
         if (faces <= least || context_.is_late()) return true;
         const double share = (1 - done_in_blocks_) * static_cast<double>(faces - least) /
@@ -238,8 +238,7 @@ private:
         BlockSteps found;
         std::optional<CompactedMesh> left;
         // Where vertices are fitted, rounds would save little of the time, with Hausdorff distances 4% larger.
-        if (!settings_.fit_vertices && now.positions.size() > few &&
-            (!tracking || tracking->watched == Watched::borders))
+        if (allows_rounds && !settings_.fit_vertices && (!tracking || tracking->watched == Watched::borders))
             left = state_.simplify_in_rounds(least, options_.history, step, found);
         has_just_used_rounds_ = left.has_value();
         if (!left) {
@@ -247,8 +246,7 @@ private:
                                    state_.locked(), vertices_per_block(now.positions.size(), few),
                                    closed(),        &state_.borders()};
             found = simplify_in_blocks(input, loop_, least, tracking, options_.history, step);
-            if (found.is_cancelled) return false;
-            if (found.steps.empty()) return true;
+            if (found.is_cancelled || found.steps.empty()) return !found.is_cancelled;
             left = apply_steps(input, found.steps);
         }
         has_used_blocks_ = true;
@@ -259,7 +257,9 @@ private:
         totals_.components_collapsed += left->isolated_slots;  // blocks do not delete components
         if (history_) record_blocks(found, *left);
         state_.advance_to(std::move(*left));
-        return true;
+        // Rounds end early where much of the surface cannot move. Blocks go on if much is left.
+        const bool is_enough = state_.mesh().triangles.size() <= 2 * std::max(least, max_vertices_per_block);
+        return !has_just_used_rounds_ || is_enough || reduce_in_blocks(least, tracking, false);
     }
 
     // Reserves memory for the remaining collapses as well: growing the arrays later would need twice as much.
