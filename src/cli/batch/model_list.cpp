@@ -78,12 +78,9 @@ public:
     ListedModel model(const std::string& line) const {
         const std::vector<std::string> fields = fields_of(line);
         if (fields.size() <= std::max(id_, input_)) throw InputError("", "", "has too few columns");
-        ListedModel model;
-        model.id = fields[id_];
-        model.input = fields[input_];
-        if (model.id.empty() || model.input.empty())
+        if (fields[id_].empty() || fields[input_].empty())
             throw InputError("", "", "has no sha256 or no local_path");
-        return model;
+        return {.id = fields[id_], .input = fields[input_]};
     }
 
 private:

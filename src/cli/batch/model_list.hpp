@@ -15,10 +15,10 @@ namespace faqem::cli {
 struct ListedModel {
     std::string id;               ///< unique in the list
     std::filesystem::path input;  ///< relative paths in the file are relative to the folder of the list
-    std::string hash;             ///< model_hash(); empty: not recorded
+    std::string hash = {};        ///< model_hash(); empty: not recorded
     std::uint64_t bytes = 0;      ///< size of the input, with the files that it refers to
-    std::string output;           ///< path in the output directory; empty: chosen from the id
-    Json options;                 ///< of this model, with the names of the command; null: none
+    std::string output = {};      ///< path in the output directory; empty: chosen from the id
+    Json options = {};            ///< of this model, with the names of the command; null: none
 };
 
 /// Reads a list: JSON lines with the members `id`, `input`, `sha256`, `bytes`, `output` and `options`, of which the

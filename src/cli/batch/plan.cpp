@@ -47,12 +47,10 @@ void search(const fs::path& folder, const fs::path& out_folder, std::vector<Batc
             ++others;
             continue;
         }
-        BatchFile file;
-        file.in = it->path();
-        file.name = it->path().lexically_relative(folder).generic_string();
-        if (problem.empty()) file.bytes = it->file_size();
-        file.problem = std::move(problem);
-        found.push_back(std::move(file));
+        found.push_back({.in = it->path(),
+                         .name = it->path().lexically_relative(folder).generic_string(),
+                         .bytes = problem.empty() ? it->file_size() : 0,
+                         .problem = problem});
     }
 }
 

@@ -27,13 +27,13 @@ struct EarlierResult {
 
 /// One model of a batch.
 struct BatchFile {
-    std::filesystem::path in, out;
+    std::filesystem::path in, out = {};
     std::string name;  ///< path of the input relative to the input directory, with slashes; of a list: the id
-    std::string out_name;     ///< path of the result relative to the output directory, with slashes
-    std::uint64_t bytes = 0;  ///< size of the input file; 0 if it cannot be read
-    std::string problem;      ///< why the input cannot be read; empty: it can, as far as is known
-    std::string hash = {};    ///< model_hash() that the input must have; empty: any
-    bool alone = false;       ///< no other model may use memory at the same time
+    std::string out_name = {};  ///< path of the result relative to the output directory, with slashes
+    std::uint64_t bytes = 0;    ///< size of the input file; 0 if it cannot be read
+    std::string problem = {};   ///< why the input cannot be read; empty: it can, as far as is known
+    std::string hash = {};      ///< model_hash() that the input must have; empty: any
+    bool alone = false;         ///< no other model may use memory at the same time
     std::optional<Options> options = {};  ///< instead of those of the batch
     std::string options_id = {};          ///< of everything except the input files that the result depends on
     std::optional<EarlierResult> earlier = {};  ///< that may be skipped or replaced
