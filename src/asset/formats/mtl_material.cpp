@@ -17,12 +17,11 @@ constexpr double bump_depth = 1.0 / 64;
 
 /// A texture without its image.
 TextureRef placement(const MtlTexture& texture) {
-    TextureRef ref;
-    ref.wrap_u = ref.wrap_v = texture.wrap;
-    ref.scale = texture.scale;
     // MTL defines v' = o + s * v with v pointing up. With v = 1 - w this becomes w' = (1 - s - o) + s * w.
-    ref.offset = {texture.offset[0], 1 - texture.scale[1] - texture.offset[1]};
-    return ref;
+    return {.wrap_u = texture.wrap,
+            .wrap_v = texture.wrap,
+            .offset = {texture.offset[0], 1 - texture.scale[1] - texture.offset[1]},
+            .scale = texture.scale};
 }
 
 TextureRef placed(const MtlTexture& texture, Index image) {

@@ -67,10 +67,8 @@ PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string
             header.format = read_format(in);
             has_format = true;
         } else if (key == "element") {
-            PlyElement element;
-            element.name = in.word();
-            element.count = in.number<std::uint64_t>();
-            header.elements.push_back(std::move(element));
+            const std::string name(in.word());
+            header.elements.push_back({name, in.number<std::uint64_t>(), {}});
         } else if (key == "property") {
             if (header.elements.empty()) in.fail("a property before the first element");
             header.elements.back().properties.push_back(read_property(in));

@@ -111,13 +111,12 @@ OneSidedColors one_sided(const Model& from, const Model& to, const CompareOption
     const auto share = [](double part, std::uint64_t of) {
         return part / static_cast<double>(std::max<std::uint64_t>(of, 1));
     };
-    OneSidedColors result;
-    result.mean_squared = share(total.squared, total.seen);
-    result.rmse = std::sqrt(result.mean_squared);
-    result.outliers = share(static_cast<double>(total.outliers), total.seen);
-    result.unmatched = share(static_cast<double>(total.unmatched), total.seen);
-    result.hidden = share(static_cast<double>(options.samples - total.seen), options.samples);
-    return result;
+    const double mean_squared = share(total.squared, total.seen);
+    return {.mean_squared = mean_squared,
+            .rmse = std::sqrt(mean_squared),
+            .outliers = share(static_cast<double>(total.outliers), total.seen),
+            .unmatched = share(static_cast<double>(total.unmatched), total.seen),
+            .hidden = share(static_cast<double>(options.samples - total.seen), options.samples)};
 }
 
 }  // namespace
@@ -128,12 +127,10 @@ bool has_colors(const Asset& asset) {
 
 ColorComparison compare_colors(const Asset& a, const Asset& b, const CompareOptions& options) {
     const Model model_a(a, "first model"), model_b(b, "second model");
-    ColorComparison result{one_sided(model_a, model_b, options, 2 * options.seed),
-                           one_sided(model_b, model_a, options, 2 * options.seed + 1)};
-    const double mean_squared = (result.a_to_b.mean_squared + result.b_to_a.mean_squared) / 2;
-    result.rmse = std::sqrt(mean_squared);
-    result.psnr = detail::psnr(mean_squared);
-    return result;
+    const OneSidedColors a_to_b = one_sided(model_a, model_b, options, 2 * options.seed),
+                         b_to_a = one_sided(model_b, model_a, options, 2 * options.seed + 1);
+    const double mean_squared = (a_to_b.mean_squared + b_to_a.mean_squared) / 2;
+    return {a_to_b, b_to_a, std::sqrt(mean_squared), detail::psnr(mean_squared)};
 }
 
 }  // namespace faqem

@@ -32,9 +32,8 @@ public:
     TextureRef add(Pixels pixels, std::shared_ptr<const std::vector<std::uint8_t>> known,
                    const std::string& suffix, TextureContent content, const std::vector<TextureRef>& from) {
         std::vector<Image>& images = out_.asset.asset.images;
-        TextureRef ref;
-        ref.image = static_cast<Index>(images.size());
-        ref.wrap_u = ref.wrap_v = Wrap::clamp;
+        const TextureRef ref = {
+            .image = static_cast<Index>(images.size()), .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp};
         images.emplace_back();
         // A density that was asked for is kept, as is the resolution that a correspondence has.
         const bool may_shrink = !bake_.texel_density && bake_.correspondence == Recording::off;
