@@ -5,6 +5,7 @@ ROWS = {}
 RED = {"name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}
 VERTICES = len(grid()[0])
 PATTERN = png(lambda x, y: (60 * x, 60 * y, 0, 255))
+TURNED = png(lambda x, y: (60 * y, 60 * x, 0, 255))
 
 
 def row(statement):
@@ -213,7 +214,7 @@ def materials(runs):
 def extension_textures(runs):
     glb = textured(PATTERN)
     extensions = {"KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1],
-                                          "sheenColorTexture": {"index": glb.texture(PATTERN)}},
+                                          "sheenColorTexture": {"index": glb.texture(TURNED)}},
                   "KHR_materials_anisotropy": {"anisotropyStrength": 0.5},
                   "EXT_other": {"otherTexture": {"index": 0}, "otherFactor": 0.5}}
     glb.json["materials"][0]["extensions"] = extensions
