@@ -240,8 +240,8 @@ FAQEM_EXPORT std::vector<std::uint8_t> to_glb(const Asset& asset, std::vector<st
 FAQEM_EXPORT Asset from_glb(std::span<const std::uint8_t> bytes);
 
 /// Decodes a PNG, JPEG or WebP image or, by OpenImageIO in a plugin, a BMP, TIFF or GIF, or a TGA whose media type is
-/// image/x-tga or image/tga; by Basis Universal in another plugin a KTX2 of one picture in ETC1S or UASTC. Of several pictures the first is decoded. The size is limited to 16384 x 16384 pixels and
-/// 1 GiB, and is checked before memory is allocated.
+/// image/x-tga or image/tga; by Basis Universal in another plugin a KTX2 of one picture in ETC1S or UASTC. Of several
+/// pictures the first is decoded. The limits, 16384 x 16384 pixels and 1 GiB, are checked before memory is allocated.
 /// \throws InputError  the image is damaged or too large
 /// \throws UnsupportedError  the image has another format (DDS ...), or KTX2 without its plugin
 /// \throws Error  the plugin cannot be loaded

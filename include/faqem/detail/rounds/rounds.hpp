@@ -45,7 +45,8 @@ inline constexpr std::size_t min_vertices_of_rounds = 8192, min_target_of_rounds
 /// \param patches  whether steps are recorded, with patch_faces and patch_begin
 /// \param context  reports Phase::simplify; the result does not depend on the number of threads
 /// \param found    the number of collapses, refusals, and the steps
-/// \return the surface after the steps; none if less than a quarter of the faces could be removed
+/// \return the surface after the steps; none below min_vertices_of_rounds, or if less than a quarter of the faces could
+///     be removed
 /// \throws engine::Cancelled  if the progress callback cancels; also whatever it throws
 /// Complexity: O(n) time, distributed over the threads; O(n) memory
 std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t target,
