@@ -75,19 +75,21 @@ struct Interpolation {
     float weight;
 };
 
-// Squared difference between a texel and the interpolation of four, as a sum over the channels.
-float squared_difference(const std::uint8_t* texel, std::size_t channels,
+// Squared difference between a texel and the interpolation of four, as a sum over the channels: four, of which the last one
+// counts only if there is alpha, so that they are computed at once.
+float squared_difference(const std::uint8_t* texel, bool has_alpha,
                          const std::array<const std::uint8_t*, 4>& corners, float s, float t) {
-    const float alpha = channels == 4 ? static_cast<float>(texel[3]) / 255 : 1;
-    float sum = 0;
-    for (std::size_t k = 0; k < channels; ++k) {
+    std::array<float, 4> squares;
+    for (std::size_t k = 0; k < 4; ++k) {
         const float top = static_cast<float>(corners[0][k]) * (1 - s) + static_cast<float>(corners[1][k]) * s;
         const float bottom =
             static_cast<float>(corners[2][k]) * (1 - s) + static_cast<float>(corners[3][k]) * s;
         const float difference = top * (1 - t) + bottom * t - static_cast<float>(texel[k]);
-        sum += difference * difference * (k < 3 ? alpha : 1);
+        squares[k] = difference * difference;
     }
-    return sum;
+    if (!has_alpha) return squares[0] + squares[1] + squares[2];
+    const float alpha = static_cast<float>(texel[3]) / 255;
+    return squares[0] * alpha + squares[1] * alpha + squares[2] * alpha + squares[3];
 }
 
 std::vector<Interpolation> interpolations(std::uint32_t size, std::uint32_t shown_size) {
@@ -179,13 +181,12 @@ int png_difference(double quality, std::size_t channels) {
 
 // A PNG with the largest sufficient differences; nothing if only a lossless one is sufficient.
 std::optional<Image> near_lossless_png(const LossyEncoding& lossy, const std::string& name) {
-    for (int difference = png_difference(lossy.quality.whole, lossy.pixels.has_alpha ? 4 : 3); difference > 0;
-         --difference) {
-        lossy.context.check_now();
-        Image image = write_png(lossy.pixels, name, difference);
-        if (lossy.allows(image)) return image;
-    }
-    return std::nullopt;
+    const int most = png_difference(lossy.quality.whole, lossy.pixels.has_alpha ? 4 : 3);
+    auto found = lossy.least(static_cast<std::size_t>(most), [&](std::size_t i) {
+        Image image = write_png(lossy.pixels, name, most - static_cast<int>(i));
+        return lossy.allows(image) ? std::optional(std::move(image)) : std::nullopt;
+    });
+    return found ? std::optional(std::move(found->first)) : std::nullopt;
 }
 
 // A sufficient lossy WebP of about the least quality and the index of this; no image if there is none. The error of a quality
@@ -248,10 +249,10 @@ std::pair<Image, bool> smallest_at(const LossyEncoding& lossy, const std::string
     if (limits.tries_core && !is_easy)
         keep_smaller(best,
                      pixels.has_alpha ? near_lossless_png(lossy, name) : smallest_jpeg(lossy, name, content));
-    const Pixels sample = limits.tries_webp ? sample_of(pixels) : Pixels{};
+    const Pixels sample = sample_of(pixels);
     // Whether an encoding may have at most so many times the bytes of the best one.
     const auto may_be_small = [&](double ratio, const auto& encode) {
-        if (!best || !limits.tries_webp) return true;
+        if (!best) return true;
         const double rows = static_cast<double>(pixels.height) / sample.height;
         return static_cast<double>(encode(sample).encoded.size()) * rows <=
                ratio * static_cast<double>(best->encoded.size());
@@ -311,7 +312,7 @@ ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::spa
             if (!known[at]) continue;
             const auto& [first, second, s] = columns[x];
             const float difference =
-                squared_difference(&original.rgba[4 * at], channels,
+                squared_difference(&original.rgba[4 * at], original.has_alpha,
                                    {upper + 4 * std::size_t{first}, upper + 4 * std::size_t{second},
                                     lower + 4 * std::size_t{first}, lower + 4 * std::size_t{second}},
                                    s, rows[y].weight);
