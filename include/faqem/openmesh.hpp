@@ -145,9 +145,8 @@ void replay(Mesh& mesh, const Arrays<Mesh>& arrays, const CollapseHistory& histo
     std::size_t deleted = 0;
     const auto delete_faces_until = [&](std::size_t time) {
         for (; deleted < history.deleted_faces.size() && history.deleted_faces[deleted].time <= time;
-             ++deleted) {
+             ++deleted)
             mesh.delete_face(arrays.faces[history.deleted_faces[deleted].face], true);
-        }
     };
     for (std::size_t k = 0; k < history.collapses.size(); ++k) {
         delete_faces_until(k);

@@ -343,9 +343,8 @@ private:
         for (const Index killed : killed_) queue_.erase(killed);
         if (boundary_loops_) boundary_loops_->after_collapse(mesh_, pairs_, survivor);
         metric_.after_collapse(mesh_, pairs_, survivor, changes_);
-        for (const PairTable::Change& change : changes_) {
+        for (const PairTable::Change& change : changes_)
             if (change.neighbour.pair != no_index) reevaluate(change.neighbour.pair);
-        }
         for (const PairTable::Change& change : changes_) {
             const Reevaluation reevaluation = metric_.reevaluation(change);
             if (reevaluation == Reevaluation::none) continue;

@@ -28,15 +28,13 @@ inline void check(const MeshView& mesh) {
     if (mesh.triangles.size() > max_faces) throw InputError("triangles: more than 715827880 faces");
     if (!mesh.vertex_locks.empty() && mesh.vertex_locks.size() != mesh.positions.size())
         throw InputError("vertex_locks: needs one entry per vertex or none");
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
         if (!to_eigen(mesh.positions[v]).allFinite())
             throw InputError("vertex " + std::to_string(v) + ": position is not finite");
-    }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        for (const Index v : mesh.triangles[f]) {
+        for (const Index v : mesh.triangles[f])
             if (!(v < mesh.positions.size()))
                 throw InputError("face " + std::to_string(f) + ": vertex index out of range");
-        }
     }
 }
 

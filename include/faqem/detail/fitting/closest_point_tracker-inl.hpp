@@ -79,9 +79,8 @@ void search_above_share(std::span<const double> squared, const std::vector<Resid
         double longest = 0;
         for (const double length : squared) longest = std::max(longest, length);
         std::vector<std::size_t> far;
-        for (std::size_t i = 0; i < squared.size(); ++i) {
+        for (std::size_t i = 0; i < squared.size(); ++i)
             if (squared[i] > share * share * longest && !residuals[i].is_exact) far.push_back(i);
-        }
         if (far.empty()) return;
         parallel_each(far.size(), 64, context, [&](std::size_t i) { search(far[i]); });
     }
@@ -190,9 +189,8 @@ FAQEM_INLINE void ReferenceToMeshTracker::update(std::span<const Vector3> positi
     std::vector<std::uint8_t> to_measure = moved;
     for (std::size_t f = 0; f < moved.size(); ++f) {
         if (!moved[f]) continue;
-        for (const Index v : triangles_[f]) {
+        for (const Index v : triangles_[f])
             for (const Index neighbour : vertex_faces_[v]) to_measure[neighbour] = 1;
-        }
     }
     parallel_each(points_.size(), tracker_block_size, context, [&](std::size_t i) {
         const SurfaceSample& last = residuals_[i].sample;

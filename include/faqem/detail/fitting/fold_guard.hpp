@@ -29,9 +29,8 @@ public:
     template <class Visit>
     void for_each_fold(std::span<const engine::Vector3> positions, Visit&& visit) const {
         const std::vector<engine::Vector3> normals = unit_normals({positions, triangles_});
-        for (const Edge& edge : edges_) {
+        for (const Edge& edge : edges_)
             if (is_fold(edge, normals)) visit(triangles_[edge.faces[0]], triangles_[edge.faces[1]]);
-        }
     }
 
 private:

@@ -88,14 +88,10 @@ inline std::vector<FaceSystem> face_systems(std::size_t faces,
                                             std::span<const Correspondence> correspondences, double power,
                                             const RunContext& context) {
     double mean = 0;
-    for (const Correspondence& correspondence : correspondences) {
-        mean += correspondence.residual.norm();
-    }
+    for (const Correspondence& correspondence : correspondences) mean += correspondence.residual.norm();
     mean /= static_cast<double>(std::max<std::size_t>(correspondences.size(), 1));
     const Buckets<std::size_t> by_face(faces, [&](auto&& put) {
-        for (std::size_t i = 0; i < correspondences.size(); ++i) {
-            put(correspondences[i].sample.face, i);
-        }
+        for (std::size_t i = 0; i < correspondences.size(); ++i) put(correspondences[i].sample.face, i);
     });
     std::vector<FaceSystem> all(faces);
     parallel_each(faces, 512, context, [&](std::size_t f) {
@@ -142,9 +138,8 @@ public:
                 result[w] += faces_[f].off_diagonal[k] * x[v];
             }
         }
-        for (std::size_t v = 0; v < x.size(); ++v) {
+        for (std::size_t v = 0; v < x.size(); ++v)
             if (!free_[v]) result[v].setZero();
-        }
     }
 
     /// Block-Jacobi preconditioner: multiplies by the inverses of the diagonal blocks.
@@ -155,9 +150,8 @@ public:
 private:
     void apply_damping() {
         double whole_trace = 0;
-        for (std::size_t v = 0; v < free_.size(); ++v) {
+        for (std::size_t v = 0; v < free_.size(); ++v)
             if (free_[v]) whole_trace += diagonal_[v].trace();
-        }
         const double mean_trace = whole_trace / static_cast<double>(std::max<std::size_t>(free_.size(), 1));
         for (std::size_t v = 0; v < free_.size(); ++v) {
             if (!free_[v]) {

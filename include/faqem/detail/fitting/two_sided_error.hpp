@@ -144,9 +144,8 @@ void move(Tracker& tracker, std::span<const Vector3> positions, double searched_
 /// Total surface area. O(faces)
 inline double area(const MeshRef& mesh) {
     double twice = 0;
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.triangles)
         if (t[0] != no_index) twice += area_vector(mesh.positions, t).norm();
-    }
     return twice / 2;
 }
 
@@ -171,9 +170,8 @@ inline std::vector<OrientedPoint> TwoSidedError::even_points() const {
     context_.check_now();
     const MeshRef& mesh = original_.mesh;
     std::vector<OrientedPoint> points;
-    for (const SurfaceSample& sample : area_uniform_samples(mesh, reference_sample_factor * point_count())) {
+    for (const SurfaceSample& sample : area_uniform_samples(mesh, reference_sample_factor * point_count()))
         points.push_back({sample.position(mesh.positions, mesh.triangles), original_.normals[sample.face]});
-    }
     context_.check_now();
     return points;
 }
@@ -230,9 +228,8 @@ inline std::vector<FaceDeviation> TwoSidedError::deviations() {
             by_tracker[kind][tracker.sample(i).face].add(deviation);
         }
     });
-    for (std::size_t kind = 1; kind < by_tracker.size(); ++kind) {
+    for (std::size_t kind = 1; kind < by_tracker.size(); ++kind)
         for (std::size_t f = 0; f < triangles_.size(); ++f) by_tracker[0][f].add(by_tracker[kind][f]);
-    }
     return std::move(by_tracker[0]);
 }
 
@@ -257,9 +254,8 @@ inline std::vector<Correspondence> TwoSidedError::correspondences_at(
     std::span<const std::uint8_t> faces) const {
     std::vector<Correspondence> all;
     const auto add = [&](const auto& tracker) {
-        for (std::size_t i = 0; i < tracker.size(); ++i) {
+        for (std::size_t i = 0; i < tracker.size(); ++i)
             if (faces[tracker.sample(i).face]) all.push_back(tracker.correspondence(i));
-        }
     };
     add(from_mesh_), add(*from_mesh_corners_), add(from_reference_), add(from_reference_vertices_);
     return all;
@@ -268,9 +264,8 @@ inline std::vector<Correspondence> TwoSidedError::correspondences_at(
 inline void TwoSidedError::resample_flipped(std::span<const Vector3> positions,
                                             std::span<const std::uint8_t> flipped) {
     std::vector<Triangle> those(triangles_.begin(), triangles_.end());
-    for (std::size_t f = 0; f < those.size(); ++f) {
+    for (std::size_t f = 0; f < those.size(); ++f)
         if (!flipped[f]) those[f].fill(no_index);
-    }
     const MeshRef part{positions, those};
     const double share = area(part) / area({positions, triangles_});
     const auto count = std::llround(share * static_cast<double>(point_count()));

@@ -182,9 +182,8 @@ private:
 
     /// Moves the vertices by the given steps. Steps are shortened at faces that would become invalid.
     void move(std::vector<Vector3> step) {
-        for (std::size_t v = 0; v < step.size(); ++v) {
+        for (std::size_t v = 0; v < step.size(); ++v)
             if (fixed_[v] || !step[v].allFinite()) step[v] = Vector3::Zero();
-        }
         std::vector<Vector3> to(positions_.size());
         bool all_good = false;
         for (int round = 0; !all_good; ++round) {
@@ -206,9 +205,8 @@ private:
     /// the initial one, and for the faces at edges that were not folded initially and are now.
     template <class Visit>
     void for_each_invalid_face(std::span<const Vector3> positions, Visit&& visit) const {
-        for (const Triangle& t : triangles_) {
+        for (const Triangle& t : triangles_)
             if (t[0] != no_index && !keeps_orientation(t, positions)) visit(t);
-        }
         guard_->for_each_fold(positions, [&](const Triangle& s, const Triangle& t) { visit(s), visit(t); });
     }
 
@@ -250,9 +248,8 @@ private:
         }
         const std::vector<FaceDeviation> before_around = around_vertices(first),
                                          around = around_vertices(deviations_);
-        for (Index v = 0; v < around.size(); ++v) {
+        for (Index v = 0; v < around.size(); ++v)
             if (is_worse(around[v], before_around[v])) any |= revert(v);
-        }
         // Moving back some corners of a face may make it invalid; then all of its corners are moved back.
         for (bool reverted = any; reverted;) {
             reverted = false;

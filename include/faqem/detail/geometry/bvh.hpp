@@ -160,9 +160,8 @@ private:
         /// Lower bounds of the squared distances of p to the children's boxes.
         Lanes distance_squared(const Query& p) const {
             Lanes sum = Lanes::Zero();
-            for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t i = 0; i < 3; ++i)
                 sum += (low[i] - p.high[i]).max(p.low[i] - high[i]).max(0.0f).square();
-            }
             return sum * (1 - 1e-6f);
         }
         /// For each child, whether the ray may intersect its box. Because of rounding, this may also be true
@@ -318,9 +317,8 @@ bool Bvh::any_hit(const Vec3& origin, const Vec3& direction, Accepts&& accepts) 
         }
         const Node& node = nodes_[top];
         const Eigen::Array<bool, width, 1> intersected_boxes = node.intersected_boxes(ray);
-        for (std::uint32_t k = 0; k < node.count; ++k) {
+        for (std::uint32_t k = 0; k < node.count; ++k)
             if (intersected_boxes[k]) stack[size++] = node.child[k];
-        }
     }
     return false;
 }

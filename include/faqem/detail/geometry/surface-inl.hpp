@@ -35,9 +35,8 @@ inline void weld(Surface& s) {
         if (used.empty() || used.back() != s.positions[v]) used.push_back(s.positions[v]);
         new_index[v] = static_cast<Index>(used.size() - 1);
     }
-    for (Triangle& t : s.triangles) {
+    for (Triangle& t : s.triangles)
         for (Index& v : t) v = new_index[v];
-    }
     s.positions = std::move(used);
 }
 

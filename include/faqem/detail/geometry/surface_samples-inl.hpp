@@ -80,9 +80,8 @@ FAQEM_INLINE std::vector<OrientedPoint> oriented_vertices(const MeshRef& mesh) {
         for (const Index v : t) normal[v] += n, used[v] = 1;
     }
     std::vector<OrientedPoint> points;
-    for (std::size_t v = 0; v < used.size(); ++v) {
+    for (std::size_t v = 0; v < used.size(); ++v)
         if (used[v]) points.push_back({mesh.positions[v], normal[v].normalized()});
-    }
     return points;
 }
 

@@ -47,10 +47,8 @@ inline ClosestPoint on_boundary(const Vector3& p, const Vector3& a, const Vector
         return from + x * (to - from);
     };
     ClosestPoint best = at(p, mix(a, b, s), {1 - s, s, 0});
-    for (const ClosestPoint& other :
-         {at(p, mix(b, c, t), {0, 1 - t, t}), at(p, mix(c, a, u), {u, 0, 1 - u})}) {
+    for (const ClosestPoint& other : {at(p, mix(b, c, t), {0, 1 - t, t}), at(p, mix(c, a, u), {u, 0, 1 - u})})
         if (other.distance_squared < best.distance_squared) best = other;
-    }
     return best;
 }
 

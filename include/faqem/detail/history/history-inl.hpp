@@ -81,13 +81,11 @@ inline std::vector<std::uint8_t> check_collapses(const CollapseHistory& h) {
 inline void check_patches(const CollapseHistory& h) {
     if (h.patch_begin.size() <= h.collapses.size() || h.patch_begin.front() != 0 ||
         h.patch_begin.back() != h.patch_faces.size() ||
-        !std::is_sorted(h.patch_begin.begin(), h.patch_begin.end())) {
+        !std::is_sorted(h.patch_begin.begin(), h.patch_begin.end()))
         detail::fail_history("patch_begin", "must increase from 0 to the number of patch faces");
-    }
-    for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k) {
+    for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k)
         if (h.patch(k).size() != 2)
             detail::fail_history(numbered("patch_begin", k), "an edge flip must have two faces");
-    }
     for (std::size_t i = 0; i < h.patch_faces.size(); ++i) {
         const Index f = h.patch_faces[i];
         if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
@@ -95,9 +93,8 @@ inline void check_patches(const CollapseHistory& h) {
     }
     for (std::size_t i = 0; i < h.deleted_faces.size(); ++i) {
         if (!(h.deleted_faces[i].face < h.triangles.size()) ||
-            !(h.deleted_faces[i].time <= h.collapses.size())) {
+            !(h.deleted_faces[i].time <= h.collapses.size()))
             detail::fail_history(numbered("deleted_faces", i), "time or face index out of range");
-        }
     }
 }
 

@@ -178,10 +178,9 @@ inline void fill_remaining_elements(CollapseHistory& h) {
 
 // \throws InputError  if the parts have different numbers of levels
 inline void check_same_count(std::span<const ChainHistory> parts) {
-    for (const ChainHistory& part : parts) {
+    for (const ChainHistory& part : parts)
         if (part.level_count() != parts.front().level_count())
             throw InputError("history", "levels", "the parts have different numbers of levels");
-    }
 }
 
 }  // namespace detail

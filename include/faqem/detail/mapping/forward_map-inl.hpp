@@ -89,9 +89,8 @@ FAQEM_INLINE SimplifiedPoint ForwardMap::map(Index face, const Vec3& barycentric
     const engine::Vector3 normal =
         engine::area_vector(at[0], at[1], at[2]).normalized();  // zero for a face of zero area
     Impl::Best best;
-    for (const Index v : corners) {
+    for (const Index v : corners)
         if (impl_->vertex[v] != no_index) impl_->search_vertex_faces(impl_->vertex[v], p, normal, best);
-    }
     Index from = no_index;
     while (best.face != from) {
         from = best.face;

@@ -143,9 +143,8 @@ FAQEM_INLINE SuccessiveProjection::ScoredFace SuccessiveProjection::best_of_patc
         if (d < nearest) nearest = d, first = e;
     }
     consider(first, patch);
-    for (std::uint64_t e = begin; e < end; ++e) {
+    for (std::uint64_t e = begin; e < end; ++e)
         if (e != first) consider(e, patch);
-    }
     return patch.best.face != no_index ? patch.best : patch.best_away;
 }
 
@@ -168,9 +167,8 @@ FAQEM_INLINE void SuccessiveProjection::consider(std::uint64_t e, Patch& patch) 
         (is_other_surface_patch ? surface_patch_penalty * patch.edge : 0);
     const double score = std::sqrt(closest_point_on_triangle(query.p0, a, b, c).distance_squared) + penalty;
     ScoredFace& winner = away ? patch.best_away : patch.best;
-    if (score < winner.score || (score == winner.score && g < winner.face)) {
+    if (score < winner.score || (score == winner.score && g < winner.face))
         winner = {g, e, away || is_other_surface_patch, score};
-    }
 }
 
 FAQEM_INLINE ClosestPoint SuccessiveProjection::on_original(Index face, const Vector3& p0) const {
@@ -270,9 +268,8 @@ FAQEM_INLINE SuccessiveProjection::WalkEnd SuccessiveProjection::walk(Index face
 
 FAQEM_INLINE SurfacePoint SuccessiveProjection::map_by_walk(Index face, const Query& query) const {
     const WalkEnd end = walk(face, query);
-    if (!end.is_aborted && is_accepted(end.face, query)) {
+    if (!end.is_aborted && is_accepted(end.face, query))
         return snap_to_closest(query, end.face, end.is_approximate ? MapStep::approximate : MapStep::history);
-    }
     const ClosestPoint here = on_original(end.face, query.p0);
     const double far = std::sqrt(here.distance_squared) + query.longest_edge;
     if (end.is_aborted) {

@@ -40,10 +40,9 @@ void for_each_continuation(std::span<const Vec3> positions, std::span<const Tria
         face_direction[i] = (apex - apex.dot(edge) * edge).normalized();
     }
     const auto is_separated = [&](std::size_t i, std::size_t but) {
-        for (std::size_t k = 0; k < on.size(); ++k) {
+        for (std::size_t k = 0; k < on.size(); ++k)
             if (k != i && k != but && !(face_direction[i].dot(face_direction[k]) > min_separation_cosine))
                 return false;
-        }
         return true;
     };
     for (std::size_t i = 0; i < on.size(); ++i) {
@@ -116,9 +115,8 @@ FAQEM_INLINE SurfacePatches find_surface_patches(std::span<const Vec3> positions
                 faces.push_back(n.face);
             }
         }
-        if (signed_area < 0) {
+        if (signed_area < 0)
             for (Index f : faces) result.sign[f] = static_cast<std::int8_t>(-result.sign[f]);
-        }
         ++surface_patches;
     }
     result.faces = Buckets<Index>(surface_patches, [&](auto&& put) {

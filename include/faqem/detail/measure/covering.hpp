@@ -140,9 +140,8 @@ struct Covering::Prism {
         }
         // Because of rounding, the heights of the corners of a narrow triangle may differ.
         double result = -1;
-        for (std::size_t k = 0; k < size; ++k) {
+        for (std::size_t k = 0; k < size; ++k)
             for (const Vector3& p : corner) result = std::max(result, std::abs(polygon[k].z() - p.z()));
-        }
         return result;
     }
 

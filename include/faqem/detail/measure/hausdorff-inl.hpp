@@ -49,9 +49,7 @@ using Distances = std::array<double, 8>;
 
 inline Distances distances(const Surface& to, const Vector3& p, const Candidates& candidates) {
     Distances result;
-    for (std::size_t i = 0; i < candidates.size; ++i) {
-        result[i] = to.distance_squared(p, candidates.face[i]);
-    }
+    for (std::size_t i = 0; i < candidates.size; ++i) result[i] = to.distance_squared(p, candidates.face[i]);
     return result;
 }
 
@@ -302,9 +300,8 @@ FAQEM_INLINE std::vector<NearestFace> nearest_faces_of_vertices(const Surface& f
                                 result[i] = {hit.face, hit.distance_squared};
                             }
                         });
-        for (std::size_t i = first; i < result.size(); ++i) {
+        for (std::size_t i = first; i < result.size(); ++i)
             if (std::sqrt(result[i].distance_squared) > stop_above) return result;
-        }
     }
     return result;
 }
@@ -365,9 +362,8 @@ FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surf
         blocks.resize((batch.size() + piece_block - 1) / piece_block, empty);
         parallel_blocks(batch.size(), piece_block, context, [&](std::size_t begin, std::size_t end) {
             CoherentQuery query(to, tree);
-            for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t i = begin; i < end; ++i)
                 split(to, query, batch[i], enough_now, blocks[begin / piece_block]);
-            }
         });
         result.pieces += 2 * batch.size();
         join(blocks);

@@ -82,9 +82,8 @@ inline std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& r
 
 inline std::uint64_t count_components(const std::vector<Triangle>& faces, const std::vector<bool>& used) {
     engine::UnionFind joined(used.size());
-    for (const Triangle& t : faces) {
+    for (const Triangle& t : faces)
         for (const Index v : {t[1], t[2]}) joined.unite(t[0], v);
-    }
     std::uint64_t count = 0;
     for (Index v = 0; v < used.size(); ++v) count += used[v] && joined.find(v) == v;
     return count;

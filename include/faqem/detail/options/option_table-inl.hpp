@@ -254,10 +254,9 @@ FAQEM_INLINE std::vector<std::string> idle_options(const Options& options,
 
 FAQEM_INLINE std::string options_key(const Options& options, OptionTable table) {
     std::string key;
-    for (const OptionRow& row : table) {
+    for (const OptionRow& row : table)
         if (row.affects_result)
             key.append(row.name).append("=").append(option_text(options, row)).append(";");
-    }
     return key;
 }
 

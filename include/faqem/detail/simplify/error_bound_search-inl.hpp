@@ -140,9 +140,8 @@ FAQEM_INLINE std::vector<FarFaces> FarFaceSearch::operator()(const MeshView& res
     std::sort(far.begin(), far.end());
     far.erase(std::unique(far.begin(), far.end()), far.end());
     std::size_t kept = 0;
-    for (Index f = 0; f < is_far.size(); ++f) {
+    for (Index f = 0; f < is_far.size(); ++f)
         if (!is_far[f]) near_[kept++] = near_[f];
-    }
     near_.resize(kept);
     std::sort(near_.begin(), near_.end());
     faces_ = std::move(now);
@@ -160,9 +159,8 @@ FAQEM_INLINE MeasuredDistance distance(const DistanceReference& original, const 
     const Settings exact = settings(options);
     const bool exact_weld = exact.weld == Weld::none || exact.weld_distance == 0;
     if (exact_weld && report.collapses == 0 && report.components_deleted == 0 &&
-        report.vertices_fitted == 0 && report.edges_flipped == 0) {
+        report.vertices_fitted == 0 && report.edges_flipped == 0)
         return {};
-    }
     return original.distance(result.mesh.view(), allowed, mode, context);
 }
 

@@ -69,10 +69,9 @@ inline std::vector<Vec3> checked_positions(const PositionView& view) {
     std::vector<Vec3> positions(view.size());
     for (std::size_t v = 0; v < positions.size(); ++v) {
         positions[v] = view[v];
-        for (const double x : positions[v]) {
+        for (const double x : positions[v])
             if (!std::isfinite(x))
                 fail("vertex " + std::to_string(v), "position is not finite: " + number_text(x));
-        }
     }
     return positions;
 }
@@ -229,10 +228,9 @@ FAQEM_INLINE PreprocessedMesh preprocess(const MeshView& mesh, const Settings& s
 FAQEM_INLINE std::vector<Triangle> unpruned_triangles(const MeshView& mesh, const Options& options,
                                                       const RunContext& context) {
     std::vector<std::uint8_t> is_pruned(mesh.triangles.size(), 0);
-    if (options.topology.prune) {
+    if (options.topology.prune)
         for (const PrunedFace& pruned : preprocess(mesh, settings(options), context).pruned.faces)
             is_pruned[pruned.face] = 1;
-    }
     std::vector<Triangle> left;
     for (std::size_t f = 0; f < is_pruned.size(); ++f)
         if (!is_pruned[f]) left.push_back(mesh.triangles[f]);

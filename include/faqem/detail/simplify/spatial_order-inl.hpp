@@ -39,9 +39,8 @@ inline std::vector<Index> vertices_in_morton_order(const std::vector<Vector3>& p
     // The vertices with the same first bits are sorted side by side.
     const auto first_bits = std::min(static_cast<unsigned>(std::bit_width(code.size() / 64)), 15u);
     Buckets<std::pair<std::uint64_t, Index>> keys(std::size_t{1} << first_bits, [&](auto&& put) {
-        for (Index v = 0; v < used.size(); ++v) {
+        for (Index v = 0; v < used.size(); ++v)
             if (used[v]) put(code[v] >> (63 - first_bits), {code[v], v});
-        }
     });
     std::vector<Index> order(keys.items().size());
     parallel_blocks(keys.begin().size() - 1, 256, context, [&](std::size_t first, std::size_t end) {

@@ -120,16 +120,14 @@ private:
             return pairs.face_count(pair) == 1 && smaller_end(pair) < first_context_vertex;
         };
         UnionFind joined(vertices);
-        for (Index pair = 0; pair < pairs.size(); ++pair) {
+        for (Index pair = 0; pair < pairs.size(); ++pair)
             if (is_open(pair)) joined.unite(pairs.first(pair), pairs.second(pair));
-        }
         for (const auto& [position, v] : points_) {  // the smallest vertex of each set comes first
             if (joined.find(v) == v) boundary_of_vertex_[v] = add_boundary();
             boundary_of_vertex_[v] = boundary_of_vertex_[joined.find(v)];
         }
-        for (Index pair = 0; pair < pairs.size(); ++pair) {
+        for (Index pair = 0; pair < pairs.size(); ++pair)
             if (is_open(pair)) ++boundaries_[boundary_of_vertex_[smaller_end(pair)]].edges;
-        }
     }
 
     Index add_boundary() {

@@ -92,9 +92,8 @@ public:
         const auto is_locked = [&](Index v) { return locked[v] != 0; };
         if (remaining_.empty() && std::any_of(vertices_.begin(), vertices_.end(), is_locked))
             return Refusal::locked;
-        for (const Index w : corners_) {
+        for (const Index w : corners_)
             if (is_locked(w) && loses_all_faces(mesh, w)) return Refusal::locked;
-        }
         return std::nullopt;
     }
 
@@ -208,9 +207,8 @@ private:
                     vanishing_.push_back(f);
                 else
                     remaining_.push_back({f, a, b});
-                for (const Index w : {a, b}) {
+                for (const Index w : {a, b})
                     if (!contains(w)) corners_.push_back(w);
-                }
             });
         }
         std::sort(corners_.begin(), corners_.end());
@@ -253,14 +251,12 @@ private:
     // Returns false if the set is complete.
     bool grow(const CollapseMesh& mesh) {
         const std::size_t before = vertices_.size();
-        for (std::size_t i = 2; i < ends_.size(); ++i) {
+        for (std::size_t i = 2; i < ends_.size(); ++i)
             if (ends_[i] == ends_[i - 2]) add(ends_[i]);
-        }
         if (vertices_.size() > before) return true;
         for (const RemainingFace& flap : flaps_) {
-            for (const Index w : {flap.a, flap.b}) {
+            for (const Index w : {flap.a, flap.b})
                 if (loses_all_faces(mesh, w)) add(w);
-            }
         }
         if (vertices_.size() > before) return true;
         if (flaps_.empty()) return false;

@@ -123,9 +123,8 @@ private:
         Vector3 sum = Vector3::Zero();
         for (const MovedFace& moved : moved_faces) sum += moved.normal;
         const double limit = std::sqrt(0.5 * (1 + min_cosine)) * sum.norm();
-        for (const MovedFace& moved : moved_faces) {
+        for (const MovedFace& moved : moved_faces)
             if (!(moved.normal.dot(sum) > limit)) return false;
-        }
         return true;
     }
 

@@ -55,9 +55,8 @@ public:
             return refusal;
         if (const auto refusal = check_flips_and_areas(mesh, v, u, p, rules.min_normal_cosine))
             return refusal;
-        if (rules.link != LinkCondition::off && !link_condition(mesh, pairs, u, v, pair, rules.link)) {
+        if (rules.link != LinkCondition::off && !link_condition(mesh, pairs, u, v, pair, rules.link))
             return Refusal::link;
-        }
         if (rules.min_fold_cosine > -1 && folds_.adds_folds(mesh, u, v, moved_faces_, rules.min_fold_cosine))
             return Refusal::fold;
         return std::nullopt;
@@ -71,9 +70,8 @@ public:
     std::optional<Refusal> check(const CollapseMesh& mesh, const Contraction& contraction, const Vector3& p,
                                  const Rules& rules) {
         moved_faces_.clear();
-        for (const auto& [f, a, b] : contraction.remaining()) {
+        for (const auto& [f, a, b] : contraction.remaining())
             if (const auto refusal = check_face(mesh, f, a, b, p, rules.min_normal_cosine)) return refusal;
-        }
         if (rules.min_fold_cosine > -1 &&
             folds_.adds_folds(mesh, contraction.vertices()[0], contraction.vertices()[1], moved_faces_,
                               rules.min_fold_cosine))

@@ -109,9 +109,8 @@ private:
     };
 
     Index find_or_add(const float* value, std::vector<Index>& at_vertex) {
-        for (const Index w : at_vertex) {
+        for (const Index w : at_vertex)
             if (std::equal(value, value + width_, &values_[std::size_t{w} * width_])) return w;
-        }
         const auto wedge = static_cast<Index>(values_.size() / width_);
         values_.insert(values_.end(), value, value + width_);
         at_vertex.push_back(wedge);

@@ -42,9 +42,8 @@ public:
             for (const Index v : triangles[f]) ++vertices_[v].degree;
         }
         corners_.reserve(3 * face_count_, vertices_.size());
-        for (Vertex& vertex : vertices_) {
+        for (Vertex& vertex : vertices_)
             if (vertex.degree > 0) vertex.corners = corners_.allocate(vertex.degree);
-        }
         for (Index f = 0; f < faces_.size(); ++f) {
             if (!is_alive(f)) continue;
             for (Index k = 0; k < 3; ++k) corners_.push_back(vertices_[triangles[f][k]].corners, 4 * f + k);
@@ -146,9 +145,8 @@ public:
     /// Total area of the faces. O(face slots)
     double area() const {
         double sum = 0;
-        for (Index f = 0; f < face_slots(); ++f) {
+        for (Index f = 0; f < face_slots(); ++f)
             if (is_alive(f)) sum += area(f);
-        }
         return sum;
     }
 

@@ -101,9 +101,8 @@ inline void remove_component(CollapseMesh& mesh, PairTable& pairs, const Compone
     for (const Index f : component.faces) {
         const Triangle t = mesh.triangle(f);
         mesh.remove_face(f);
-        for (const Index v : t) {
+        for (const Index v : t)
             if (mesh.degree(v) == 0) pairs.kill_all(v, killed);
-        }
     }
 }
 

@@ -85,9 +85,7 @@ public:
 private:
     static std::size_t count(const CollapseMesh& mesh) {
         std::size_t count = 0;
-        for (Index f = 0; f < mesh.face_slots(); ++f) {
-            count += mesh.is_alive(f) && is_degenerate(mesh, f);
-        }
+        for (Index f = 0; f < mesh.face_slots(); ++f) count += mesh.is_alive(f) && is_degenerate(mesh, f);
         return count;
     }
 

@@ -35,10 +35,9 @@ public:
         if (cones_.empty()) return;
         cones_.erase(survivor);
         mesh.for_each_face(survivor, [&](Index f, unsigned) {
-            for (const Index v : mesh.triangle(f)) {
+            for (const Index v : mesh.triangle(f))
                 if (const auto known = cones_.find(v); known != cones_.end() && known->second.is_narrow)
                     known->second.is_narrow = is_within_60_degrees(known->second.axis, mesh.normal(f));
-            }
         });
     }
 

@@ -59,9 +59,8 @@ public:
     /// Calls visit(Neighbour) for each pair of v that is alive. O(valence)
     template <class Visit>
     void for_each_pair(Index v, Visit&& visit) const {
-        for (const Index s : slots_[vertices_[v].slots]) {
+        for (const Index s : slots_[vertices_[v].slots])
             if (end(s) == v) visit(Neighbour{end(s ^ 1), s / 2});
-        }
     }
 
     /// A neighbour of the survivor after merge().

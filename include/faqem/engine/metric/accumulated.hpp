@@ -75,9 +75,7 @@ public:
                 for (const Index v : t) quadrics_[v] += term(v);
             }
         }
-        for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-            add_vertex_terms(mesh, pairs, v);
-        }
+        for (Index v = 0; v < mesh.vertex_slots(); ++v) add_vertex_terms(mesh, pairs, v);
         placement_bounds_ = placement_bounds(placement_bounds_);
     }
 

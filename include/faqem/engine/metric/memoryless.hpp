@@ -50,9 +50,8 @@ public:
     void initialise(const CollapseMesh& mesh, const PairTable& pairs) {
         vertex_planes_.assign(mesh.vertex_slots(), {});
         edge_planes_.assign(mesh.vertex_slots(), {});
-        for (Index f = 0; f < mesh.face_slots(); ++f) {
+        for (Index f = 0; f < mesh.face_slots(); ++f)
             if (mesh.is_alive(f)) add_face(mesh, f, no_index, no_index, 1);
-        }
         Eigen::AlignedBox3d box;
         for (Index v = 0; v < vertex_planes_.size(); ++v) {
             update_edge_planes(mesh, pairs, v);
@@ -143,9 +142,8 @@ private:
     void add_face(const CollapseMesh& mesh, Index f, Index u, Index v, double sign) {
         Planes planes;
         planes.add(mesh.normal(f), sign * mesh.area(f));
-        for (const Index corner : mesh.triangle(f)) {
+        for (const Index corner : mesh.triangle(f))
             if (corner != u && corner != v) vertex_planes_[corner].faces.add(planes, 1);
-        }
     }
 
     Planes planes_at(const CollapseMesh& mesh, Index v) const {
@@ -198,9 +196,8 @@ private:
         const auto [lower, higher] = mesh.lower_degree_first(u, v);
         mesh.for_each_face(lower, [&, other = higher](Index f, unsigned) {
             if (!mesh.has_corner(f, other)) return;
-            for (const Index w : mesh.triangle(f)) {
+            for (const Index w : mesh.triangle(f))
                 if (w != v) ends.push_back(w);
-            }
         });
         vertex_planes_[v].has_edge_planes = known->second.is_stale = true;
     }

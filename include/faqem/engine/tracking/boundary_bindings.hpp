@@ -74,9 +74,8 @@ public:
         if (edges_.empty()) return 0;
         FarthestPoint farthest(edges_);
         for (const Index i : bound_) farthest.add(points_[i].position);
-        if (bound_.empty()) {
+        if (bound_.empty())
             for (const Index n : ends_) gather_at(pairs, n, no_index);
-        }
         if (bound_.empty()) return 0;
         double worst = std::max(farthest.squared_distance(), squared_distance_to_original(p));
         for (const Index n : ends_)
@@ -192,9 +191,8 @@ private:
         const std::size_t end =
             point + 1 < points_.size() ? points_[point + 1].first_segment : segments_.size();
         double nearest = (x - p).squaredNorm();
-        for (std::size_t k = points_[point].first_segment; k < end; ++k) {
+        for (std::size_t k = points_[point].first_segment; k < end; ++k)
             nearest = std::min(nearest, SegmentDistance(x, segments_[k])(p));
-        }
         return nearest;
     }
 
