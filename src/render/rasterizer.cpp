@@ -113,9 +113,8 @@ std::optional<Vector4f> sample_texture(const ScreenTriangle& face, std::optional
 Vector4f base_color(const RenderTarget& target, const ScreenTriangle& face, const Vector3& w) {
     Vector4f color(face.material->base_color.data());
     if (const auto texel = sample_texture(face, face.base_color, face.material->base_color_texture,
-                                          target.scene.color_textures, w)) {
+                                          target.scene.color_textures, w))
         color = color.cwiseProduct(*texel);
-    }
     if (!face.part->colors.empty()) {
         const auto of = [&](const Corner& c) -> Vector4f {
             return Vector4f(face.part->colors[c.vertex].data());
@@ -215,9 +214,8 @@ void draw_pixel(RenderTarget& target, const ScreenTriangle& face, std::size_t pi
     if (!(inverse_depth > target.inverse_depth[pixel])) return;
     auto color = shade(target, face, perspective_weights(face.screen, screen_weights));
     if (!color) return;
-    if (target.edges == Edges::drawn && edge_distance(face, screen_weights) < edge_width) {
+    if (target.edges == Edges::drawn && edge_distance(face, screen_weights) < edge_width)
         *color = 0.6f * edge_color + 0.4f * *color;
-    }
     const float alpha = std::clamp((*color)[3], 0.0f, 1.0f);
     Vector4f premultiplied = *color * alpha;
     premultiplied[3] = alpha;

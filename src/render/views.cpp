@@ -117,9 +117,8 @@ Pixels compose_contact_sheet(const std::vector<ContactSheetRow>& rows) {
     sheet.rgba.resize(std::size_t{sheet.width} * sheet.height * 4);
     const std::uint32_t dot_size = std::max(1u, size / 240);
     for (std::uint32_t r = 0; r < rows.size(); ++r) {
-        for (std::uint32_t c = 0; c < rows[r].frames.size(); ++c) {
+        for (std::uint32_t c = 0; c < rows[r].frames.size(); ++c)
             paste(sheet, rows[r].frames[c], c * size, r * size);
-        }
         const std::uint32_t margin = 6 * dot_size;
         if (size > glyph_height * dot_size + 2 * margin) {
             draw_text(sheet, rows[r].label, margin, r * size + size - margin - glyph_height * dot_size,

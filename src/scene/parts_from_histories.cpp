@@ -43,10 +43,9 @@ void check_source_matches_histories(const Asset& given, const SimplifiedParts& s
     const Asset& source = finest ? finest->asset : given;
     if (source.parts.size() != simplified.parts.size())
         throw InputError("", "", "the number of meshes differs from that of the history");
-    for (std::size_t p = 0; p < source.parts.size(); ++p) {
+    for (std::size_t p = 0; p < source.parts.size(); ++p)
         if (!matches(source.parts[p], simplified.parts[p].history))
             throw InputError("", "mesh " + std::to_string(p), "does not match the history");
-    }
 }
 
 }  // namespace faqem::detail

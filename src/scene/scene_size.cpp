@@ -64,9 +64,8 @@ SceneSize scene_size(const Asset& source) {
         for (const Vec3& p : positions[instance.part])
             box.extend((transform * engine::to_eigen(p).homogeneous()).head<3>());
     }
-    for (std::size_t p = 0; p < shown.size(); ++p) {
+    for (std::size_t p = 0; p < shown.size(); ++p)
         if (!shown[p]) size.scales[p] = {};
-    }
     size.diagonal = box.isEmpty() ? 0 : box.diagonal().norm();
     return size;
 }

@@ -59,9 +59,8 @@ OccludingSides occluding_sides(const Asset& scene, Index material) {
     const Material& m = scene.materials[material];
     const auto& all = m.extensions;
     if (m.alpha_mode != AlphaMode::opaque ||
-        std::ranges::find(all, "KHR_materials_transmission") != all.end()) {
+        std::ranges::find(all, "KHR_materials_transmission") != all.end())
         return OccludingSides::none;
-    }
     return m.double_sided ? OccludingSides::both : OccludingSides::front;
 }
 

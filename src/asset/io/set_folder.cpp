@@ -23,10 +23,9 @@ void clear_set(const SetFolder& set) noexcept try {
     for (const char* part : {"new", "staged", "old"}) {
         std::error_code error;
         if (const Descriptor opened = open_subfolder(set.set_file.get(), part)) {
-            for (const std::string& name : file_names(set.path() / part, error)) {
+            for (const std::string& name : file_names(set.path() / part, error))
                 if (::unlinkat(opened.get(), name.c_str(), 0) != 0)
                     ::unlinkat(opened.get(), name.c_str(), AT_REMOVEDIR);
-            }
         }
         ::unlinkat(set.set_file.get(), part, AT_REMOVEDIR);
     }

@@ -27,10 +27,9 @@ public:
         const std::uint64_t h = hash(value);
         const auto tag = static_cast<std::uint32_t>(h >> 32);
         std::size_t slot = h & (table_.size() - 1);
-        for (; table_[slot].index != no_index; slot = (slot + 1) & (table_.size() - 1)) {
+        for (; table_[slot].index != no_index; slot = (slot + 1) & (table_.size() - 1))
             if (table_[slot].tag == tag && bits(values_[table_[slot].index]) == bits(value))
                 return table_[slot].index;
-        }
         table_[slot] = {static_cast<Index>(values_.size()), tag};
         values_.push_back(value);
         return table_[slot].index;

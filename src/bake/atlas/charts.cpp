@@ -60,10 +60,9 @@ Charts parametrize_region(std::span<const PageTriangle> all, const std::vector<I
             std::vector<Index> rest;
             std::set_difference(faces.begin(), faces.end(), flipped.begin(), flipped.end(),
                                 std::back_inserter(rest));
-            for (const std::vector<Index>& part : {rest, flipped}) {
+            for (const std::vector<Index>& part : {rest, flipped})
                 for (std::vector<Index>& group : connected_subsets(all, part))
                     waiting.push_back(std::move(group));
-            }
             continue;
         }
         for (std::vector<Index>& half : bisect(all, faces)) waiting.push_back(std::move(half));

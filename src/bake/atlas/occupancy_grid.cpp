@@ -32,11 +32,9 @@ std::uint64_t doubled_bits(std::uint64_t word) {
 
 BlockMask BlockMask::rotated() const {
     BlockMask result{rows, columns, std::vector<std::uint8_t>(blocks.size())};
-    for (std::uint32_t y = 0; y < rows; ++y) {
-        for (std::uint32_t x = 0; x < columns; ++x) {
+    for (std::uint32_t y = 0; y < rows; ++y)
+        for (std::uint32_t x = 0; x < columns; ++x)
             result.blocks[std::size_t{x} * rows + (rows - 1 - y)] = blocks[std::size_t{y} * columns + x];
-        }
-    }
     return result;
 }
 
@@ -131,10 +129,9 @@ std::optional<OccupancyGrid::BlockPosition> OccupancyGrid::find_free(const Block
     Row candidates, scratch;
     for (std::uint32_t y = from; y < std::min(end, rows_ - mask.rows + 1); y += step) {
         if (!find_free_columns(runs, y, candidates, scratch)) continue;
-        for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+        for (std::uint32_t i = 0; i < candidates.size(); ++i)
             if (candidates[i])
                 return BlockPosition{64 * i + static_cast<std::uint32_t>(std::countr_zero(candidates[i])), y};
-        }
     }
     return std::nullopt;
 }

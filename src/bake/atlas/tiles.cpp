@@ -24,11 +24,9 @@ public:
           columns_(tile.width * samples),
           rows_(tile.height * samples) {
         owned_.resize(std::size_t{tile.width} * tile.height);
-        for (std::uint32_t y = 0; y < tile.height; ++y) {
-            for (std::uint32_t x = 0; x < tile.width; ++x) {
+        for (std::uint32_t y = 0; y < tile.height; ++y)
+            for (std::uint32_t x = 0; x < tile.width; ++x)
                 owned_[std::size_t{y} * tile.width + x] = chart.owns(tile.x + x, tile.y + y);
-            }
-        }
         owner_.assign(std::size_t{columns_} * rows_, no_index);
     }
 
@@ -142,11 +140,9 @@ private:
     // Calls visit(sample, position on the page) for the samples of a range.
     template <class Visit>
     void for_each_sample(const Range& range, Visit&& visit) const {
-        for (std::uint32_t j = range.y0; j < range.y1; ++j) {
-            for (std::uint32_t i = range.x0; i < range.x1; ++i) {
+        for (std::uint32_t j = range.y0; j < range.y1; ++j)
+            for (std::uint32_t i = range.x0; i < range.x1; ++i)
                 visit(std::size_t{j} * columns_ + i, position(i, j));
-            }
-        }
     }
 
     template <class Visit>
@@ -188,10 +184,9 @@ std::vector<ChartTile> split_into_tiles(std::span<const AtlasChart> charts) {
                 const std::uint32_t columns = std::min(step, chart.columns - x),
                                     rows = std::min(step, chart.rows - y);
                 bool any = false;
-                for (std::uint32_t j = y; j < y + rows; ++j) {
+                for (std::uint32_t j = y; j < y + rows; ++j)
                     for (std::uint32_t k = x; k < x + columns; ++k)
                         any = any || chart.blocks[std::size_t{j} * chart.columns + k];
-                }
                 if (!any) continue;
                 result.push_back({static_cast<Index>(i), chart.x + x * chart.block_size,
                                   chart.y + y * chart.block_size, columns * chart.block_size,

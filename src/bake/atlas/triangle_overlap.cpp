@@ -110,9 +110,8 @@ bool has_separating_edge(const Triangle2& a, const Triangle2& b, double slack) {
         const Point2 &from = a[i], &to = a[(i + 1) % 3];
         const double limit = slack * length(to - from);
         if (twice_signed_area(from, to, b[0]) <= limit && twice_signed_area(from, to, b[1]) <= limit &&
-            twice_signed_area(from, to, b[2]) <= limit) {
+            twice_signed_area(from, to, b[2]) <= limit)
             return true;
-        }
     }
     return false;
 }
@@ -192,9 +191,8 @@ bool has_boundary_clearance(std::span<const PageTriangle> all, const Chart& char
     const std::vector<ChartBoundaryEdge> edges = boundary_edges(all, chart);
     std::vector<Box2> boxes;
     boxes.reserve(edges.size());
-    for (const ChartBoundaryEdge& s : edges) {
+    for (const ChartBoundaryEdge& s : edges)
         boxes.push_back(bounding_box(std::array{s.a, s.b}).expanded(max_distance / 2));
-    }
     return all_pairs(boxes, work, [&](Index a, Index b) {
         return has_clearance(edges[a], edges[b]) && has_clearance(edges[b], edges[a]);
     });

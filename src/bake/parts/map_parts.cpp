@@ -45,10 +45,9 @@ std::vector<BakePart> map_parts(const Asset& source, std::span<const SimplifyRes
     const auto map_part = [&](std::size_t p, std::size_t, const RunContext& block_context) {
         BakePart& part = parts[p];
         if (part.faces() == 0 || part.is_kept) return;
-        if (needs_map(source, part, bake)) {
+        if (needs_map(source, part, bake))
             part.map = std::make_unique<const HistoryMap>(
                 make_surface_map(part.simplified->history, part.source->triangles, block_context));
-        }
         if (writes_normals || makes_atlas(bake.kind)) part.normals = make_normals(part, bake, block_context);
     };
     reported_blocks(parts.size(), 1, context, Phase::map, 0, 1, map_part);

@@ -275,9 +275,8 @@ Vector3 SourceSampler::perturbed_normal(const TextureSlot& slot, double scale, I
         const Vector3 tangent_space_normal(scale * (2 * c[0] - 1.0), scale * (2 * c[1] - 1.0),
                                            2 * c[2] - 1.0);
         std::array<FrameCorner, 3> corners;
-        for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < 3; ++i)
             corners[i] = {corner_normal(part, point.face, i), tangents_[p][std::size_t{3} * point.face + i]};
-        }
         result = blend_frames(corners, point.barycentric).to_mesh(tangent_space_normal);
         const double length = result.norm();
         result = length > 1e-6 && std::isfinite(length) ? Vector3(result / length) : smooth;

@@ -189,10 +189,9 @@ private:
         std::vector<std::uint32_t> donor(corners_.size(), absent);
         for (std::uint32_t c = 0; c < corners_.size(); ++c)
             if (!faces_[c / 3].is_degenerate && donor[vertex_[c]] == absent) donor[vertex_[c]] = c;
-        for (std::size_t c = 0; c < corners_.size(); ++c) {
+        for (std::size_t c = 0; c < corners_.size(); ++c)
             if (faces_[c / 3].is_degenerate && donor[vertex_[c]] != absent)
                 result[c] = result[donor[vertex_[c]]];
-        }
     }
 
     std::span<const TangentCorner> corners_;

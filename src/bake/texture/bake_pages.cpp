@@ -129,10 +129,9 @@ void warn_of_normal_maps(const Asset& source, const MaterialGroups& groups, cons
                          std::vector<std::string>& warnings) {
     for (std::size_t g = 0; g < pages.size(); ++g) {
         if (pages[g].channels[CoreTexture::normal]) continue;
-        for (Index m : groups.groups[g].materials) {
+        for (Index m : groups.groups[g].materials)
             if (material_or_default(source, m).normal_texture)
                 warnings.push_back(material_title(source, m) + ": the normal map was left out");
-        }
     }
 }
 

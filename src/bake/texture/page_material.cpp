@@ -130,10 +130,9 @@ std::vector<TextureRef> textures_of_group(const Asset& source, const MaterialGro
                                           std::initializer_list<TextureMember> slots) {
     std::vector<TextureRef> found;
     for (const Index m : group.materials) {
-        for (const TextureMember slot : slots) {
+        for (const TextureMember slot : slots)
             if (const TextureRef& texture_ref = material_or_default(source, m).*slot)
                 found.push_back(texture_ref);
-        }
     }
     return found;
 }

@@ -218,10 +218,9 @@ CommandInfo batch_command() {
          rare(flag_option("--merge", arguments->merge,
                           "Write what became of each model of OUTDIR; to its batch.jsonl and batch.html"))});
     add_options(command.options, table_options(detail::in_batch, arguments->options));
-    for (OptionInfo& option : command.options) {
+    for (OptionInfo& option : command.options)
         if (option.names.back() == "--threads")
             option.description = "Maximum number of threads per model; 0: all, divided by the jobs (default)";
-    }
     add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
     add_options(command.options,
                 {profile_option(), builtin_profile_option(), force_option(arguments->force)});

@@ -111,10 +111,9 @@ int run(const ReportArguments& arguments) {
     page.pictures = draw_pictures(arguments, a, b, error_a, error_b, limit);
     page.view = make_viewer_data(arguments, a, b, error_a, error_b, page, limit, max_distance);
     if (!page.comparison.colors_warning.empty()) page.notes.push_back(page.comparison.colors_warning);
-    for (const FlattenedModel* model : {&a, &b}) {
+    for (const FlattenedModel* model : {&a, &b})
         for (const std::string& warning : model->asset.warnings)
             page.notes.push_back(model->file + ": " + warning);
-    }
     bar.hide();
     for (const std::string& note : page.notes) std::cerr << "faqem: warning: " << note << "\n";
     write_only_output(arguments.out, report_html(page), overwrite);

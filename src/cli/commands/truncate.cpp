@@ -54,9 +54,8 @@ SimplifiedAsset geometry_only(const SimplifiedParts& simplified_parts) {
         part.positions = one.history.positions;
         part.triangles = one.history.triangles;
         part.face_material.assign(part.triangles.size(), no_index);
-        for (Triangle& t : part.triangles) {
+        for (Triangle& t : part.triangles)
             if (t[0] == no_index) t = {0, 0, 0};  // dropped during preprocessing
-        }
     }
     return bake(original, simplified_parts, {.bake = {.kind = Bake::none, .normals = Normals::none}});
 }

@@ -153,10 +153,9 @@ std::vector<std::string> erase_textures(const Material& current, const Material&
 /// Copies the remaining textures of the source that are not written from the Material.
 /// \param current  null: none of them is
 void remap_textures(GltfWriter& writer, const Material* current, const std::string& holder, Json& object) {
-    for (auto& [key, value] : object.items()) {
+    for (auto& [key, value] : object.items())
         if (is_texture_info(key, value) && !(current && is_known(*current, holder, key)))
             value["index"] = copy_texture(writer, index_member(value, "index"));
-    }
 }
 
 /// The directions of this extension are relative to the texture coordinates, even without a texture.
