@@ -23,16 +23,16 @@ std::vector<Links> brute_force_links(const std::vector<Triangle>& faces) {
     for (Index f = 0; f < faces.size(); ++f) {
         for (unsigned k = 0; k < 3; ++k) {
             const Index a = faces[f][(k + 1) % 3], b = faces[f][(k + 2) % 3];
-            unsigned same = 0, opposite = 0;
+            unsigned others = 0;
             for (Index g = 0; g < faces.size(); ++g) {
                 for (unsigned m = 0; m < 3; ++m) {
                     const Index c = faces[g][(m + 1) % 3], d = faces[g][(m + 2) % 3];
-                    same += a == c && b == d;
-                    opposite += a == d && b == c;
-                    if (a == d && b == c) links[f][k] = 4 * g + m;
+                    if (g == f || !((a == d && b == c) || (a == c && b == d))) continue;
+                    ++others;
+                    links[f][k] = 4 * g + m;
                 }
             }
-            if (same != 1 || opposite != 1) links[f][k] = no_index;
+            if (others != 1) links[f][k] = no_index;
         }
     }
     return links;

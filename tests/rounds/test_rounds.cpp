@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -119,6 +121,43 @@ TEST_CASE("rounds: the patch of a collapse is the faces around its vertices just
         }
     }
     CHECK(same);
+}
+
+TEST_CASE("rounds: faces with reversed windings are simplified as the others, and stay reversed") {
+    TriangleMesh turned = lump();
+    for (std::size_t f = 0; f < turned.triangles.size(); f += 3)
+        std::swap(turned.triangles[f][1], turned.triangles[f][2]);
+    const Rounds rounds(turned, 2048);
+    std::vector<Triangle> left = rounds.left->triangles;
+    CHECK(left.size() >= 2560);
+    CHECK(left.size() <= 2650);
+    for (std::size_t i = 0; i < left.size(); ++i)
+        if (rounds.input.face[rounds.left->faces[i]] % 3 == 0) std::swap(left[i][1], left[i][2]);
+    CHECK(test::closed_manifold(left));
+    CHECK(test::euler(left) == 2);
+}
+
+TEST_CASE("rounds: a strip that cannot be oriented keeps a border where its windings meet") {
+    // A Moebius band of 400 by 24 vertices.
+    TriangleMesh band;
+    for (Index i = 0; i < 400; ++i) {
+        for (Index j = 0; j < 24; ++j) {
+            const double a = 2 * std::numbers::pi * i / 400, w = (j - 11.5) / 24;
+            const double r = 2 + w * std::cos(a / 2);
+            band.positions.push_back({r * std::cos(a), r * std::sin(a), w * std::sin(a / 2)});
+        }
+    }
+    const auto at = [](Index i, Index j) { return i < 400 ? 24 * i + j : 23 - j; };
+    for (Index i = 0; i < 400; ++i) {
+        for (Index j = 0; j < 23; ++j) {
+            band.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+            band.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    }
+    const CompactedMesh left = *Rounds(band, 5000).left;
+    CHECK(left.triangles.size() < 9000);
+    CHECK(engine::find_boundary_edges(left.triangles, left.positions.size()).size() == 800);
+    CHECK(test::euler(left.triangles) == 0);
 }
 
 TEST_CASE("rounds: no locked vertex is in a collapse") {

@@ -21,8 +21,7 @@ namespace detail {
 /// Corner k of face f is 4 f + k.
 using Corner = std::uint32_t;
 
-/// Per corner of a face: the corner across the edge opposite it, if this edge has two faces of opposite direction, else
-/// no_index.
+/// Per corner of a face: the corner across the edge opposite it, if this edge has two faces, else no_index.
 using Links = std::array<Corner, 3>;
 
 namespace rounds {
@@ -36,28 +35,33 @@ inline unsigned lowest(const Triangle& t) {
     return t[2] < t[k] ? 2 : k;
 }
 
+/// Whether two faces pass the edge opposite these corners of theirs in opposite directions.
+inline bool have_one_winding(std::span<const Triangle> triangles, Corner a, Corner b) {
+    return triangles[a >> 2][next(a & 3)] == triangles[b >> 2][previous(b & 3)];
+}
+
 /// An edge of a face, seen from its lower end.
 struct Side {
-    std::uint32_t other;  ///< twice the higher end, plus 1 if the face passes the edge towards the lower one
-    Corner corner;        ///< opposite the edge
+    Index other;    ///< the higher end
+    Corner corner;  ///< opposite the edge
 };
 
 /// Sets the links of all sides at a vertex.
 inline void match_sides(std::vector<Side>& sides, std::vector<Links>& links) {
     const bool is_hub = sides.size() > 32;
-    const auto is_lower = [](const Side& a, const Side& b) { return a.other >> 1 < b.other >> 1; };
+    const auto is_lower = [](const Side& a, const Side& b) { return a.other < b.other; };
     if (is_hub) std::sort(sides.begin(), sides.end(), is_lower);
     for (const Side& side : sides) {
         auto at = is_hub ? std::lower_bound(sides.begin(), sides.end(), side, is_lower) : sides.begin();
         unsigned same = 0;
         Corner match = no_index;
         for (; at != sides.end() && same < 3; ++at) {
-            if (at->other >> 1 != side.other >> 1) {
+            if (at->other != side.other) {
                 if (is_hub) break;
                 continue;
             }
             ++same;
-            if (at->other != side.other) match = at->corner;
+            if (at->corner != side.corner) match = at->corner;
         }
         links[side.corner >> 2][side.corner & 3] = same == 2 ? match : no_index;
     }
@@ -67,7 +71,7 @@ inline void match_sides(std::vector<Side>& sides, std::vector<Links>& links) {
 
 /// Finds the links of all faces. O(triangles), times a logarithm at vertices of high valence; parallel in part
 /// \param triangles  with pairwise different corners
-/// \param vertices   number of vertices; larger than any corner, below 2^31
+/// \param vertices   number of vertices; larger than any corner
 inline std::vector<Links> link_corners(std::span<const Triangle> triangles, std::size_t vertices,
                                        const RunContext& context) {
     using namespace rounds;
@@ -91,10 +95,10 @@ inline std::vector<Links> link_corners(std::span<const Triangle> triangles, std:
                 const Triangle& t = triangles[c >> 2];
                 const Index a = t[next(k)], b = t[previous(k)];
                 if (t[k] == v) {
-                    sides.push_back({2 * a, face | previous(k)});
-                    sides.push_back({2 * b + 1, face | next(k)});
+                    sides.push_back({a, face | previous(k)});
+                    sides.push_back({b, face | next(k)});
                 } else {
-                    sides.push_back({a < b ? 2 * b : 2 * a + 1, c});
+                    sides.push_back({std::max(a, b), c});
                 }
             }
             match_sides(sides, links);
@@ -109,13 +113,17 @@ inline std::vector<Links> link_corners(std::span<const Triangle> triangles, std:
 inline std::vector<std::uint8_t> closed_vertices(std::span<const Triangle> triangles,
                                                  std::span<const Links> links, std::size_t vertices) {
     std::vector<std::uint8_t> closed(vertices, 1);
-    const auto is_open = [](const Links& of) { return std::count(of.begin(), of.end(), no_index) > 0; };
-    if (std::none_of(links.begin(), links.end(), is_open)) return closed;
+    std::vector<Index> open;  // faces
+    for (Index f = 0; f < links.size(); ++f) {
+        const auto is_closed = [&](unsigned k) {
+            return links[f][k] != no_index && rounds::have_one_winding(triangles, 4 * f + k, links[f][k]);
+        };
+        if (!is_closed(0) || !is_closed(1) || !is_closed(2)) open.push_back(f);
+    }
+    if (open.empty()) return closed;
     engine::UnionFind component(vertices);
     for (const Triangle& t : triangles) component.unite(t[0], t[1]), component.unite(t[0], t[2]);
-    for (std::size_t f = 0; f < links.size(); ++f) {
-        if (is_open(links[f])) closed[component.find(triangles[f][0])] = 0;
-    }
+    for (const Index f : open) closed[component.find(triangles[f][0])] = 0;
     for (Index v = 0; v < vertices; ++v) closed[v] = closed[component.find(v)];  // the root comes first
     return closed;
 }

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "faqem/detail/base/parallel.hpp"
@@ -48,6 +51,8 @@ struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<Face> faces;
     std::vector<float> keys;  ///< three per face; see key()
+    /// One per face of the input: 1 if its winding is reversed here. Empty: none is.
+    std::vector<std::uint8_t> reversed;
     /// One per vertex of the input: what it was merged into, or no_index. Empty: not recorded.
     std::vector<Index> merged_into;
     std::size_t alive = 0;  ///< number of faces
@@ -58,6 +63,11 @@ struct Mesh {
     /// with a locked end, and at edges that were refused since an end moved.
     float& key(Corner c) { return keys[c - (c >> 2)]; }
     float key(Corner c) const { return keys[c - (c >> 2)]; }
+
+    /// The corners of a face in the winding of the input.
+    Triangle triangle(const Face& f) const {
+        return reversed.empty() || !reversed[f.slot] ? f.v : Triangle{f.v[0], f.v[2], f.v[1]};
+    }
 
     Vector difference(Index from, Index to) const {
         const auto &a = vertices[from].p, &b = vertices[to].p;
@@ -166,6 +176,48 @@ inline void evaluate_edges(Mesh& mesh, const std::vector<Vector>& roots, Index f
     flush();
 }
 
+/// Finds windings for which neighbours agree: those of the first face of each component. O(faces)
+/// \return one per face: 1 if its winding has to be reversed; empty if none has to be
+inline std::vector<std::uint8_t> reversed_faces(std::span<const Triangle> triangles,
+                                                std::span<const Links> links) {
+    constexpr std::uint8_t unknown = 2;
+    std::vector<std::uint8_t> reversed(triangles.size(), unknown);
+    std::vector<Index> found;
+    for (Index first = 0; first < reversed.size(); ++first) {
+        if (reversed[first] != unknown) continue;
+        reversed[first] = 0;
+        for (found.push_back(first); !found.empty();) {
+            const Index f = found.back();
+            found.pop_back();
+            for (unsigned k = 0; k < 3; ++k) {
+                const Corner across = links[f][k];
+                if (across == no_index || reversed[across >> 2] != unknown) continue;
+                reversed[across >> 2] = reversed[f] ^ !have_one_winding(triangles, 4 * f + k, across);
+                found.push_back(across >> 2);
+            }
+        }
+    }
+    return reversed;
+}
+
+/// A face with the winding that Mesh::reversed gives it. Edges whose faces still differ, as a Moebius strip has, have no links.
+inline Face face_of(Index f, std::span<const Triangle> triangles, std::span<const Links> links,
+                    const std::vector<std::uint8_t>& reversed) {
+    Face face{triangles[f], links[f], f, 0};
+    const auto is_reversed = [&](Index g) { return !reversed.empty() && reversed[g]; };
+    for (unsigned k = 0; k < 3; ++k) {
+        Corner& c = face.o[k];
+        if (c == no_index) continue;
+        const Index g = c >> 2;
+        if (have_one_winding(triangles, 4 * f + k, c) != (is_reversed(f) == is_reversed(g)))
+            c = no_index;
+        else if (is_reversed(g) && (c & 3) != 0)
+            c ^= 3;
+    }
+    if (is_reversed(f)) std::swap(face.v[1], face.v[2]), std::swap(face.o[1], face.o[2]);
+    return face;
+}
+
 /// Makes the mesh, with the costs of all edges. Locked are the vertices that `input` locks, and the
 /// unfit ones. Releases the arrays of the input.
 /// \return no mesh, and positions and triangles as they were, if more than `most_unfit` vertices are unfit
@@ -175,10 +227,20 @@ inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit,
     mesh.alive = input.triangles.size();
     if (input.links.empty()) input.links = link_corners(input.triangles, input.positions.size(), context);
     mesh.faces.resize(mesh.alive);
-    parallel_blocks(mesh.alive, elements_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t f = first; f < end; ++f)
-            mesh.faces[f] = {input.triangles[f], input.links[f], static_cast<Index>(f), 0};
-    });
+    std::atomic<bool> is_mixed = false;
+    const auto set_faces = [&] {
+        parallel_blocks(mesh.alive, elements_per_block, context, [&](std::size_t first, std::size_t end) {
+            for (std::size_t f = first; f < end; ++f) {
+                mesh.faces[f] = face_of(static_cast<Index>(f), input.triangles, input.links, mesh.reversed);
+                if (mesh.reversed.empty() && mesh.faces[f].o != input.links[f]) is_mixed = true;
+            }
+        });
+    };
+    set_faces();
+    if (is_mixed) {
+        mesh.reversed = reversed_faces(input.triangles, input.links);
+        set_faces();
+    }
     release(input.links);
     release(input.triangles);
     mesh.vertices.resize(input.positions.size());
@@ -198,7 +260,7 @@ inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit,
                                                         [](const Vertex& v) { return v.lock == unfit; }));
     if (mesh.unfit > most_unfit) {
         input.triangles.reserve(mesh.alive);
-        for (const Face& f : mesh.faces) input.triangles.push_back(f.v);
+        for (const Face& f : mesh.faces) input.triangles.push_back(mesh.triangle(f));
         return {};
     }
     release(input.positions);
@@ -262,7 +324,7 @@ inline CompactedMesh surface_of(const Mesh& mesh, std::size_t slots) {
     }
     for (const Face& f : mesh.faces) {
         out.faces.push_back(f.slot);
-        out.triangles.push_back(f.v);
+        out.triangles.push_back(mesh.triangle(f));
     }
     return out;
 }
