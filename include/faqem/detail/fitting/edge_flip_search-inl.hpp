@@ -174,8 +174,7 @@ private:
     template <class Visit>
     void for_each_face_at_edge(Index v, Index w, Visit&& visit) const {
         const std::uint64_t edge = Halfedge{std::min(v, w), std::max(v, w)}.edge();
-        auto halfedge = std::lower_bound(halfedges_.begin(), halfedges_.end(), edge,
-                                         [](const Halfedge& a, std::uint64_t b) { return a.edge() < b; });
+        auto halfedge = std::ranges::lower_bound(halfedges_, edge, {}, &Halfedge::edge);
         for (; halfedge != halfedges_.end() && halfedge->edge() == edge; ++halfedge) visit(*halfedge);
     }
 

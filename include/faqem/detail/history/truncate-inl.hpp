@@ -232,9 +232,8 @@ FAQEM_INLINE std::vector<CollapseHistory> truncate_to_faces(std::span<const Chai
     // Face count of a part. Level 0 is the original, level i + 1 is level i of the history.
     const auto faces_of = [](const ChainHistory& part, std::size_t level) -> std::uint64_t {
         if (level > 0) return detail::faces_at_level(part, level - 1);
-        return static_cast<std::uint64_t>(std::count_if(part.last.triangles.begin(),
-                                                        part.last.triangles.end(),
-                                                        [](const Triangle& t) { return t[0] != no_index; }));
+        return static_cast<std::uint64_t>(
+            std::ranges::count_if(part.last.triangles, [](const Triangle& t) { return t[0] != no_index; }));
     };
     const auto faces_of_all = [&](std::size_t level) {
         std::uint64_t sum = 0;

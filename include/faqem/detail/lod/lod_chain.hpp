@@ -53,8 +53,7 @@ public:
           run_(run),
           measure_(measure),
           within_(within),
-          steps_(1 +
-                 static_cast<double>(std::count_if(level_targets.begin(), level_targets.end(), is_distance))),
+          steps_(1 + static_cast<double>(std::ranges::count_if(level_targets, is_distance))),
           out_(level_targets.size()) {}
 
     std::vector<Out> simplify() {

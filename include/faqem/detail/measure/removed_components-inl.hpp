@@ -80,10 +80,8 @@ FAQEM_INLINE FoundComponents removed_components(std::span<const PlacedFace> face
                                  {"", size.faces, size.area / all, engine::to_array(4 * size.box.min()),
                                   engine::to_array(4 * size.box.max())}});
     }
-    std::stable_sort(found.visible.begin(), found.visible.end(),
-                     [](const FoundComponent& a, const FoundComponent& b) {
-                         return a.removed.area_share > b.removed.area_share;
-                     });
+    std::ranges::stable_sort(found.visible, std::greater(),
+                             [](const FoundComponent& component) { return component.removed.area_share; });
     return found;
 }
 

@@ -44,8 +44,7 @@ inline bool is_flat(const CostCurve::Step& step) {
 // Takes the cheapest reductions of all meshes until `sum` is at most `face_budget`.
 inline void take_cheapest(std::vector<Reduction> reductions, std::uint64_t face_budget,
                           std::vector<std::uint64_t>& share, std::uint64_t& sum) {
-    std::stable_sort(reductions.begin(), reductions.end(),
-                     [](const Reduction& a, const Reduction& b) { return a.cost < b.cost; });
+    std::ranges::stable_sort(reductions, {}, &Reduction::cost);
     for (const Reduction& reduction : reductions) {
         if (sum <= face_budget) break;
         std::uint64_t& faces = share[reduction.mesh];

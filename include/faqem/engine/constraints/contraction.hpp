@@ -90,8 +90,7 @@ public:
         if (is_part_ || vertices_.size() > max_vertices) return Refusal::link;
         if (vanishing_.size() + degenerate >= mesh.face_count()) return Refusal::last_faces;
         const auto is_locked = [&](Index v) { return locked[v] != 0; };
-        if (remaining_.empty() && std::any_of(vertices_.begin(), vertices_.end(), is_locked))
-            return Refusal::locked;
+        if (remaining_.empty() && std::ranges::any_of(vertices_, is_locked)) return Refusal::locked;
         for (const Index w : corners_)
             if (is_locked(w) && loses_all_faces(mesh, w)) return Refusal::locked;
         return std::nullopt;
@@ -112,10 +111,9 @@ public:
     template <class Collapse>
     void apply(const CollapseMesh& mesh, const PairTable& pairs, Index fixed, Collapse&& collapse) const {
         const Index survivor =
-            fixed != no_index ? fixed
-                              : *std::max_element(vertices_.begin(), vertices_.end(), [&](Index a, Index b) {
-                                    return mesh.degree(a) < mesh.degree(b);
-                                });
+            fixed != no_index
+                ? fixed
+                : *std::ranges::max_element(vertices_, {}, [&](Index v) { return mesh.degree(v); });
         std::optional<Cancelled> stopped;
         while (true) {
             Neighbour inner;
@@ -223,8 +221,7 @@ private:
         const auto key = [](const RemainingFace& r) {
             return std::array{std::min(r.a, r.b), std::max(r.a, r.b), r.face};
         };
-        std::sort(remaining_.begin(), remaining_.end(),
-                  [&](const RemainingFace& x, const RemainingFace& y) { return key(x) < key(y); });
+        std::ranges::sort(remaining_, {}, key);
         flaps_.clear();
         std::size_t kept = 0;
         for (std::size_t i = 0; i < remaining_.size(); ++i) {

@@ -100,8 +100,7 @@ private:
         for (const auto& [a, b] : edges) ends.push_back({a, b}), ends.push_back({b, a});
         std::sort(ends.begin(), ends.end());
         const auto index = [&](Index a, Index b) {
-            return static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end(), std::array{a, b}) -
-                                            ends.begin());
+            return static_cast<std::size_t>(std::ranges::lower_bound(ends, std::array{a, b}) - ends.begin());
         };
         const auto continues = [&](Index v) { return index(v + 1, 0) - index(v, 0) == 2; };
         std::vector<bool> is_used(ends.size(), false);

@@ -75,8 +75,7 @@ inline std::vector<Component> removable_components(const CollapseMesh& mesh,
         if (has_no_area) c.box = Eigen::AlignedBox3d(c.box.min());
     }
     const auto diagonal = [](const Component& c) { return c.box.diagonal().norm(); };
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const Component& a, const Component& b) { return diagonal(a) < diagonal(b); });
+    std::ranges::stable_sort(all, {}, diagonal);
     if (!all.empty()) all.pop_back();
     const auto has_locked = [&](Index f) {
         const Triangle& t = mesh.triangle(f);

@@ -93,9 +93,7 @@ private:
         Index best = no_index;
         double nearest = std::numeric_limits<double>::infinity();
         visited_.clear();
-        const auto is_visited = [&](Index v) {
-            return std::find(visited_.begin(), visited_.end(), v) != visited_.end();
-        };
+        const auto is_visited = [&](Index v) { return std::ranges::find(visited_, v) != visited_.end(); };
         const auto search_faces_of = [&](Index v) {
             if (is_visited(v)) return false;
             const Index before = best;
