@@ -163,8 +163,7 @@ const FileFormat& written_format(const fs::path& file) {
 
 const FileFormat& result_format(ModelFormat wanted, ModelFormat loaded) {
     const ModelFormat known = wanted == ModelFormat::automatic ? loaded : wanted;
-    const auto found =
-        std::ranges::find_if(formats, [&](const FileFormat& format) { return format.format == known; });
+    const auto found = std::ranges::find(formats, known, &FileFormat::format);
     return known == ModelFormat::automatic || found == formats.end() ? formats.front() : *found;
 }
 

@@ -65,8 +65,7 @@ void paste(Pixels& sheet, const Frame& frame, std::uint32_t left, std::uint32_t 
 void draw_text(Pixels& sheet, const std::string& text, std::uint32_t left, std::uint32_t top,
                std::uint32_t dot_size) {
     for (const char character : text) {
-        const auto* glyph =
-            std::ranges::find_if(font, [&](const Glyph& g) { return g.character == character; });
+        const auto* glyph = std::ranges::find(font, character, &Glyph::character);
         if (glyph == font.end()) continue;
         for (std::uint32_t y = 0; y < glyph_height * dot_size; ++y) {
             for (std::uint32_t x = 0; x < glyph_width * dot_size; ++x) {

@@ -255,9 +255,8 @@ void ImageTrials::measure_choice(const ResultChoice& choice) {
         const Trial& trial = trials_[i][choice.images[i]];
         const std::vector<Sample>& samples = size_errors_[i][trial.size]->samples;
         const bool is_measured =
-            !(trial.difference > 0) || std::any_of(samples.begin(), samples.end(), [&](const Sample& sample) {
-                return sample.difference == trial.difference;
-            });
+            !(trial.difference > 0) ||
+            std::ranges::find(samples, trial.difference, &Sample::difference) != samples.end();
         if (!is_measured) encoded[i] = decode(trial.image);
     }
     const std::vector<std::optional<PictureDifference>> both = (*meter_)(std::move(encoded));

@@ -81,10 +81,8 @@ private:
     void add(std::size_t image, const std::vector<TriedImage>& tried) {
         std::vector<std::size_t> order(tried.size());
         for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return std::pair(tried[a].bytes, tried[a].error.sum()) <
-                   std::pair(tried[b].bytes, tried[b].error.sum());
-        });
+        std::ranges::stable_sort(
+            order, {}, [&](std::size_t k) { return std::pair(tried[k].bytes, tried[k].error.sum()); });
         std::size_t at = order[0];
         least_.chosen.push_back(at);
         least_.bytes += tried[at].bytes;
@@ -117,8 +115,7 @@ private:
             order[s] = {gain / static_cast<double>(steps_[s].bytes), s};
         }
         // The steps of an image have falling gains, so that they stay in their order.
-        std::stable_sort(order.begin(), order.end(),
-                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
         Allocation result = least_;
         std::vector<std::uint8_t> is_full(least_.chosen.size(), 0);
         std::vector<std::size_t> full;  // images, in the order of their gains

@@ -96,15 +96,12 @@ public:
 
 private:
     void check_elements() {
-        for (const char* name : {"vertex", "face", "tristrips"}) {
-            const auto count =
-                std::ranges::count_if(header_.elements, [&](const PlyElement& e) { return e.name == name; });
-            if (count > 1) throw InputError(file_, "header", std::string("more than one element ") + name);
-        }
+        for (const char* name : {"vertex", "face", "tristrips"})
+            if (std::ranges::count(header_.elements, name, &PlyElement::name) > 1)
+                throw InputError(file_, "header", std::string("more than one element ") + name);
         for (const PlyElement& element : header_.elements)
             check_index_count(element.count, file_, element.name);
-        const auto vertex =
-            std::ranges::find_if(header_.elements, [](const PlyElement& e) { return e.name == "vertex"; });
+        const auto vertex = std::ranges::find(header_.elements, "vertex", &PlyElement::name);
         if (vertex == header_.elements.end()) throw InputError(file_, "header", "no element vertex");
         vertex_count_ = vertex->count;
     }

@@ -58,8 +58,7 @@ Charts parametrize_region(std::span<const PageTriangle> all, const std::vector<I
         const std::vector<Index>& flipped = parametrization.flipped_faces;
         if (!flipped.empty() && 4 * flipped.size() <= faces.size()) {
             std::vector<Index> rest;
-            std::set_difference(faces.begin(), faces.end(), flipped.begin(), flipped.end(),
-                                std::back_inserter(rest));
+            std::ranges::set_difference(faces, flipped, std::back_inserter(rest));
             for (const std::vector<Index>& part : {rest, flipped})
                 for (std::vector<Index>& group : connected_subsets(all, part))
                     waiting.push_back(std::move(group));
@@ -241,8 +240,7 @@ Charts make_charts(std::span<const PageTriangle> faces, const RunContext& contex
         result.faces_over_work_limit += region.faces_over_work_limit;
     }
     result.charts = ChartMerging(faces, std::move(result.charts), page_side, context).run();
-    std::sort(result.charts.begin(), result.charts.end(),
-              [](const Chart& a, const Chart& b) { return a.faces.front() < b.faces.front(); });
+    std::ranges::sort(result.charts, {}, [](const Chart& chart) { return chart.faces.front(); });
     return result;
 }
 

@@ -119,8 +119,8 @@ public:
             unpaired.push_back({cell_shape(a.legs, scale, false), t, no_index, a.order, false});
         }
         context.check_now();
-        std::sort(unpaired.begin(), unpaired.end(), [](const Unit& a, const Unit& b) {
-            return std::tuple(a.shape.key(), a.order, a.first) < std::tuple(b.shape.key(), b.order, b.first);
+        std::ranges::sort(unpaired, {}, [](const Unit& unit) {
+            return std::tuple(unit.shape.key(), unit.order, unit.first);
         });
         for (std::size_t i = 0; i < unpaired.size(); ++i) {
             Unit unit = unpaired[i];

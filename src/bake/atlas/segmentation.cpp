@@ -116,9 +116,7 @@ private:
     }
 
     static double shared_length(const FaceRegion& region, Index other) {
-        const auto found = std::lower_bound(region.neighbours.begin(), region.neighbours.end(), other,
-                                            [](const SharedBoundary& s, Index r) { return s.region < r; });
-        return found->length;
+        return std::ranges::lower_bound(region.neighbours, other, {}, &SharedBoundary::region)->length;
     }
 
     void enqueue_merge(Index i, Index j) {

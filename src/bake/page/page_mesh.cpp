@@ -87,9 +87,7 @@ FaceDensity density_at(const BakePart& part, const SourceSampler& sampler, Index
 double median_density(std::vector<FaceDensity> faces) {
     double total = 0, sum = 0;
     for (const FaceDensity& face : faces) total += face.area;
-    std::sort(faces.begin(), faces.end(), [](const FaceDensity& a, const FaceDensity& b) {
-        return a.mean != b.mean ? a.mean < b.mean : a.area < b.area;
-    });
+    std::ranges::sort(faces, {}, [](const FaceDensity& face) { return std::pair(face.mean, face.area); });
     for (const FaceDensity& face : faces)
         if ((sum += face.area) >= total / 2) return face.mean;
     return faces.empty() ? 0 : faces.back().mean;

@@ -89,9 +89,8 @@ public:
         for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
             versions.clear();
             for (const std::uint64_t corner : at[v]) {
-                const auto same = std::find_if(versions.begin(), versions.end(), [&](std::uint64_t version) {
-                    return is_close(version, corner);
-                });
+                const auto same = std::ranges::find_if(
+                    versions, [&](std::uint64_t version) { return is_close(version, corner); });
                 if (same != versions.end())
                     std::ranges::copy(values(*same), values(corner).begin());
                 else if (versions.size() < max_versions)

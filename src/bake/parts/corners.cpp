@@ -51,8 +51,7 @@ std::vector<std::size_t> closed_fans(const TriangleMesh& mesh, std::span<const s
     std::vector<std::size_t> next(count), fans(count, count);
     for (std::size_t i = 0; i < count; ++i) {
         const Index last = other_vertex(i, 2);
-        const auto found =
-            std::lower_bound(by_first.begin(), by_first.end(), std::pair(last, std::size_t{0}));
+        const auto found = std::ranges::lower_bound(by_first, std::pair(last, std::size_t{0}));
         if (found == by_first.end() || found->first != last) return one_fan;
         next[i] = found->second;
     }

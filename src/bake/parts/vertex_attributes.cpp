@@ -89,9 +89,8 @@ void join_close_values(const TriangleMesh& mesh, double distance, std::vector<Va
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         distinct.clear();
         for (const std::uint64_t c : at[v]) {
-            const auto found = std::find_if(distinct.begin(), distinct.end(), [&](const Value& value) {
-                return is_close(value, values[c], distance);
-            });
+            const auto found = std::ranges::find_if(
+                distinct, [&](const Value& value) { return is_close(value, values[c], distance); });
             if (found == distinct.end())
                 distinct.push_back(values[c]);
             else
@@ -120,9 +119,8 @@ std::vector<CustomAttribute> corner_custom_attributes(const BakePart& part,
         // A little inside of the face, where it is clear which side of a border the corner belongs to.
         const SurfacePoint inside = part.map->map(face, barycentrics_near_corner(c % 3, 0.02));
         const Triangle& source = part.source->triangles[inside.face];
-        const auto nearest =
-            static_cast<std::size_t>(std::max_element(inside.barycentric.begin(), inside.barycentric.end()) -
-                                     inside.barycentric.begin());
+        const auto nearest = static_cast<std::size_t>(std::ranges::max_element(inside.barycentric) -
+                                                      inside.barycentric.begin());
         for (std::size_t a = 0; a < from.size(); ++a)
             result[a].values.push_back(is_copied(from[a])
                                            ? from[a].values[source[nearest]]
@@ -174,8 +172,7 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
     // The alpha of vertex colours where no material says what it means, as in PLY files; it does not weight colours.
     std::vector<float> plain_alpha(raw.size(), 1);
     const std::vector<Vec4f>& colors = part.source->colors;
-    const bool has_alpha =
-        std::any_of(colors.begin(), colors.end(), [](const Vec4f& c) { return c[3] != 1; });
+    const bool has_alpha = std::ranges::any_of(colors, [](const Vec4f& c) { return c[3] != 1; });
     parallel_blocks(mesh.triangles.size(), 256, context, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
             const Index face = static_cast<Index>(c / 3);
@@ -203,9 +200,7 @@ std::vector<Vec4f> corner_colors(const BakePart& part, const SourceSampler& samp
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         std::vector<std::uint64_t> corners(at[v].begin(), at[v].end());
         const auto key = [&](std::uint64_t c) { return std::pair(sets[c], group(c)); };
-        std::sort(corners.begin(), corners.end(), [&](std::uint64_t a, std::uint64_t b) {
-            return key(a) != key(b) ? key(a) < key(b) : a < b;
-        });
+        std::ranges::sort(corners, {}, [&](std::uint64_t c) { return std::pair(key(c), c); });
         for (std::size_t i = 0, end; i < corners.size(); i = end) {
             ColorSum sum;
             float alpha = 0;

@@ -126,8 +126,7 @@ void print_summary(const LodArguments& a, const Outputs& outputs, std::uint64_t 
             << ", from distance " << switch_distance(level.error, a.view_settings) << "\n";
         if (!level.report) continue;
         for (const std::string& warning : level.report->warnings)
-            if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
-                warnings.push_back(warning);
+            if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
     }
     out << warnings_text(warnings);
     std::cout << out.str();

@@ -86,8 +86,7 @@ std::string suggestion(const CommandTree& tree, const std::vector<std::string>& 
     for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
         if (!words[i].starts_with("--")) continue;
         const std::string name = words[i].substr(0, words[i].find('='));
-        if (std::find(known.begin(), known.end(), name) == known.end())
-            return detail::closest_word(name, known);
+        if (std::ranges::find(known, name) == known.end()) return detail::closest_word(name, known);
     }
     return {};
 }
