@@ -21,6 +21,8 @@ struct Collapse {
     Index first = no_index;
     Index second = no_index;
     Vec3 position = {};
+
+    bool operator==(const Collapse&) const = default;
 };
 
 /// A face that was deleted at `time`: with its connected component or as a duplicate by the starvation
@@ -28,6 +30,8 @@ struct Collapse {
 struct DeletedFace {
     std::uint64_t time = 0;
     Index face = no_index;
+
+    bool operator==(const DeletedFace&) const = default;
 };
 
 /// The record of one run. Owns its arrays. Below, V0 and F0 are the numbers of vertices (after welding) and

@@ -20,25 +20,14 @@ namespace detail {
 
 inline std::string numbered(std::size_t level) { return "level " + std::to_string(level); }
 
-inline bool is_same(const Collapse& a, const Collapse& b) {
-    return a.first == b.first && a.second == b.second && a.position == b.position;
-}
-
-inline bool is_same(const DeletedFace& a, const DeletedFace& b) {
-    return a.time == b.time && a.face == b.face;
-}
-
 // Whether the collapses and deletions of `part` are the first ones of `whole`, for the same original.
 inline bool is_prefix_of(const CollapseHistory& part, const CollapseHistory& whole) {
-    const auto is_prefix = [](const auto& a, const auto& b, auto&& same) {
-        return a.size() <= b.size() && std::equal(a.begin(), a.end(), b.begin(), same);
+    const auto is_prefix = [](const auto& a, const auto& b) {
+        return std::ranges::mismatch(a, b).in1 == a.end();
     };
     return part.positions == whole.positions && part.triangles == whole.triangles &&
-           part.face_groups == whole.face_groups &&
-           is_prefix(part.collapses, whole.collapses,
-                     [](const Collapse& a, const Collapse& b) { return is_same(a, b); }) &&
-           is_prefix(part.deleted_faces, whole.deleted_faces,
-                     [](const DeletedFace& a, const DeletedFace& b) { return is_same(a, b); });
+           part.face_groups == whole.face_groups && is_prefix(part.collapses, whole.collapses) &&
+           is_prefix(part.deleted_faces, whole.deleted_faces);
 }
 
 inline HistoryLevel level_from_history(const CollapseHistory& history) {
