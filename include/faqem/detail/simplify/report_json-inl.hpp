@@ -29,18 +29,6 @@ nlohmann::ordered_json counts(const std::array<std::uint64_t, n>& values,
     return json;
 }
 
-inline nlohmann::ordered_json removed_components_json(const Report& report) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const RemovedComponent& removed : report.removed_components) {
-        json.push_back({{"part", removed.part},
-                        {"faces", removed.faces},
-                        {"area_share", removed.area_share},
-                        {"box_min", removed.box_min},
-                        {"box_max", removed.box_max}});
-    }
-    return json;
-}
-
 /// The value of --bake.
 inline std::string_view bake_name(Bake kind) {
     constexpr std::array<std::string_view, 6> names = {"auto",   "atlas", "per-triangle",
@@ -48,63 +36,49 @@ inline std::string_view bake_name(Bake kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-inline nlohmann::ordered_json pages_json(const Report& report) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const BakedPage& page : report.pages) {
-        json.push_back(
-            {{"material", page.material},
-             {"kind", bake_name(page.kind)},
-             {"width", page.width},
-             {"height", page.height},
-             {"faces", page.faces},
-             {"charts", page.charts},
-             {"faces_outside_charts", page.faces_outside_charts},
-             {"fill", page.fill},
-             {"density", page.density},
-             {"stretch", page.stretch},
-             {"samples",
-              {{"history", page.samples[0]}, {"approximate", page.samples[1]}, {"closest", page.samples[2]}}},
-             {"uncertain_texels", page.uncertain_texels}});
-    }
-    return json;
-}
-
-inline nlohmann::ordered_json images_json(const Report& report) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const ResultImage& image : report.images) {
-        json.push_back({{"name", image.name},
-                        {"mime_type", image.mime_type},
-                        {"width", image.width},
-                        {"height", image.height},
-                        {"bytes", image.bytes},
-                        {"is_of_source", image.is_of_source}});
-    }
-    return json;
-}
-
-inline nlohmann::ordered_json buffer_views_json(const Report& report) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const ResultView& view : report.buffer_views)
-        json.push_back({{"content", view.content}, {"bytes", view.bytes}});
-    return json;
-}
-
-inline nlohmann::ordered_json compared_results_json(const Report& report) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const ComparedResult& result : report.compared_results) {
-        nlohmann::ordered_json bits;
-        if (result.position_bits) bits = *result.position_bits;
-        json.push_back({{"kind", bake_name(result.kind)},
-                        {"faces", result.faces},
-                        {"bytes", result.bytes},
-                        {"image_side", result.image_side},
-                        {"position_bits", bits},
-                        {"psnr", result.psnr}});
-    }
-    return json;
-}
-
 }  // namespace detail
+
+// nlohmann's library converts the elements of lists by these.
+
+inline void to_json(nlohmann::ordered_json& json, const RemovedComponent& removed) {
+    json = {{"part", removed.part},
+            {"faces", removed.faces},
+            {"area_share", removed.area_share},
+            {"box_min", removed.box_min},
+            {"box_max", removed.box_max}};
+}
+
+inline void to_json(nlohmann::ordered_json& json, const BakedPage& page) {
+    json = {{"material", page.material},
+            {"kind", detail::bake_name(page.kind)},
+            {"width", page.width},
+            {"height", page.height},
+            {"faces", page.faces},
+            {"charts", page.charts},
+            {"faces_outside_charts", page.faces_outside_charts},
+            {"fill", page.fill},
+            {"density", page.density},
+            {"stretch", page.stretch},
+            {"samples",
+             {{"history", page.samples[0]}, {"approximate", page.samples[1]}, {"closest", page.samples[2]}}},
+            {"uncertain_texels", page.uncertain_texels}};
+}
+
+inline void to_json(nlohmann::ordered_json& json, const ResultImage& image) {
+    json = {{"name", image.name},     {"mime_type", image.mime_type}, {"width", image.width},
+            {"height", image.height}, {"bytes", image.bytes},         {"is_of_source", image.is_of_source}};
+}
+
+inline void to_json(nlohmann::ordered_json& json, const ResultView& view) {
+    json = {{"content", view.content}, {"bytes", view.bytes}};
+}
+
+inline void to_json(nlohmann::ordered_json& json, const ComparedResult& result) {
+    nlohmann::ordered_json bits;
+    if (result.position_bits) bits = *result.position_bits;
+    json = {{"kind", detail::bake_name(result.kind)}, {"faces", result.faces}, {"bytes", result.bytes},
+            {"image_side", result.image_side},        {"position_bits", bits}, {"psnr", result.psnr}};
+}
 
 FAQEM_INLINE std::string to_json(const Report& report) {
     nlohmann::ordered_json json;
@@ -116,7 +90,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["vertices_split"] = report.vertices_split;
     json["target_faces"] = report.target_faces;
     json["stop_reason"] = name(report.stop);
-    json["removed_components"] = detail::removed_components_json(report);
+    json["removed_components"] = report.removed_components;
     if (report.max_error) {
         const MeasuredError& e = *report.max_error;
         json["max_error"] = {{"allowed", e.allowed},
@@ -141,9 +115,9 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["vertices_fitted"] = report.vertices_fitted;
     json["edges_flipped"] = report.edges_flipped;
     json["virtual_edges"] = report.virtual_edges;
-    json["pages"] = detail::pages_json(report);
-    json["images"] = detail::images_json(report);
-    json["buffer_views"] = detail::buffer_views_json(report);
+    json["pages"] = report.pages;
+    json["images"] = report.images;
+    json["buffer_views"] = report.buffer_views;
     json["bytes_in"] = report.bytes_in;
     json["bytes_out"] = report.bytes_out;
     if (report.little_saved) {
@@ -153,7 +127,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
                                 {"reason", saved.reason},       {"options", saved.options}};
     }
     json["given_up"] = report.given_up;
-    json["compared_results"] = detail::compared_results_json(report);
+    json["compared_results"] = report.compared_results;
     json["untouched_parts"] = report.untouched_parts;
     json["kept_uvs"] = report.kept_uvs;
     if (report.coverage) {
