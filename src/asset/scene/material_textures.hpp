@@ -38,29 +38,24 @@ struct KnownTexture {
 };
 
 /// All known textures, sorted by extension and name.
-inline constexpr std::array known_textures = {
-    KnownTexture{"KHR_materials_clearcoat", "clearcoatNormalTexture", TextureContent::normal, ""},
-    KnownTexture{"KHR_materials_clearcoat", "clearcoatRoughnessTexture", TextureContent::data, ""},
-    KnownTexture{"KHR_materials_clearcoat", "clearcoatTexture", TextureContent::data, "clearcoatFactor"},
-    KnownTexture{"KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture",
-                 TextureContent::color, ""},
-    KnownTexture{"KHR_materials_diffuse_transmission", "diffuseTransmissionTexture", TextureContent::alpha,
-                 "diffuseTransmissionFactor"},
-    KnownTexture{"KHR_materials_iridescence", "iridescenceTexture", TextureContent::data,
-                 "iridescenceFactor"},
-    KnownTexture{"KHR_materials_iridescence", "iridescenceThicknessTexture", TextureContent::data, ""},
-    KnownTexture{"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", TextureContent::color_and_alpha,
-                 ""},
-    KnownTexture{"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture",
-                 TextureContent::color_and_alpha, ""},
-    KnownTexture{"KHR_materials_sheen", "sheenColorTexture", TextureContent::color, "sheenColorFactor"},
-    KnownTexture{"KHR_materials_sheen", "sheenRoughnessTexture", TextureContent::alpha, ""},
-    KnownTexture{"KHR_materials_specular", "specularColorTexture", TextureContent::color, ""},
-    KnownTexture{"KHR_materials_specular", "specularTexture", TextureContent::alpha, ""},
-    KnownTexture{"KHR_materials_transmission", "transmissionTexture", TextureContent::data,
-                 "transmissionFactor"},
-    KnownTexture{"KHR_materials_volume", "thicknessTexture", TextureContent::data, "thicknessFactor"},
-};
+inline constexpr auto known_textures = std::to_array<KnownTexture>({
+    {"KHR_materials_clearcoat", "clearcoatNormalTexture", TextureContent::normal, ""},
+    {"KHR_materials_clearcoat", "clearcoatRoughnessTexture", TextureContent::data, ""},
+    {"KHR_materials_clearcoat", "clearcoatTexture", TextureContent::data, "clearcoatFactor"},
+    {"KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture", TextureContent::color, ""},
+    {"KHR_materials_diffuse_transmission", "diffuseTransmissionTexture", TextureContent::alpha,
+     "diffuseTransmissionFactor"},
+    {"KHR_materials_iridescence", "iridescenceTexture", TextureContent::data, "iridescenceFactor"},
+    {"KHR_materials_iridescence", "iridescenceThicknessTexture", TextureContent::data, ""},
+    {"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", TextureContent::color_and_alpha, ""},
+    {"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture", TextureContent::color_and_alpha, ""},
+    {"KHR_materials_sheen", "sheenColorTexture", TextureContent::color, "sheenColorFactor"},
+    {"KHR_materials_sheen", "sheenRoughnessTexture", TextureContent::alpha, ""},
+    {"KHR_materials_specular", "specularColorTexture", TextureContent::color, ""},
+    {"KHR_materials_specular", "specularTexture", TextureContent::alpha, ""},
+    {"KHR_materials_transmission", "transmissionTexture", TextureContent::data, "transmissionFactor"},
+    {"KHR_materials_volume", "thicknessTexture", TextureContent::data, "thicknessFactor"},
+});
 
 /// Finds a texture by extension and name; null if it is not known.
 inline const KnownTexture* find_known_texture(std::string_view extension, std::string_view name) {
@@ -108,8 +103,7 @@ inline constexpr std::array core_slots = {
 
 /// Finds a texture of glTF's material by its key; null if there is none.
 inline const CoreSlot* find_core_slot(std::string_view key) {
-    const auto found =
-        std::ranges::find_if(core_slots, [&](const CoreSlot& slot) { return key == slot.key; });
+    const auto found = std::ranges::find(core_slots, key, &CoreSlot::key);
     return found == core_slots.end() ? nullptr : &*found;
 }
 
