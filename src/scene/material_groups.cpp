@@ -35,7 +35,7 @@ struct FaceAppearance {
 
 bool is_wound_against_normals(const Part& part, const Triangle& t) {
     if (part.normals.empty()) return false;
-    engine::Vector3 normal = engine::Vector3::Zero();
+    Vector3 normal = Vector3::Zero();
     for (const Index v : t) normal += to_vector(part.normals[v]);
     return normal.dot(area_vector(part.positions, t)) < 0;
 }

@@ -7,8 +7,8 @@
 
 #include "asset/scene/affine.hpp"
 #include "asset/scene/measured_instances.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/surface.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 #include "faqem/options.hpp"
 
@@ -25,10 +25,10 @@ PartScale scale_of(const Eigen::Matrix4d& transform) {
 
 std::vector<Vec3> box_corners(const std::vector<Vec3>& points) {
     Eigen::AlignedBox3d box;
-    for (const Vec3& p : points) box.extend(engine::to_eigen(p));
+    for (const Vec3& p : points) box.extend(to_eigen(p));
     std::vector<Vec3> corners;
     for (int i = 0; i < 8 && !box.isEmpty(); ++i)
-        corners.push_back(engine::to_array(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))));
+        corners.push_back(to_array(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))));
     return corners;
 }
 
@@ -62,7 +62,7 @@ SceneSize scene_size(const Asset& source) {
         all = {std::max(all.smallest, scale.smallest), std::max(all.largest, scale.largest)};
         shown[instance.part] = true;
         for (const Vec3& p : positions[instance.part])
-            box.extend((transform * engine::to_eigen(p).homogeneous()).head<3>());
+            box.extend((transform * to_eigen(p).homogeneous()).head<3>());
     }
     for (std::size_t p = 0; p < shown.size(); ++p)
         if (!shown[p]) size.scales[p] = {};

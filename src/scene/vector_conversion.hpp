@@ -5,21 +5,21 @@
 #include <cmath>
 #include <span>
 
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
 
-inline engine::Vector3 to_vector(const Vec3f& v) { return {v[0], v[1], v[2]}; }
+inline Vector3 to_vector(const Vec3f& v) { return {v[0], v[1], v[2]}; }
 
-inline Vec3f to_vec3f(const engine::Vector3& v) {
+inline Vec3f to_vec3f(const Vector3& v) {
     return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
 /// Normal of a triangle by its winding, with twice the area as length.
-inline engine::Vector3 area_vector(std::span<const Vec3> positions, const Triangle& t) {
-    return engine::area_vector(engine::to_eigen(positions[t[0]]), engine::to_eigen(positions[t[1]]),
-                               engine::to_eigen(positions[t[2]]));
+inline Vector3 area_vector(std::span<const Vec3> positions, const Triangle& t) {
+    return engine::area_vector(to_eigen(positions[t[0]]), to_eigen(positions[t[1]]),
+                               to_eigen(positions[t[2]]));
 }
 
 inline double triangle_area(std::span<const Vec3> positions, const Triangle& t) {
@@ -27,9 +27,9 @@ inline double triangle_area(std::span<const Vec3> positions, const Triangle& t) 
 }
 
 /// The normalized vector; zero if its length is zero or not finite.
-inline engine::Vector3 unit_or_zero(const engine::Vector3& v) {
+inline Vector3 unit_or_zero(const Vector3& v) {
     const double length = v.norm();
-    return length > 0 && std::isfinite(length) ? engine::Vector3(v / length) : engine::Vector3::Zero();
+    return length > 0 && std::isfinite(length) ? Vector3(v / length) : Vector3::Zero();
 }
 
 }  // namespace faqem::detail

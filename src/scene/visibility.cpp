@@ -20,10 +20,6 @@ namespace faqem::detail {
 
 namespace {
 
-using engine::to_array;
-using engine::to_eigen;
-using engine::Vector3;
-
 constexpr std::size_t direction_count = 32;
 // Distance of the rays' origins from the surface, relative to the diagonal.
 constexpr double ray_offset_ratio = 1.0 / 5000;

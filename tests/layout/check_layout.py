@@ -76,6 +76,7 @@ SMALL = {
     "include/faqem/detail/base/lower_case",
     "include/faqem/detail/base/morton",
     "include/faqem/detail/base/stopwatch",
+    "include/faqem/detail/base/vector",
     "include/faqem/detail/geometry/vertex_faces",
     "include/faqem/detail/history/final_versions",
     "src/asset/image/srgb",

@@ -7,7 +7,7 @@
 
 #include "bake/atlas/point2.hpp"
 #include "bake/atlas/triangle_pairs.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -36,9 +36,8 @@ struct Chart {
 };
 
 /// Normal of a triangle by its winding, with twice the area as length.
-inline engine::Vector3 area_vector(const PageTriangle& t) {
-    return engine::area_vector(engine::to_eigen(t.corners[0]), engine::to_eigen(t.corners[1]),
-                               engine::to_eigen(t.corners[2]));
+inline Vector3 area_vector(const PageTriangle& t) {
+    return engine::area_vector(to_eigen(t.corners[0]), to_eigen(t.corners[1]), to_eigen(t.corners[2]));
 }
 
 /// Wanted number of texels of a face: its area times its density squared.

@@ -8,14 +8,12 @@
 #include <utility>
 
 #include "bake/atlas/triangle_overlap.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {
 
-using engine::to_eigen;
-using engine::Vector3;
 // Points of the plane as complex numbers: a least squares conformal map is the solution of a linear system over
 // them, and a rotation is a multiplication.
 using ComplexPoint = std::complex<double>;

@@ -8,14 +8,11 @@
 #include <tuple>
 #include <utility>
 
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 
 namespace faqem::detail {
 namespace {
-
-using engine::to_eigen;
-using engine::Vector3;
 
 constexpr double max_normal_spread = 0.12;
 constexpr double max_density_ratio = 2;

@@ -7,12 +7,10 @@
 #include <vector>
 
 #include "faqem/detail/base/buckets.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 
 namespace faqem::detail {
 namespace {
-
-using engine::Vector3;
 
 // Broad phase: a uniform grid with about as many cells as boxes, and the boxes that overlap each cell.
 class BoxGrid {
@@ -149,8 +147,8 @@ std::vector<ChartBoundaryEdge> boundary_edges(std::span<const PageTriangle> all,
             const Index other = face.adjacent[c].triangle;
             if (other != no_index && std::ranges::binary_search(chart.faces, other)) continue;
             const std::size_t from = (c + 1) % 3, to = (c + 2) % 3;
-            edges.push_back({chart.points[i][from], chart.points[i][to], engine::to_eigen(face.corners[from]),
-                             engine::to_eigen(face.corners[to]), face.density});
+            edges.push_back({chart.points[i][from], chart.points[i][to], to_eigen(face.corners[from]),
+                             to_eigen(face.corners[to]), face.density});
         }
     }
     return edges;

@@ -12,9 +12,6 @@
 namespace faqem::detail {
 namespace {
 
-using engine::to_eigen;
-using engine::Vector3;
-
 // Minimum cosine between the normals of a point of the mesh and of a face of the source on the same side; as for
 // SuccessiveProjection.
 constexpr double min_facing_cosine = 0.17;
@@ -79,11 +76,10 @@ Bvh::Hit OntoMap::closest_facing(Index face, const Vector3& p, const Vector3& no
         const ClosestPoint at =
             closest_point_on_triangle(p, corner(near->face, 0), corner(near->face, 1), corner(near->face, 2));
         if (at.distance_squared <= max_distance_squared_)
-            known = {near->face, engine::to_array(at.barycentric), engine::to_array(at.point),
-                     at.distance_squared};
+            known = {near->face, to_array(at.barycentric), to_array(at.point), at.distance_squared};
     }
-    const Bvh::Hit hit = tree_.closest_if(engine::to_array(p), faces_point,
-                                          std::min(max_distance_squared_, known.distance_squared));
+    const Bvh::Hit hit =
+        tree_.closest_if(to_array(p), faces_point, std::min(max_distance_squared_, known.distance_squared));
     return hit.face != no_index ? hit : known;
 }
 
@@ -101,8 +97,7 @@ SurfacePoint OntoMap::find(Index face, const Vec3& barycentric, const SurfacePoi
 SurfacePoint OntoMap::map(Index face, const Vec3& barycentric) const {
     const SurfacePoint found = find(face, barycentric, nullptr);
     if (found.face != no_index) return found;
-    const Bvh::Hit hit =
-        tree_.closest(engine::to_array(point_on(target_.simplified->mesh, face, barycentric)));
+    const Bvh::Hit hit = tree_.closest(to_array(point_on(target_.simplified->mesh, face, barycentric)));
     return {hit.face, hit.barycentric, MapStep::closest};
 }
 

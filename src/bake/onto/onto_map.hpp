@@ -9,8 +9,8 @@
 #include "bake/onto/pair_parts.hpp"
 #include "bake/parts/corners.hpp"
 #include "bake/parts/point_map.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/engine/util/run_context.hpp"
 
 namespace faqem::detail {
@@ -36,15 +36,15 @@ public:
     double largest_distance() const { return largest_distance_; }
 
 private:
-    engine::Vector3 corner(Index face, std::size_t i) const;
-    Bvh::Hit closest_facing(Index face, const engine::Vector3& p, const engine::Vector3& normal,
-                            bool from_behind, const SurfacePoint* near) const;
+    Vector3 corner(Index face, std::size_t i) const;
+    Bvh::Hit closest_facing(Index face, const Vector3& p, const Vector3& normal, bool from_behind,
+                            const SurfacePoint* near) const;
 
     const Part& source_;
     const BakePart& target_;
     const FacePairs pairs_;
     const double max_distance_squared_;
-    std::vector<engine::Vector3> normals_;       // by face of the source: oriented by the vertex normals
+    std::vector<Vector3> normals_;               // by face of the source: oriented by the vertex normals
     std::vector<std::uint8_t> is_double_sided_;  // by face of the source; empty: none is
     Bvh tree_;
     mutable std::vector<std::atomic<std::uint8_t>> is_matched_;  // by face of the mesh

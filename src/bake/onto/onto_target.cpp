@@ -18,8 +18,6 @@
 namespace faqem::detail {
 namespace {
 
-using engine::Vector3;
-
 // Replaces normals by those that the part has. Its corners at a position with equal normals are a cluster.
 void take_normals(const Part& part, const BakePart& mesh, CornerNormals& to) {
     if (part.normals.empty()) return;

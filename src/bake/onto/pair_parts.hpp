@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 
 namespace faqem::detail {
 
@@ -30,7 +30,7 @@ BoxedParts boxed_parts(const Asset& asset, const Instances& instances, const Par
         Eigen::AlignedBox3d& box = result.boxes.emplace_back();
         for (std::size_t f = 0; f < part.triangles.size(); ++f) {
             for (const Index v : flat.triangles[result.of_face.size()])
-                box.extend(engine::to_eigen(flat.positions[v]));
+                box.extend(to_eigen(flat.positions[v]));
             result.of_face.push_back(static_cast<Index>(result.names.size()));
         }
         result.names.push_back(part.name);

@@ -13,9 +13,6 @@
 namespace faqem::detail {
 namespace {
 
-using engine::to_eigen;
-using engine::Vector3;
-
 // Smallest mean normal deviation, in degrees, for which a normal map is made from geometry. Below it the
 // visible difference does not justify the size of the image.
 constexpr double min_deviation = 5;

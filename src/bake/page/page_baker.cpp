@@ -5,12 +5,10 @@
 
 #include "bake/page/texel_projector.hpp"
 #include "bake/page/texel_values.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 
 namespace faqem::detail {
 namespace {
-
-using engine::Vector3;
 
 using Places = std::vector<std::array<std::uint32_t, 2>>;
 

@@ -7,12 +7,10 @@
 
 #include "bake/atlas/charts.hpp"
 #include "bake/atlas/triangle_pairs.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 
 namespace faqem::detail {
 namespace {
-
-using engine::to_eigen;
 
 // With fewer faces, charts have more gutter than the cells of a per-triangle atlas.
 constexpr std::size_t min_mean_faces_per_chart = 3;

@@ -10,15 +10,12 @@
 
 #include "bake/parts/corner_normals.hpp"
 #include "faqem/detail/base/morton.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {
-
-using engine::to_eigen;
-using engine::Vector3;
 
 // Pages with fewer texels get up to twice as many.
 constexpr double small_page_texels = 1 << 18;

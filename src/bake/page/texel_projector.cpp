@@ -9,9 +9,6 @@
 namespace faqem::detail {
 namespace {
 
-using engine::to_eigen;
-using engine::Vector3;
-
 // The right-angle corner has the same u as one of the other corners and the same v as the other one.
 std::size_t right_angle_corner(const Triangle2& placement) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -12,8 +12,8 @@
 #include "bake/page/page_request.hpp"
 #include "bake/parts/corner_normals.hpp"
 #include "bake/source/source_normals.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/mapping/local_map.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/surface_map.hpp"
 
 namespace faqem::detail {
@@ -81,12 +81,12 @@ public:
     SurfacePoint project_to_source(const TexelSample& at, std::uint32_t x, std::uint32_t y);
 
     /// Normal of the simplified face at a sample, see oriented_face_normal().
-    engine::Vector3 face_normal(const TexelSample& at) const { return oriented_face_normal(part_, at.face); }
+    Vector3 face_normal(const TexelSample& at) const { return oriented_face_normal(part_, at.face); }
 
     /// Transforms a normal of the source to the tangent space of the simplified mesh. For a sample on a
     /// neighbour the normal is rotated with the neighbour into this triangle's plane; otherwise it would be
     /// off by the dihedral angle.
-    engine::Vector3 to_tangent_space(const TexelSample& at, const engine::Vector3& normal) const;
+    Vector3 to_tangent_space(const TexelSample& at, const Vector3& normal) const;
 
     /// Barycentric coordinate of the right-angle corner at a point of the page. The partner with the larger
     /// value is closer to the point.

@@ -5,8 +5,6 @@
 namespace faqem::detail {
 namespace {
 
-using engine::Vector3;
-
 bool differ(std::uint8_t a, std::uint8_t b) { return std::abs(int{a} - int{b}) > 1; }
 
 // Whether any of the first values differ.

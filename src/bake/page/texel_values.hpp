@@ -12,14 +12,14 @@
 #include "bake/source/extension_layers.hpp"
 #include "bake/source/source_sampler.hpp"
 #include "faqem/bake.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 
 namespace faqem::detail {
 
 /// The source at a sample of a texel.
 struct SampleValues {
     Appearance appearance;
-    engine::Vector3 normal = engine::Vector3::Zero();  ///< in tangent space
+    Vector3 normal = Vector3::Zero();  ///< in tangent space
     /// By layer of the page; normals in tangent space in RGB.
     std::vector<LinearColor> layers;
     bool has_layers = false;  ///< whether the sample is of the page's own material
@@ -33,7 +33,7 @@ struct TexelSums {
 
     LinearColor base{};
     std::array<Vec3f, plain_images.size()> plain{};
-    engine::Vector3 normal = engine::Vector3::Zero();
+    Vector3 normal = Vector3::Zero();
     std::vector<LinearColor> layers;
     std::uint32_t samples = 0, layer_samples = 0;
     std::array<std::uint8_t, 3> steps{};  ///< samples by MapStep
@@ -68,7 +68,7 @@ inline auto plain_encoder(std::size_t image) {
 }
 
 /// Encodes the direction of `sum` in three bytes; (0, 0, 1) if its length is zero.
-void write_normal(const engine::Vector3& sum, std::uint8_t* to);
+void write_normal(const Vector3& sum, std::uint8_t* to);
 
 /// Encodes `share` times `sum`, the value of a layer, in those of four bytes that it has.
 void write_layer(const ExtensionLayer& layer, const LinearColor& sum, float share, std::uint8_t* to);

@@ -11,9 +11,6 @@
 namespace faqem::detail {
 namespace {
 
-using engine::to_eigen;
-using engine::Vector3;
-
 constexpr double corner_inset = 0.02;
 // Largest number of clusters of a vertex that are searched for a corner. It bounds the work: if there are
 // more creases, the remaining corners are not clustered.

@@ -6,13 +6,13 @@
 
 #include "bake/parts/corners.hpp"
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 
 namespace faqem::detail {
 
 /// Unit normal of a simplified face by its winding, reversed where CornerNormals::has_reversed_winding is
 /// set. Zero if the face is degenerate. Complexity: O(1).
-engine::Vector3 oriented_face_normal(const BakePart& part, std::size_t face);
+Vector3 oriented_face_normal(const BakePart& part, std::size_t face);
 
 /// Whether the edge between two faces of consistent winding is a crease: the normals of both its vertices are
 /// split along it.

@@ -15,9 +15,6 @@
 namespace faqem::detail {
 namespace {
 
-using engine::to_eigen;
-using engine::Vector3;
-
 // Minimum cosine between the normals of a simplified face and of a face of the source on the same side; as for
 // SuccessiveProjection.
 constexpr double min_facing_cosine = 0.17;
@@ -95,7 +92,7 @@ private:
         SurfacePoint closest(const Vector3& p, const Filter& filter) const {
             constexpr std::size_t max_rejections = 512;  // as for SuccessiveProjection
             const Bvh::Hit hit = tree.closest_if(
-                engine::to_array(p), [&](Index i) { return filter(faces[i]); },
+                to_array(p), [&](Index i) { return filter(faces[i]); },
                 std::numeric_limits<double>::infinity(), max_rejections);
             if (hit.face == no_index) return {};
             return {faces[hit.face], hit.barycentric, MapStep::history};
@@ -126,7 +123,7 @@ private:
             best = at;
             found = candidates[i];
         }
-        return {found, engine::to_array(best.barycentric), MapStep::history};
+        return {found, to_array(best.barycentric), MapStep::history};
     }
 
     ClosestPoint on_source(Index f, const Vector3& p) const {

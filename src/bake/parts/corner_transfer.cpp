@@ -8,14 +8,11 @@
 
 #include "bake/parts/output_part.hpp"
 #include "bake/source/source_normals.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "scene/material_groups.hpp"
 
 namespace faqem::detail {
 namespace {
-
-using engine::to_eigen;
-using engine::Vector3;
 
 // Attributes are read close to a corner, but on the face.
 constexpr double end_inset = 1e-3;

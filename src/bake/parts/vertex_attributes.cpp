@@ -8,14 +8,12 @@
 #include "bake/source/facets.hpp"
 #include "bake/source/source_normals.hpp"
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
 namespace {
-
-using engine::to_eigen;
 
 void blend_skin(const Part& from, const SurfacePoint& point, Part& to) {
     const Triangle& t = from.triangles[point.face];

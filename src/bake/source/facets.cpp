@@ -6,9 +6,9 @@
 #include <cstddef>
 
 #include "asset/scene/value_numbers.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/vector_conversion.hpp"
 
@@ -60,8 +60,6 @@ Facets facets_by(const Part& part, const std::vector<std::array<float, N>>& valu
     }
     return result;
 }
-
-using engine::to_eigen;
 
 // Texels across a strip: those at its two sides are mixed.
 constexpr double texels_across = 5;

@@ -12,9 +12,6 @@
 namespace faqem::detail {
 namespace {
 
-using engine::to_eigen;
-using engine::Vector3;
-
 bool has_tangents(const Part& part, std::size_t face) {
     if (part.tangents.empty()) return false;
     const Triangle& t = part.triangles[face];

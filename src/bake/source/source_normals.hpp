@@ -5,26 +5,24 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/surface_map.hpp"
 
 namespace faqem::detail {
 
 /// Axes of a tangent space: unit vectors, in general not orthogonal.
 struct TangentFrame {
-    engine::Vector3 tangent, bitangent, normal;
+    Vector3 tangent, bitangent, normal;
 
     /// Transforms a vector from tangent space to the space of the mesh.
-    engine::Vector3 to_mesh(const engine::Vector3& v) const {
-        return v.x() * tangent + v.y() * bitangent + v.z() * normal;
-    }
+    Vector3 to_mesh(const Vector3& v) const { return v.x() * tangent + v.y() * bitangent + v.z() * normal; }
     /// Inverse of to_mesh(). Returns (0, 0, 1), the normal, if the axes are linearly dependent.
-    engine::Vector3 from_mesh(const engine::Vector3& v) const;
+    Vector3 from_mesh(const Vector3& v) const;
 };
 
 /// Normal and tangent at a corner.
 struct FrameCorner {
-    engine::Vector3 normal;
+    Vector3 normal;
     Vec4f tangent;  ///< xyz: unit vector, w: sign of the bitangent
 };
 
@@ -46,14 +44,14 @@ std::array<Sum, N> interpolated(const std::vector<std::array<Value, N>>& values,
 }
 
 /// Unit normal of a face by its winding; zero if it is degenerate.
-engine::Vector3 winding_normal(const std::vector<Vec3>& positions, const Triangle& t);
+Vector3 winding_normal(const std::vector<Vec3>& positions, const Triangle& t);
 
 /// Unit normal of a part at a point: interpolated from its vertices or, if they have none, that of the face.
 /// Zero if there is neither.
-engine::Vector3 interpolated_normal(const Part& part, const SurfacePoint& point);
+Vector3 interpolated_normal(const Part& part, const SurfacePoint& point);
 
 /// Unit normal of a part at a corner of a face, as interpolated_normal().
-engine::Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner);
+Vector3 corner_normal(const Part& part, std::size_t face, std::size_t corner);
 
 /// Tangents at the corners of all faces whose material has a normal map, in the part's coordinates. Faces
 /// whose corners all have tangents in the source keep them; the other ones get MikkTSpace tangents from the

@@ -9,13 +9,11 @@
 
 #include "asset/image/srgb.hpp"
 #include "bake/source/facets.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/error.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
-
-using engine::Vector3;
 
 namespace {
 

@@ -87,8 +87,7 @@ public:
     /// If both the winding and the normals of the source face are opposite to `face_normal`, it is seen from
     /// behind, and its normal is reversed, as viewers do.
     /// \param face_normal  normal of the simplified face
-    engine::Vector3 normal(Index part, const SurfacePoint& point, double spacing,
-                           const engine::Vector3& face_normal) const;
+    Vector3 normal(Index part, const SurfacePoint& point, double spacing, const Vector3& face_normal) const;
 
     /// Index of the material at a point; `no_index` for the default material.
     Index material(Index part, const SurfacePoint& point) const {
@@ -101,8 +100,8 @@ public:
                       const ExtensionLayer& layer) const;
 
     /// As normal(), for an extension layer that is a normal map.
-    engine::Vector3 layer_normal(Index part, const SurfacePoint& point, double spacing,
-                                 const engine::Vector3& face_normal, const ExtensionLayer& layer) const;
+    Vector3 layer_normal(Index part, const SurfacePoint& point, double spacing, const Vector3& face_normal,
+                         const ExtensionLayer& layer) const;
 
     /// Texels per unit of length at a face, for the finest texture of its material, but not less than with a mean of two
     /// texels per face of the part. Faces without a texture have this density, and those whose UVs cover hardly any
@@ -166,9 +165,8 @@ private:
     std::array<double, 2> uv_at(const TextureSlot& slot, const Part& part, const SurfacePoint& point) const;
     LinearColor fetch(const TextureSlot& slot, Index part, const SurfacePoint& point, double spacing,
                       FetchCache& cache) const;
-    engine::Vector3 perturbed_normal(const TextureSlot& slot, double scale, Index part,
-                                     const SurfacePoint& point, double spacing,
-                                     const engine::Vector3& face_normal) const;
+    Vector3 perturbed_normal(const TextureSlot& slot, double scale, Index part, const SurfacePoint& point,
+                             double spacing, const Vector3& face_normal) const;
     const MaterialSlots& slots(Index part, const SurfacePoint& point) const {
         return slots(material(part, point));
     }

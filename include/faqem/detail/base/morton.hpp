@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -26,7 +26,7 @@ constexpr std::uint64_t spread_bits(std::uint64_t x) {
 /// \param unit   the point; coordinates outside [0, 1] are clamped, NaN counts as 0
 /// O(1)
 template <int bits>
-std::uint64_t morton(const engine::Vector3& unit) {
+std::uint64_t morton(const Vector3& unit) {
     static_assert(0 < bits && bits <= 21);
     static constexpr double last = (1 << bits) - 1;
     // The comparison is false for NaN, which is thus mapped to 0.

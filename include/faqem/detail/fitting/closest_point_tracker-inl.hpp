@@ -12,8 +12,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 /// Number of points per block. The closest point of the first one is searched without an initial bound.
 inline constexpr std::size_t tracker_block_size = 1024;
 /// If a closest point is in the interior of a face and the cosine between the normals exceeds this, no other
@@ -31,9 +29,9 @@ inline constexpr double improvement_ratio = 1 - 1e-12;
 /// \param tree  the tree of the mesh
 /// \param near  a face that is probably near p, or no_index
 inline Bvh::Hit nearest(const Bvh& tree, const MeshRef& mesh, const Vector3& p, Index near) {
-    if (near == no_index) return tree.closest(engine::to_array(p));
+    if (near == no_index) return tree.closest(to_array(p));
     const Triangle& t = mesh.triangles[near];
-    return tree.closest_with_hint(engine::to_array(p), near, mesh.positions[t[0]], mesh.positions[t[1]],
+    return tree.closest_with_hint(to_array(p), near, mesh.positions[t[0]], mesh.positions[t[1]],
                                   mesh.positions[t[2]]);
 }
 
@@ -53,7 +51,7 @@ inline Bvh::Hit walk_to_closest(const VertexFaces& vertex_faces, const MeshRef& 
         return closest_point_on_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
     };
     ClosestPoint best = closest_on(last);
-    if (corner == interior) corner = nearest_corner(engine::to_array(best.barycentric));
+    if (corner == interior) corner = nearest_corner(to_array(best.barycentric));
     while (corner != interior) {
         const Index from = last;
         for (const Index next : vertex_faces[mesh.triangles[from][corner]]) {
@@ -61,11 +59,11 @@ inline Bvh::Hit walk_to_closest(const VertexFaces& vertex_faces, const MeshRef& 
             const ClosestPoint hit = closest_on(next);
             if (hit.distance_squared < improvement_ratio * best.distance_squared) best = hit, last = next;
         }
-        const std::uint8_t next_corner = nearest_corner(engine::to_array(best.barycentric));
+        const std::uint8_t next_corner = nearest_corner(to_array(best.barycentric));
         if (last == from && next_corner == corner) break;
         corner = next_corner;
     }
-    return {last, engine::to_array(best.barycentric), engine::to_array(best.point), best.distance_squared};
+    return {last, to_array(best.barycentric), to_array(best.point), best.distance_squared};
 }
 
 /// Implements search_farthest() of both trackers.
@@ -146,7 +144,7 @@ FAQEM_INLINE void MeshToReferenceTracker::replace_samples(std::span<const std::u
 }
 
 FAQEM_INLINE void MeshToReferenceTracker::set_residual(std::size_t i, const Vector3& p, const Bvh::Hit& hit) {
-    residuals_[i] = {engine::to_eigen(hit.point) - p, hit.face, nearest_corner(hit.barycentric)};
+    residuals_[i] = {to_eigen(hit.point) - p, hit.face, nearest_corner(hit.barycentric)};
     squared_distances_[i] = residuals_[i].residual.squaredNorm();
 }
 
@@ -170,8 +168,7 @@ FAQEM_INLINE void MeshToReferenceTracker::measure_normal_deviations(double toler
             hit.face = residual.face;
             hit.distance_squared = squared_distances_[i];
             const Vector3 p = samples_[i].position(positions_, triangles_);
-            cosine =
-                max_normal_cosine(original_.tree, original_.normals, engine::to_array(p), hit, n, tolerance);
+            cosine = max_normal_cosine(original_.tree, original_.normals, to_array(p), hit, n, tolerance);
         }
         residual.normal_deviation = std::sqrt(std::max(0.0, 2 - 2 * cosine));
     });
@@ -224,7 +221,7 @@ FAQEM_INLINE void ReferenceToMeshTracker::search(std::size_t i, Index near) {
 }
 
 FAQEM_INLINE void ReferenceToMeshTracker::set_residual(std::size_t i, const Bvh::Hit& hit) {
-    residuals_[i] = {{hit.face, hit.barycentric}, points_[i].position - engine::to_eigen(hit.point), false};
+    residuals_[i] = {{hit.face, hit.barycentric}, points_[i].position - to_eigen(hit.point), false};
     squared_distances_[i] = residuals_[i].residual.squaredNorm();
 }
 

@@ -38,7 +38,7 @@ struct ReferenceSurface {
 
     MeshRef mesh;
     Bvh tree;
-    std::vector<engine::Vector3> normals;  ///< unit normal of each triangle
+    std::vector<Vector3> normals;  ///< unit normal of each triangle
     VertexFaces vertex_faces;
 };
 
@@ -62,7 +62,7 @@ public:
     /// \param context    the result does not depend on the number of threads
     /// First call: O(samples log faces) typically. Later: O(1) for each sample whose face has moved, if its
     /// closest point has moved by a few faces only.
-    void update(std::span<const engine::Vector3> positions, const RunContext& context);
+    void update(std::span<const Vector3> positions, const RunContext& context);
 
     /// Repeats the global search for all residuals longer than a fraction of the longest one, until all of
     /// these are exact. Otherwise a tracked residual that is too long could determine the maximum distance.
@@ -79,7 +79,7 @@ public:
     std::size_t size() const { return samples_.size(); }
     const SurfaceSample& sample(std::size_t i) const { return samples_[i]; }
     /// Vector from sample i to its closest point.
-    const engine::Vector3& residual(std::size_t i) const { return residuals_[i].residual; }
+    const Vector3& residual(std::size_t i) const { return residuals_[i].residual; }
     /// Squared length of residual i.
     double squared_distance(std::size_t i) const { return squared_distances_[i]; }
     /// Correspondence of sample i. It has the normal of the moving face, because the closest face is
@@ -96,7 +96,7 @@ public:
 
 private:
     struct Residual {
-        engine::Vector3 residual = engine::Vector3::Zero();
+        Vector3 residual = Vector3::Zero();
         Index face = no_index;    ///< closest face of the reference surface
         std::uint8_t corner = 0;  ///< nearest corner of the face; 3: the closest point is in its interior
         double normal_deviation = -1;  ///< negative: not measured
@@ -104,8 +104,8 @@ private:
     };
     /// Finds residual i by a global search. \param near  a face that is probably near, or no_index
     void search(std::size_t i, Index near);
-    void set_residual(std::size_t i, const engine::Vector3& p, const Bvh::Hit& hit);
-    engine::Vector3 normal(std::size_t i) const;
+    void set_residual(std::size_t i, const Vector3& p, const Bvh::Hit& hit);
+    Vector3 normal(std::size_t i) const;
 
     const ReferenceSurface& original_;
     std::span<const Triangle> triangles_;
@@ -113,7 +113,7 @@ private:
     std::vector<Residual> residuals_;
     /// Squared lengths of the residuals, in an array of their own because the maximum is needed often.
     std::vector<double> squared_distances_;
-    std::vector<engine::Vector3> positions_;
+    std::vector<Vector3> positions_;
 };
 
 /// Residuals from fixed points of the reference surface to a moving mesh.
@@ -131,7 +131,7 @@ public:
     /// has moved. Takes O(faces) in addition.
     /// \param flipped  one per triangle, or empty; nonzero: the corners of this triangle have changed since
     ///                 the last call
-    void update(std::span<const engine::Vector3> positions, const RunContext& context,
+    void update(std::span<const Vector3> positions, const RunContext& context,
                 std::span<const std::uint8_t> flipped = {});
 
     /// Same as MeshToReferenceTracker::search_farthest(). Takes O(faces) in addition.
@@ -142,7 +142,7 @@ public:
     /// The point of the moving mesh that is closest to point i.
     const SurfaceSample& sample(std::size_t i) const { return residuals_[i].sample; }
     /// Vector from that point to point i.
-    const engine::Vector3& residual(std::size_t i) const { return residuals_[i].residual; }
+    const Vector3& residual(std::size_t i) const { return residuals_[i].residual; }
     /// Squared length of residual i.
     double squared_distance(std::size_t i) const { return squared_distances_[i]; }
     /// Correspondence of point i, with the normal of the reference surface.
@@ -153,10 +153,10 @@ public:
 private:
     struct Residual {
         SurfaceSample sample;
-        engine::Vector3 residual = engine::Vector3::Zero();
+        Vector3 residual = Vector3::Zero();
         bool is_exact = false;  ///< result of a global search, not tracked
     };
-    void initialize(std::span<const engine::Vector3> positions, const RunContext& context);
+    void initialize(std::span<const Vector3> positions, const RunContext& context);
     void search(std::size_t i, Index near);
     void set_residual(std::size_t i, const Bvh::Hit& hit);
 
@@ -165,7 +165,7 @@ private:
     std::vector<Residual> residuals_;
     /// Squared lengths of the residuals, in an array of their own because the maximum is needed often.
     std::vector<double> squared_distances_;
-    std::vector<engine::Vector3> positions_;
+    std::vector<Vector3> positions_;
     VertexFaces vertex_faces_;
     std::optional<Bvh> tree_;
     bool is_tree_outdated_ = false;  ///< the mesh has moved since the tree was built or refitted

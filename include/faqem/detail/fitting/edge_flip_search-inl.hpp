@@ -16,8 +16,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 /// Maximum ratio of the distance integrals after and before a flip.
 inline constexpr double max_error_ratio = 0.98;
 /// A flip may increase the squared maximum distance of its quadrilateral to this fraction of the overall one.
@@ -212,7 +210,7 @@ private:
         const double weight = 0.5 * area.norm() / static_cast<double>(sample_pattern.size());
         for (const Vec3& w : sample_pattern) {
             const Vector3 p = w[0] * at(t[0]) + w[1] * at(t[1]) + w[2] * at(t[2]);
-            const Bvh::Hit hit = original_.tree.closest(engine::to_array(p));
+            const Bvh::Hit hit = original_.tree.closest(to_array(p));
             error.add(hit.distance_squared, weight);
             error.normal_deviation += weight * (original_.normals[hit.face] - normal).norm();
         }
@@ -220,7 +218,7 @@ private:
     }
 
     double midpoint_squared_distance(Index v, Index w) const {
-        return original_.tree.closest(engine::to_array(Vector3(0.5 * (at(v) + at(w))))).distance_squared;
+        return original_.tree.closest(to_array(Vector3(0.5 * (at(v) + at(w))))).distance_squared;
     }
 
     /// Measures each current face of the candidates once; it may belong to three candidates.

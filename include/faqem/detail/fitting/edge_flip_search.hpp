@@ -15,7 +15,7 @@ namespace detail {
 
 /// Non-owning view of a simplified mesh and its constraints.
 struct SimplifiedMeshRef {
-    std::span<const engine::Vector3> positions;
+    std::span<const Vector3> positions;
     std::span<const Triangle> triangles;  ///< triangles with no_index corners are ignored
     std::span<const std::uint8_t> fixed;  ///< per vertex; edges between two nonzero vertices are not flipped
     std::span<const Index> groups;        ///< per triangle, or empty; edges between groups are not flipped

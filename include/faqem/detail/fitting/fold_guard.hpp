@@ -27,8 +27,8 @@ public:
     /// \throws whatever `visit` throws
     /// O(faces)
     template <class Visit>
-    void for_each_fold(std::span<const engine::Vector3> positions, Visit&& visit) const {
-        const std::vector<engine::Vector3> normals = unit_normals({positions, triangles_});
+    void for_each_fold(std::span<const Vector3> positions, Visit&& visit) const {
+        const std::vector<Vector3> normals = unit_normals({positions, triangles_});
         for (const Edge& edge : edges_)
             if (is_fold(edge, normals)) visit(triangles_[edge.faces[0]], triangles_[edge.faces[1]]);
     }
@@ -38,7 +38,7 @@ private:
         std::array<Index, 2> faces;
         bool has_same_direction;  ///< of both half-edges: the orientations are inconsistent
     };
-    bool is_fold(const Edge& edge, std::span<const engine::Vector3> normals) const {
+    bool is_fold(const Edge& edge, std::span<const Vector3> normals) const {
         const double cosine = normals[edge.faces[0]].dot(normals[edge.faces[1]]);
         return (edge.has_same_direction ? -cosine : cosine) < min_fold_cosine_;
     }
@@ -50,7 +50,7 @@ private:
 
 inline FoldGuard::FoldGuard(const MeshRef& mesh, double min_fold_cosine)
     : triangles_(mesh.triangles), min_fold_cosine_(min_fold_cosine) {
-    const std::vector<engine::Vector3> normals = unit_normals(mesh);
+    const std::vector<Vector3> normals = unit_normals(mesh);
     for_each_edge(sorted_halfedges(triangles_), [&](std::span<const Halfedge> on) {
         if (on.size() != 2) return;
         const Edge edge{{on[0].face, on[1].face}, on[0].is_ascending == on[1].is_ascending};

@@ -12,8 +12,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 inline constexpr double point_to_plane_weight = 0.9;
 /// Distances are weighted as if they were at least this fraction of the mean, so that points with small
 /// residuals keep the vertices in position.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/surface_samples.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -17,9 +17,9 @@ namespace detail {
 
 /// A point of the mesh and its corresponding point on another surface.
 struct Correspondence {
-    SurfaceSample sample;                                ///< the point of the mesh
-    engine::Vector3 residual = engine::Vector3::Zero();  ///< vector from the point to the corresponding point
-    engine::Vector3 normal = engine::Vector3::Zero();    ///< unit normal, for the point-to-plane distance
+    SurfaceSample sample;                ///< the point of the mesh
+    Vector3 residual = Vector3::Zero();  ///< vector from the point to the corresponding point
+    Vector3 normal = Vector3::Zero();    ///< unit normal, for the point-to-plane distance
 };
 
 /// Computes one damped Gauss-Newton step that decreases the distances of the correspondences. The squared
@@ -33,10 +33,10 @@ struct Correspondence {
 /// \param context          the result does not depend on the number of threads
 /// \return one step per vertex, in the units of the residuals; not finite if the system cannot be solved
 /// O(correspondences + faces) per iteration, at most 60 iterations
-std::vector<engine::Vector3> gauss_newton_step(std::span<const Triangle> triangles,
-                                               std::span<const Correspondence> correspondences,
-                                               std::span<const std::uint8_t> fixed, double power,
-                                               const RunContext& context);
+std::vector<Vector3> gauss_newton_step(std::span<const Triangle> triangles,
+                                       std::span<const Correspondence> correspondences,
+                                       std::span<const std::uint8_t> fixed, double power,
+                                       const RunContext& context);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -46,7 +46,7 @@ public:
     /// \param context    the results do not depend on the number of threads
     /// \throws whatever `context` throws, here and in the other functions
     TwoSidedError(const ReferenceSurface& original, std::span<const Triangle> triangles,
-                  std::span<const engine::Vector3> positions, const RunContext& context);
+                  std::span<const Vector3> positions, const RunContext& context);
 
     /// True if one of the surfaces has no area, so that there is nothing to measure.
     bool empty() const { return from_mesh_.size() == 0 || from_reference_.size() == 0; }
@@ -58,14 +58,14 @@ public:
     /// \return one entry per triangle
     /// \pre not empty()
     /// O(points log faces) if all residuals are searched
-    std::vector<FaceDeviation> measure(std::span<const engine::Vector3> positions);
+    std::vector<FaceDeviation> measure(std::span<const Vector3> positions);
 
     /// Same as measure(), for small changes: only the longest residuals are searched.
-    std::vector<FaceDeviation> remeasure(std::span<const engine::Vector3> positions);
+    std::vector<FaceDeviation> remeasure(std::span<const Vector3> positions);
 
     /// Updates the residuals that correspondences() returns. Faster than measure(): residuals are tracked
     /// without any search, unless the mesh is much coarser than the reference surface.
-    void update_correspondences(std::span<const engine::Vector3> positions);
+    void update_correspondences(std::span<const Vector3> positions);
 
     /// The correspondences of all points except the vertices of the reference surface. Valid until the next
     /// call of this function.
@@ -79,7 +79,7 @@ public:
     /// Replaces the sample points on triangles that were changed by edge flips.
     /// \param positions  current vertex positions of the mesh
     /// \param flipped    one per triangle; nonzero: its corners have changed since the last call
-    void resample_flipped(std::span<const engine::Vector3> positions, std::span<const std::uint8_t> flipped);
+    void resample_flipped(std::span<const Vector3> positions, std::span<const std::uint8_t> flipped);
 
     /// Residuals from uniform samples of the reference surface.
     const ReferenceToMeshTracker& from_reference() const { return from_reference_; }
@@ -106,8 +106,6 @@ private:
     ReferenceToMeshTracker from_reference_vertices_;           // from vertices, for the maximum distance
     std::vector<Correspondence> correspondences_;
 };
-
-using engine::Vector3;
 
 inline constexpr std::size_t samples_per_face = 10, min_samples = 5000, max_samples = 2'000'000;
 /// Number of samples on the original per sample on the mesh. The original has more detail that could be

@@ -17,8 +17,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 /// Number of Gauss-Newton steps at the beginning and after each round of edge flips.
 inline constexpr int first_steps = 4, later_steps = 2;
 /// Steps minimize the sum of d^2.5, which emphasizes large distances and thus decreases the maximum as well.

@@ -14,8 +14,8 @@ namespace detail {
 
 /// Result of fit_vertices().
 struct FittingResult {
-    std::vector<engine::Vector3> positions;  ///< of all vertices of the simplified mesh
-    std::vector<EdgeFlip> flips;             ///< in the order in which they were made
+    std::vector<Vector3> positions;  ///< of all vertices of the simplified mesh
+    std::vector<EdgeFlip> flips;     ///< in the order in which they were made
 };
 
 /// Moves the vertices of a simplified mesh closer to the original surface. Takes

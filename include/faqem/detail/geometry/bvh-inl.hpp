@@ -13,7 +13,6 @@ FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 using engine::RunContext;
-using engine::Vector3;
 
 /// Number of bins of the surface area heuristic.
 inline constexpr int bins = 16;

@@ -37,7 +37,7 @@ public:
     /// O(n log n) time, about 140 bytes per face
     Bvh(std::span<const Vec3> positions, std::span<const Triangle> triangles,
         const engine::RunContext& context = {});
-    Bvh(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles,
+    Bvh(std::span<const Vector3> positions, std::span<const Triangle> triangles,
         const engine::RunContext& context = {});
 
     /// Replaces the positions and recomputes the boxes; the topology of the tree is kept. Queries stay
@@ -45,11 +45,11 @@ public:
     /// \param positions  finite, as many as were passed to the constructor
     /// \param triangles  the triangles that were passed to the constructor
     /// O(n)
-    void refit(std::span<const engine::Vector3> positions, std::span<const Triangle> triangles);
+    void refit(std::span<const Vector3> positions, std::span<const Triangle> triangles);
 
     /// Corner positions of a triangle, and its index in the constructor's triangles.
     struct Corners {
-        engine::Vector3 a, b, c;
+        Vector3 a, b, c;
         Index face = no_index;
     };
 
@@ -78,14 +78,13 @@ public:
     /// faster the query.
     /// \param face   a face of the tree
     /// \param a,b,c  positions of its corners
-    Hit closest_with_hint(const Vec3& p, Index face, const engine::Vector3& a, const engine::Vector3& b,
-                          const engine::Vector3& c) const {
-        const ClosestPoint near = closest_point_on_triangle(engine::to_eigen(p), a, b, c);
+    Hit closest_with_hint(const Vec3& p, Index face, const Vector3& a, const Vector3& b,
+                          const Vector3& c) const {
+        const ClosestPoint near = closest_point_on_triangle(to_eigen(p), a, b, c);
         const Hit hit = closest(p, near.distance_squared);
         if (hit.face != no_index) return hit;
         // Because of rounding, the box may appear slightly farther away than the triangle in it.
-        return {face, engine::to_array(near.barycentric), engine::to_array(near.point),
-                near.distance_squared};
+        return {face, to_array(near.barycentric), to_array(near.point), near.distance_squared};
     }
 
     /// Same as closest(), restricted to the faces f for which filter(f) returns true.
@@ -109,7 +108,7 @@ public:
     template <class Limit, class Visit>
     void visit_near(const Vec3& p, Limit&& limit, Visit&& visit) const {
         const double unit = 1 / (frame_.scale * frame_.scale);
-        traverse(engine::to_eigen(p), limit,
+        traverse(to_eigen(p), limit,
                  [&](const Corners& t, float in_frame) { visit(t, double{in_frame} * unit); });
     }
 
@@ -126,7 +125,6 @@ public:
     bool any_hit(const Vec3& origin, const Vec3& direction, Accepts&& accepts) const;
 
 private:
-    using Vector3 = engine::Vector3;
     static constexpr int width = 4;
     using Lanes = Eigen::Array<float, width, 1>;
 
@@ -254,7 +252,7 @@ void Bvh::traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const {
 template <class Filter>
 Bvh::Hit Bvh::closest_if(const Vec3& p, Filter&& filter, double max_distance_squared,
                          std::size_t max_rejections) const {
-    const Vector3 query = engine::to_eigen(p);
+    const Vector3 query = to_eigen(p);
     ClosestPoint best;
     best.distance_squared = max_distance_squared;
     Index face = no_index;
@@ -275,12 +273,12 @@ Bvh::Hit Bvh::closest_if(const Vec3& p, Filter&& filter, double max_distance_squ
             face = t.face;
         });
     if (face == no_index) return {};
-    return {face, engine::to_array(best.barycentric), engine::to_array(best.point), best.distance_squared};
+    return {face, to_array(best.barycentric), to_array(best.point), best.distance_squared};
 }
 
 template <class Visit>
 void Bvh::visit_within(const Vec3& p, double distance_squared, Visit&& visit) const {
-    const Vector3 query = engine::to_eigen(p);
+    const Vector3 query = to_eigen(p);
     traverse(
         query, [&] { return distance_squared; },
         [&](const Corners& t) {
@@ -292,7 +290,7 @@ void Bvh::visit_within(const Vec3& p, double distance_squared, Visit&& visit) co
 template <class Accepts>
 bool Bvh::any_hit(const Vec3& origin, const Vec3& direction, Accepts&& accepts) const {
     if (nodes_.empty()) return false;
-    const Vector3 from = engine::to_eigen(origin), ray_direction = engine::to_eigen(direction);
+    const Vector3 from = to_eigen(origin), ray_direction = to_eigen(direction);
     const Ray ray(Query(from, frame_), ray_direction);
     const auto is_accepted_hit = [&](const Corners& t) {
         const Vector3 e = t.b - t.a, g = t.c - t.a, h = ray_direction.cross(g), s = from - t.a;

@@ -11,8 +11,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 /// Thinner triangles, by the sine of the smallest angle, have no bound: their normals are too inaccurate.
 inline constexpr double least_angle_of_bound = 1e-4;
 /// Triangles farther away from the ball, in radii, have no bound: rounding of their normals is magnified.

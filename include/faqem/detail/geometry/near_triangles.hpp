@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -23,8 +23,8 @@ class FAQEM_EXPORT NearTriangles {
 public:
     /// A triangle of the list.
     struct Entry {
-        engine::Vector3 a, b, c;  ///< corners
-        Index face = no_index;    ///< in the caller's numbering; different for all entries
+        Vector3 a, b, c;        ///< corners
+        Index face = no_index;  ///< in the caller's numbering; different for all entries
     };
     /// Result of a query.
     struct Hit {
@@ -37,16 +37,16 @@ public:
 
     /// Coordinates in the plane of a triangle.
     struct Plane {
-        engine::Vector3 origin;               ///< the first corner
-        engine::Vector3 normal;               ///< of unit length; zero if the triangle is too thin
-        std::array<engine::Vector3, 2> axes;  ///< gradients of the weights of the second and the third corner
+        Vector3 origin;               ///< the first corner
+        Vector3 normal;               ///< of unit length; zero if the triangle is too thin
+        std::array<Vector3, 2> axes;  ///< gradients of the weights of the second and the third corner
     };
 
     /// What a query leaves for the next ones near it.
     struct Recent {
         std::size_t entry =
             max_size;  ///< place in the list of the triangle closest to `at`; max_size: unknown
-        engine::Vector3 at = engine::Vector3::Zero();
+        Vector3 at = Vector3::Zero();
         double others = 0;  ///< lower bound of the distance of all other triangles of the list from `at`
         std::optional<Plane> plane;  ///< of the triangle, if projection() has needed it
     };
@@ -68,14 +68,14 @@ public:
     ///                 is in it; in model units. The list stays empty if it is not a positive normal number.
     /// \param entries  at most max_size; otherwise the list stays empty
     /// O(entries)
-    void reset(const engine::Vector3& centre, double reach, std::vector<Entry> entries);
+    void reset(const Vector3& centre, double reach, std::vector<Entry> entries);
 
     /// Makes the list for a smaller ball from this one, with the usual reach or a smaller one.
     /// \param centre  of the smaller ball, finite
     /// \param radius  of the smaller ball, in model units
     /// \param to      another list; empty if this list is not complete for the smaller ball
     /// O(entries)
-    void narrow(const engine::Vector3& centre, double radius, NearTriangles& to) const;
+    void narrow(const Vector3& centre, double radius, NearTriangles& to) const;
 
     /// Number of triangles.
     std::size_t size() const { return entries_.size(); }
@@ -85,13 +85,13 @@ public:
     /// \param p  finite
     /// \return nothing if the list is empty, or if a triangle that is not in it may be as close
     /// O(entries)
-    std::optional<Hit> closest(const engine::Vector3& p) const {
+    std::optional<Hit> closest(const Vector3& p) const {
         Recent recent;
         return closest(p, recent);
     }
     /// The same in O(1) where the triangle of a query nearby is certainly the closest.
     /// \param recent  of the last query of this list, or of none; receives that of this query
-    std::optional<Hit> closest(const engine::Vector3& p, Recent& recent) const;
+    std::optional<Hit> closest(const Vector3& p, Recent& recent) const;
 
     /// Projects p to the plane of the triangle `recent.entry`, if the result is certainly the closest point of the list.
     /// It is that of closest() up to rounding, in a fraction of the time. O(1)
@@ -99,7 +99,7 @@ public:
     /// \param recent  of the last query of this list, or of none; receives the plane
     /// \return barycentric coordinates in that triangle; nothing if it may not be the closest one, or if the projection
     ///         is outside it
-    std::optional<Vec3> projection(const engine::Vector3& p, Recent& recent) const;
+    std::optional<Vec3> projection(const Vector3& p, Recent& recent) const;
 
     /// Whether the list contains a face. O(entries)
     bool contains(Index face) const;
@@ -111,7 +111,7 @@ private:
     struct Affine {
         Lanes x = Lanes::Zero(), y = Lanes::Zero(), z = Lanes::Zero(), constant = Lanes::Zero();
         Lanes at(float px, float py, float pz) const { return x * px + y * py + z * pz + constant; }
-        void set(int lane, const engine::Vector3& gradient, double value_at_zero);
+        void set(int lane, const Vector3& gradient, double value_at_zero);
         void copy_lane(int lane, const Affine& from, int other) {
             x[lane] = from.x[other], y[lane] = from.y[other], z[lane] = from.z[other];
             constant[lane] = from.constant[other];
@@ -136,7 +136,7 @@ private:
 
     static Plane plane_of(const Entry& entry);
     void fill_last_group();
-    Smallest find_bounds(const engine::Vector3& p, Bounds& bounds) const;
+    Smallest find_bounds(const Vector3& p, Bounds& bounds) const;
     float bound_of(double distance) const;
     double distance_of(float bound) const;
     /// Whether every triangle within a distance of a point is in the list.
@@ -148,11 +148,11 @@ private:
     void for_each_within(const Bounds& bounds, float from, float to, Visit&& visit) const;
     void describe(const Entry& entry, Group& group, int lane) const;
 
-    engine::Vector3 origin_ = engine::Vector3::Zero();  ///< of the coordinates in single precision
-    double scale_ = 0;      ///< factor to these coordinates, in which distances are small
-    double tolerance_ = 0;  ///< of distances in these coordinates
-    engine::Vector3 centre_ = engine::Vector3::Zero();  ///< of the ball
-    double reach_ = 0;                                  ///< radius in which the list is complete
+    Vector3 origin_ = Vector3::Zero();  ///< of the coordinates in single precision
+    double scale_ = 0;                  ///< factor to these coordinates, in which distances are small
+    double tolerance_ = 0;              ///< of distances in these coordinates
+    Vector3 centre_ = Vector3::Zero();  ///< of the ball
+    double reach_ = 0;                  ///< radius in which the list is complete
     std::vector<Entry> entries_;
     std::vector<Group> groups_;
 };

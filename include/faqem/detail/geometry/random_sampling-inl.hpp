@@ -25,8 +25,8 @@ FAQEM_INLINE RandomSample sample(const Surface& s, std::uint64_t i, std::uint64_
         std::min<std::ptrdiff_t>(found - s.cumulative_area.begin(), std::ssize(s.cumulative_area) - 1));
     const double r = std::sqrt(uniform(seed, i, 1)), t = uniform(seed, i, 2);
     const Vec3 w = {1 - r, r * (1 - t), r * t};
-    const engine::Vector3 p = w[0] * s.corner(face, 0) + w[1] * s.corner(face, 1) + w[2] * s.corner(face, 2);
-    return {face, w, engine::to_array(p)};
+    const Vector3 p = w[0] * s.corner(face, 0) + w[1] * s.corner(face, 1) + w[2] * s.corner(face, 2);
+    return {face, w, to_array(p)};
 }
 
 }  // namespace detail

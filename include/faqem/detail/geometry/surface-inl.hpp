@@ -11,8 +11,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 /// Faces whose height is below this fraction of their longest edge have no reliable normal and are left out.
 inline constexpr double min_height_ratio = 1e-12;
 
@@ -63,8 +61,8 @@ FAQEM_INLINE Surface extract_surface(const MeshView& mesh) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         const Triangle t = mesh.triangles[f];
         check_indices(t, f, s.positions.size());
-        const Vector3 a = engine::to_eigen(s.positions[t[0]]), b = engine::to_eigen(s.positions[t[1]]),
-                      c = engine::to_eigen(s.positions[t[2]]);
+        const Vector3 a = to_eigen(s.positions[t[0]]), b = to_eigen(s.positions[t[1]]),
+                      c = to_eigen(s.positions[t[2]]);
         const Vector3 n = engine::area_vector(a, b, c);
         const double longest =
             std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
@@ -83,10 +81,10 @@ FAQEM_INLINE Surface extract_surface(const MeshView& mesh) {
     weld(s);
     for (const Triangle& t : without_area) add_sliver(mesh, t, s);
     if (s.positions.empty()) return s;
-    s.low = s.high = engine::to_eigen(s.positions.front());
+    s.low = s.high = to_eigen(s.positions.front());
     for (const Vec3& p : s.positions) {
-        s.low = s.low.cwiseMin(engine::to_eigen(p));
-        s.high = s.high.cwiseMax(engine::to_eigen(p));
+        s.low = s.low.cwiseMin(to_eigen(p));
+        s.high = s.high.cwiseMax(to_eigen(p));
     }
     return s;
 }

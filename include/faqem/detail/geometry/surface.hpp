@@ -19,21 +19,19 @@ struct Surface {
     std::vector<Vec3> positions;      ///< referenced and distinct (-0 equals 0), sorted by x, y, z
     std::vector<Triangle> triangles;  ///< of nonzero area
     std::vector<Index> faces;         ///< per triangle: index in the mesh; the corners have the same order
-    std::vector<engine::Vector3> normals;  ///< per triangle: unit normal
-    std::vector<double> cumulative_area;   ///< per triangle: area of the triangles up to and including it
+    std::vector<Vector3> normals;     ///< per triangle: unit normal
+    std::vector<double> cumulative_area;  ///< per triangle: area of the triangles up to and including it
     /// Triangles without area whose three corners are different positions of others: they connect these.
     std::vector<Triangle> slivers;
     /// Axis-aligned bounding box; zero if there are no triangles.
-    engine::Vector3 low = engine::Vector3::Zero(), high = engine::Vector3::Zero();
+    Vector3 low = Vector3::Zero(), high = Vector3::Zero();
 
     /// Diagonal of the bounding box.
     double diagonal() const { return (high - low).norm(); }
     /// Position of corner k of triangle f; k is 0, 1 or 2.
-    engine::Vector3 corner(Index f, std::size_t k) const {
-        return engine::to_eigen(positions[triangles[f][k]]);
-    }
+    Vector3 corner(Index f, std::size_t k) const { return to_eigen(positions[triangles[f][k]]); }
     /// Squared distance of p to triangle f.
-    double distance_squared(const engine::Vector3& p, Index f) const {
+    double distance_squared(const Vector3& p, Index f) const {
         return closest_point_on_triangle(p, corner(f, 0), corner(f, 1), corner(f, 2)).distance_squared;
     }
 };
@@ -57,8 +55,8 @@ FAQEM_EXPORT Surface extract_nonempty_surface(const MeshView& mesh, const char* 
 /// \param normal     unit
 /// \param tolerance  in model units: faces count as closest up to this much beyond the smallest distance
 /// \return at most 1
-double max_normal_cosine(const Bvh& tree, std::span<const engine::Vector3> normals, const Vec3& p,
-                         const Bvh::Hit& hit, const engine::Vector3& normal, double tolerance);
+double max_normal_cosine(const Bvh& tree, std::span<const Vector3> normals, const Vec3& p,
+                         const Bvh::Hit& hit, const Vector3& normal, double tolerance);
 
 /// Closest-point queries for a sequence of points in spatial order: the closest face of one point is the
 /// initial bound for the next. For one thread at a time.

@@ -10,8 +10,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 /// The k-th point of a low-discrepancy sequence in the triangle, as barycentric coordinates: the R2 sequence
 /// of the unit square (Roberts 2018), whose upper half is folded to the lower one. Its steps are 1/g and
 /// 1/g^2, where g is the real root of g^3 = g + 1.

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
@@ -16,18 +16,18 @@ namespace detail {
 /// Non-owning view of a mesh: positions, and triangles that index them. Triangles with no_index corners are
 /// ignored.
 struct MeshRef {
-    std::span<const engine::Vector3> positions;
+    std::span<const Vector3> positions;
     std::span<const Triangle> triangles;
 };
 
 /// Vector along the normal of a triangle whose length is twice the area.
-inline engine::Vector3 area_vector(std::span<const engine::Vector3> positions, const Triangle& t) {
+inline Vector3 area_vector(std::span<const Vector3> positions, const Triangle& t) {
     return engine::area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
 /// Unit normal of each triangle; zero if it has no area or no_index corners.
 /// O(faces)
-std::vector<engine::Vector3> unit_normals(const MeshRef& mesh);
+std::vector<Vector3> unit_normals(const MeshRef& mesh);
 
 /// A point of a face, in barycentric coordinates.
 struct SurfaceSample {
@@ -35,8 +35,7 @@ struct SurfaceSample {
     Vec3 barycentric = {};  ///< >= 0, sum 1
 
     /// Position of the point for the given vertex positions.
-    engine::Vector3 position(std::span<const engine::Vector3> positions,
-                             std::span<const Triangle> triangles) const {
+    Vector3 position(std::span<const Vector3> positions, std::span<const Triangle> triangles) const {
         const Triangle& t = triangles[face];
         return barycentric[0] * positions[t[0]] + barycentric[1] * positions[t[1]] +
                barycentric[2] * positions[t[2]];
@@ -45,7 +44,7 @@ struct SurfaceSample {
 
 /// A point of a surface and the unit normal at it.
 struct OrientedPoint {
-    engine::Vector3 position, normal;
+    Vector3 position, normal;
 };
 
 /// Distributes points uniformly by area, using a low-discrepancy sequence.

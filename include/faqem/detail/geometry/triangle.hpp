@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -13,14 +13,12 @@ namespace detail {
 
 /// The point of a triangle that is closest to a query point.
 struct ClosestPoint {
-    engine::Vector3 point = engine::Vector3::Zero();
-    engine::Vector3 barycentric = engine::Vector3::Zero();  ///< barycentric coordinates; >= 0, sum 1
+    Vector3 point = Vector3::Zero();
+    Vector3 barycentric = Vector3::Zero();  ///< barycentric coordinates; >= 0, sum 1
     double distance_squared = std::numeric_limits<double>::infinity();
 };
 
 namespace closest_point {
-
-using engine::Vector3;
 
 /// Result for a given point of the triangle.
 inline ClosestPoint at(const Vector3& p, const Vector3& point, const Vector3& barycentric) {
@@ -64,8 +62,8 @@ inline constexpr double sliver_ratio = 1e-6;
 /// \param p      finite
 /// \param a,b,c  corners, finite; may coincide
 /// O(1). Source: Ericson, Real-Time Collision Detection, 5.1.5
-inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const engine::Vector3& a,
-                                              const engine::Vector3& b, const engine::Vector3& c) {
+inline ClosestPoint closest_point_on_triangle(const Vector3& p, const Vector3& a, const Vector3& b,
+                                              const Vector3& c) {
     using namespace closest_point;
     const Vector3 ab = b - a, ac = c - a, bc = c - b;
     const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()});
@@ -111,11 +109,11 @@ inline ClosestPoint closest_point_on_triangle(const engine::Vector3& p, const en
 /// Is the triangle too flat to have a normal: height at most 1e-12 of its longest edge?
 inline bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     // Halved, then scaled to about 1: no difference and no square leaves the range of a double.
-    const engine::Vector3 p = 0.5 * engine::to_eigen(a);
-    const engine::Vector3 e = 0.5 * engine::to_eigen(b) - p, f = 0.5 * engine::to_eigen(c) - p;
+    const Vector3 p = 0.5 * to_eigen(a);
+    const Vector3 e = 0.5 * to_eigen(b) - p, f = 0.5 * to_eigen(c) - p;
     const double size = std::max(e.cwiseAbs().maxCoeff(), f.cwiseAbs().maxCoeff());
     if (!(size > 0)) return true;
-    const engine::Vector3 u = e / size, v = f / size;
+    const Vector3 u = e / size, v = f / size;
     const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
     return !(u.cross(v).norm() > 1e-12 * longest);
 }

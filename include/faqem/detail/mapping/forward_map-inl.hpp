@@ -8,19 +8,14 @@
 #include <limits>
 #include <tuple>
 
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/detail/geometry/vertex_faces.hpp"
 #include "faqem/detail/history/final_versions.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
-namespace detail {
-
-using engine::to_eigen;
-using engine::Vector3;
-
-}  // namespace detail
+namespace detail {}  // namespace detail
 
 FAQEM_INLINE std::vector<Index> vertex_map(const CollapseHistory& history) {
     const std::vector<Index> last = detail::final_versions(history);

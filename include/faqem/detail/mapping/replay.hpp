@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/engine/mesh/vector.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
 
@@ -61,9 +61,9 @@ struct ReplayTables {
     /// Position of a point of the simplified mesh.
     /// \param face         face of the simplified mesh
     /// \param barycentric  weights of its three corners
-    engine::Vector3 position_on(Index face, const Vec3& barycentric) const {
-        engine::Vector3 p = engine::Vector3::Zero();
-        for (std::size_t i = 0; i < 3; ++i) p += barycentric[i] * engine::to_eigen(corner_positions[face][i]);
+    Vector3 position_on(Index face, const Vec3& barycentric) const {
+        Vector3 p = Vector3::Zero();
+        for (std::size_t i = 0; i < 3; ++i) p += barycentric[i] * to_eigen(corner_positions[face][i]);
         return p;
     }
 };

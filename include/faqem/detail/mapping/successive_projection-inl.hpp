@@ -15,10 +15,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::to_array;
-using engine::to_eigen;
-using engine::Vector3;
-
 // Minimum cosine between the normals of faces that have the same orientation.
 inline constexpr double min_facing_cosine = 0.17;
 // Penalties of the score, in mean edge lengths of the patch.

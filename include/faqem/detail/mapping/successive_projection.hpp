@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/near_triangles.hpp"
 #include "faqem/detail/mapping/replay.hpp"
 #include "faqem/detail/mapping/surface_patches.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
 #include "faqem/surface_map.hpp"
@@ -100,7 +100,7 @@ public:
     /// Position of a point of the simplified mesh.
     /// \param face         face of the simplified mesh
     /// \param barycentric  weights of its three corners
-    engine::Vector3 position_on(Index face, const Vec3& barycentric) const {
+    Vector3 position_on(Index face, const Vec3& barycentric) const {
         return replay_.position_on(face, barycentric);
     }
 
@@ -111,7 +111,7 @@ private:
     struct Patch;
 
     Query make_query(Index face, const Vec3& barycentric) const;
-    bool is_facing_away(Index candidate, const engine::Vector3& area_vector, const Query& query) const;
+    bool is_facing_away(Index candidate, const Vector3& area_vector, const Query& query) const;
     ScoredFace best_of_patch(Index collapse, Index face, const Query& query, std::uint64_t& visited) const;
     void consider(std::uint64_t entry, Patch& patch) const;
     WalkEnd walk(Index face, const Query& query) const;
@@ -122,7 +122,7 @@ private:
     Bvh::Hit closest_accepted(const Query& query, double distance_squared) const;
     SurfacePoint closest_preimage_face(const Query& query, double distance_squared) const;
     bool is_preimage_face(Index original_face, const Triangle& corners) const;
-    ClosestPoint on_original(Index face, const engine::Vector3& p0) const;
+    ClosestPoint on_original(Index face, const Vector3& p0) const;
     bool is_accepted(Index original_face, const Query& query) const;
     bool is_accepted(const Bvh::Corners& original_face, const Query& query) const;
     Index group(Index f) const { return history_.face_groups.empty() ? 0 : history_.face_groups[f]; }

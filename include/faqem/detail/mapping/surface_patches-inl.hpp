@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <array>
 
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
-using engine::to_eigen;
-using engine::Vector3;
 
 struct AdjacentFace {
     Index face = no_index;

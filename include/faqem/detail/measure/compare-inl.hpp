@@ -17,8 +17,6 @@ FAQEM_NAMESPACE_BEGIN
 
 namespace detail {
 
-using engine::Vector3;
-
 inline constexpr std::size_t comparison_block = 4096;
 inline constexpr double degrees_per_radian = 57.295779513082320877;
 

@@ -50,8 +50,7 @@ public:
     /// \param limit   largest bound that is of interest
     /// \return infinity if no bound up to the limit was found
     /// O(faces above the triangle)
-    double bound(const std::array<engine::Vector3, 3>& corner, Index first, double limit,
-                 Scratch& scratch) const;
+    double bound(const std::array<Vector3, 3>& corner, Index first, double limit, Scratch& scratch) const;
 
 private:
     struct Prism;
@@ -61,7 +60,7 @@ private:
 
     double grow(const Prism& prism, Index first, double limit, Scratch& scratch) const;
     bool covers(const Prism& prism, const std::vector<Index>& set) const;
-    std::array<engine::Vector3, 3> projected(const Prism& prism, Index f) const;
+    std::array<Vector3, 3> projected(const Prism& prism, Index f) const;
 
     const Surface& surface_;
     std::vector<Triangle> triangles_;  // of the surface, then the slivers
@@ -69,8 +68,6 @@ private:
     std::vector<Index> faces_;         // by edge
     double size_ = 0;                  // largest coordinate
 };
-
-using engine::Vector3;
 
 /// Share of the limit by which a triangle is shrunk.
 inline constexpr double shrunk_share = 1.0 / 8;
@@ -175,7 +172,7 @@ inline Covering::Covering(const Surface& surface)
 
 inline std::array<Vector3, 3> Covering::projected(const Prism& prism, Index f) const {
     const Triangle& t = triangles_[f];
-    const auto at = [&](Index v) { return prism(engine::to_eigen(surface_.positions[v])); };
+    const auto at = [&](Index v) { return prism(to_eigen(surface_.positions[v])); };
     return {at(t[0]), at(t[1]), at(t[2])};
 }
 

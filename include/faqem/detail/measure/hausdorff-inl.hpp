@@ -13,8 +13,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 inline constexpr std::size_t vertex_block = 4096, face_block = 4096, piece_block = 128, cover_block = 32;
 /// Number of pieces that are split in parallel: several blocks, so that several threads have work.
 inline constexpr std::size_t batch_size = 16 * piece_block;
@@ -157,7 +155,7 @@ inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
             const Index v = from.triangles[f][k];
             is_beyond =
                 is_beyond || found.add(piece, at_vertices[v].face, at_vertices[v].distance_squared, enough);
-            piece.corner[k] = engine::to_eigen(from.positions[v]);
+            piece.corner[k] = to_eigen(from.positions[v]);
             piece.nearest[k] = at_vertices[v].face;
         }
         if (is_beyond) continue;
@@ -172,7 +170,7 @@ inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
             // Where the surfaces coincide, each corner's closest face is an arbitrary one of its one-ring;
             // that of the centre is unique.
             const Vector3 centre = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3;
-            const Bvh::Hit hit = query(engine::to_array(centre), piece.bounding_faces[0]);
+            const Bvh::Hit hit = query(to_array(centre), piece.bounding_faces[0]);
             if (found.add(piece, hit.face, hit.distance_squared, enough)) continue;
             Candidates candidates(piece);
             candidates.add(hit.face);
@@ -194,7 +192,7 @@ inline void split(const Surface& to, CoherentQuery& query, const Piece& piece, d
     }
     const std::size_t next = (longest + 1) % 3;
     const Vector3 middle = 0.5 * piece.corner[longest] + 0.5 * piece.corner[next];
-    const Bvh::Hit hit = query(engine::to_array(middle), piece.bounding_faces[0]);
+    const Bvh::Hit hit = query(to_array(middle), piece.bounding_faces[0]);
     if (found.add(piece, hit.face, hit.distance_squared, enough)) return;
 
     Candidates candidates(piece);
@@ -221,7 +219,7 @@ inline constexpr int cover_splits = 4;
 inline void cover(const Surface& to, CoherentQuery& query, const Covering& covering,
                   Covering::Scratch& scratch, Piece piece, int splits, double enough, Found& found) {
     const Vector3 middle = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3;
-    const Bvh::Hit hit = query(engine::to_array(middle), piece.bounding_faces[0]);
+    const Bvh::Hit hit = query(to_array(middle), piece.bounding_faces[0]);
     if (found.add(piece, hit.face, hit.distance_squared, enough)) return;
     if (hit.distance_squared <= enough) {
         const double bound = covering.bound(piece.corner, hit.face, std::sqrt(enough), scratch);

@@ -6,16 +6,14 @@
 #include <vector>
 
 #include "faqem/compare.hpp"
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/error.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
 namespace detail {
-
-using engine::Vector3;
 
 /// For each vertex, the smallest index of a vertex at the same position (-0 equals 0).
 inline std::vector<Index> weld_equal(const MeshView& mesh) {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -28,12 +28,12 @@ inline std::vector<ComponentMeasures> component_sizes(std::span<const PlacedFace
     // Positions are divided by 4, so that differences are finite.
     Eigen::AlignedBox3d all;
     for (const PlacedFace& face : faces)
-        for (const Vec3& p : face.corners) sizes[face.component].box.extend(0.25 * engine::to_eigen(p));
+        for (const Vec3& p : face.corners) sizes[face.component].box.extend(0.25 * to_eigen(p));
     for (const ComponentMeasures& size : sizes) all.extend(size.box);
     const double scale = 1 / std::max(all.sizes().maxCoeff(), std::numeric_limits<double>::min());
     for (const PlacedFace& face : faces) {
         const auto corner = [&](std::size_t i) {
-            return engine::Vector3(scale * (0.25 * engine::to_eigen(face.corners[i]) - all.min()));
+            return Vector3(scale * (0.25 * to_eigen(face.corners[i]) - all.min()));
         };
         ++sizes[face.component].faces;
         sizes[face.component].area += 0.5 * engine::area_vector(corner(0), corner(1), corner(2)).norm();
@@ -76,9 +76,9 @@ FAQEM_INLINE FoundComponents removed_components(std::span<const PlacedFace> face
             found.small_share += all > 0 ? size.area / all : 0;
             continue;
         }
-        found.visible.push_back({c,
-                                 {"", size.faces, size.area / all, engine::to_array(4 * size.box.min()),
-                                  engine::to_array(4 * size.box.max())}});
+        found.visible.push_back(
+            {c,
+             {"", size.faces, size.area / all, to_array(4 * size.box.min()), to_array(4 * size.box.max())}});
     }
     std::ranges::stable_sort(found.visible, std::greater(),
                              [](const FoundComponent& component) { return component.removed.area_share; });

@@ -21,8 +21,6 @@ FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 using engine::CollapseMesh;
-using engine::RunContext;
-using engine::Vector3;
 
 // Part of the whole surface's share that a block keeps. Of the surplus of collapses the most expensive ones
 // are discarded, so that blocks with little detail give more collapses than blocks with much.

@@ -64,13 +64,13 @@ FAQEM_INLINE std::vector<Index> build_result(const MeshView& mesh, const Preproc
 // A vertex that has exactly the position of an original vertex gets that position in model units, without
 // rounding. This is consistent with build_result() for every level of a chain.
 FAQEM_INLINE void to_model_units(const PreprocessedMesh& prepared, std::vector<Collapse>& collapses) {
-    std::vector<engine::Vector3> at = prepared.engine_positions();
+    std::vector<Vector3> at = prepared.engine_positions();
     std::vector<Index> place(at.size());
     std::iota(place.begin(), place.end(), Index{0});
     at.reserve(at.size() + collapses.size());
     place.reserve(at.capacity());
     for (Collapse& collapse : collapses) {
-        const engine::Vector3 to = engine::to_eigen(collapse.position);
+        const Vector3 to = to_eigen(collapse.position);
         Index original = no_index;
         if (to == at[collapse.first])
             original = place[collapse.first];

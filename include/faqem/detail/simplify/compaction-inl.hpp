@@ -9,8 +9,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 FAQEM_INLINE SlotTrace::SlotTrace(std::size_t slots) : next_(slots) {
     std::iota(next_.begin(), next_.end(), Index{0});
     source_slots_ = next_;

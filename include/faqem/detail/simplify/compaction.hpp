@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/rounds/block_steps.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -21,8 +21,8 @@ public:
 
     /// Called before `survivor` and `removed` are merged into `survivor` at position `to`.
     /// \param at_survivor, at_removed  their positions before the collapse
-    void before_collapse(Index survivor, Index removed, const engine::Vector3& at_survivor,
-                         const engine::Vector3& at_removed, const engine::Vector3& to) {
+    void before_collapse(Index survivor, Index removed, const Vector3& at_survivor, const Vector3& at_removed,
+                         const Vector3& to) {
         next_[removed] = survivor;
         if (to != at_survivor) source_slots_[survivor] = to == at_removed ? source_slots_[removed] : no_index;
     }
@@ -44,7 +44,7 @@ private:
 /// \param trace      of the collapses
 /// Complexity: O(n)
 CompactedMesh compacted(std::vector<Index> faces, std::vector<Triangle> triangles,
-                        std::span<const engine::Vector3> positions, SlotTrace& trace);
+                        std::span<const Vector3> positions, SlotTrace& trace);
 
 /// Compacts the mesh of an engine.
 /// \param trace  of the collapses of the engine

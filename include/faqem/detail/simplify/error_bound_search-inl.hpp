@@ -78,11 +78,11 @@ FAQEM_INLINE std::vector<Index> FarFaceSearch::faces_to_search(const std::vector
     std::vector<Corners> gone;
     std::set_difference(faces_.begin(), faces_.end(), now.begin(), now.end(), std::back_inserter(gone));
     for (const Corners& corners : gone) {
-        const engine::Vector3 a = engine::to_eigen(corners[0]), b = engine::to_eigen(corners[1]),
-                              c = engine::to_eigen(corners[2]), middle = (a + b + c) / 3;
+        const Vector3 a = to_eigen(corners[0]), b = to_eigen(corners[1]), c = to_eigen(corners[2]),
+                      middle = (a + b + c) / 3;
         const double radius = std::max({(a - middle).norm(), (b - middle).norm(), (c - middle).norm()});
         const double reach = (radius + allowed_) * (1 + 1e-6);
-        original_->tree().visit_within(engine::to_array(middle), reach * reach,
+        original_->tree().visit_within(to_array(middle), reach * reach,
                                        [&](Index f, const ClosestPoint&) { found.push_back(f); });
     }
     std::sort(found.begin(), found.end());

@@ -18,9 +18,8 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::Vector3;
-
 using engine::RunContext;
+
 inline constexpr Triangle dropped_face = {no_index, no_index, no_index};
 
 inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
@@ -195,13 +194,13 @@ inline void find_scale(double wanted_diagonal, PreprocessedMesh& out) {
 FAQEM_INLINE std::vector<Vector3> PreprocessedMesh::engine_positions() const {
     std::vector<Vector3> result;
     result.reserve(positions.size());
-    const Vector3 c = engine::to_eigen(centre);
-    for (const Vec3& p : positions) result.push_back((engine::to_eigen(p) - c) * scale);
+    const Vector3 c = to_eigen(centre);
+    for (const Vec3& p : positions) result.push_back((to_eigen(p) - c) * scale);
     return result;
 }
 
 FAQEM_INLINE Vec3 PreprocessedMesh::to_model(const Vector3& p) const {
-    return engine::to_array(Vector3(p / scale + engine::to_eigen(centre)));
+    return to_array(Vector3(p / scale + to_eigen(centre)));
 }
 
 FAQEM_INLINE PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,

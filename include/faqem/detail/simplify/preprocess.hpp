@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/prune_components.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
@@ -27,9 +28,9 @@ struct PreprocessedMesh {
     double scale = 1;                  ///< factor from model units to engine units
 
     /// Positions in engine units: (p - centre) * scale. O(n)
-    std::vector<engine::Vector3> engine_positions() const;
+    std::vector<Vector3> engine_positions() const;
     /// Converts a position from engine units to model units.
-    Vec3 to_model(const engine::Vector3& p) const;
+    Vec3 to_model(const Vector3& p) const;
 
     /// Release the memory of an array that is no longer needed. O(1)
     void release_triangles() { std::vector<Triangle>().swap(triangles); }

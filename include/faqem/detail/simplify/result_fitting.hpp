@@ -28,7 +28,7 @@ namespace detail {
 inline void fit_result(const RunState& state, const PreprocessedMesh& prepared, double min_normal_cosine,
                        const EngineInput& input, const std::vector<Index>& slots, const RunContext& context,
                        SimplifyResult& result) {
-    std::vector<engine::Vector3> now;
+    std::vector<Vector3> now;
     std::vector<std::uint8_t> fixed;
     for (const Index v : slots) {
         now.push_back(input.collapse_mesh.position(v));

@@ -15,9 +15,6 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-using engine::RunContext;
-using engine::Vector3;
-
 /// The referenced vertices in Morton order.
 inline std::vector<Index> vertices_in_morton_order(const std::vector<Vector3>& positions,
                                                    const std::vector<Triangle>& triangles,

@@ -15,10 +15,10 @@ namespace detail {
 /// units. The engine is limited by memory latency: on input in random order, reordering makes it three times
 /// as fast.
 struct ReorderedMesh {
-    std::vector<Index> vertex;               ///< vertex slot -> vertex of the preprocessed mesh
-    std::vector<Index> face;                 ///< face slot -> input face
-    std::vector<engine::Vector3> positions;  ///< one per vertex slot
-    std::vector<Triangle> triangles;         ///< one per face slot, of vertex slots
+    std::vector<Index> vertex;        ///< vertex slot -> vertex of the preprocessed mesh
+    std::vector<Index> face;          ///< face slot -> input face
+    std::vector<Vector3> positions;   ///< one per vertex slot
+    std::vector<Triangle> triangles;  ///< one per face slot, of vertex slots
 
     /// Reorders per-face values to the order of the face slots.
     /// \param values  `width` values per input face, or empty

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "faqem/detail/base/vector.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
-#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
@@ -20,7 +20,7 @@ namespace detail {
 class UndoableSteps {
 public:
     /// Adds a collapse. \param mesh  before the collapse
-    void add(const engine::CollapseMesh& mesh, Index survivor, Index removed, const engine::Vector3& to) {
+    void add(const engine::CollapseMesh& mesh, Index survivor, Index removed, const Vector3& to) {
         steps_.push_back({survivor, removed, to, faces_.size()});
         mesh.for_each_face_around(survivor, removed, [&](Index f, unsigned) { faces_.push_back(f); });
         is_undone_.push_back(0);
@@ -64,7 +64,7 @@ public:
 private:
     struct Step {
         Index survivor, removed;
-        engine::Vector3 to;
+        Vector3 to;
         std::size_t first_face;  // in faces_
     };
 

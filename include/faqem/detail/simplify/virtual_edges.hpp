@@ -20,7 +20,6 @@ FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 using engine::CollapseMesh;
-using engine::Vector3;
 
 // The nearest vertices of other components within a radius. Ties are ordered by index.
 class NearestInOtherComponents {
@@ -127,7 +126,7 @@ inline std::vector<CandidateEdge> candidate_edges(const CollapseMesh& mesh, cons
         if (surface.boundary_degree(v) == 0) continue;
         NearestInOtherComponents nearest(all.component_of, all.component_of[i], distance * distance);
         tree.visit_near(
-            engine::to_array(all.positions[i]), [&] { return nearest.limit(); },
+            to_array(all.positions[i]), [&] { return nearest.limit(); },
             [&](const Bvh::Corners& point, double) {
                 const Vector3 d = point.a - all.positions[i];
                 nearest.add(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), point.face);
