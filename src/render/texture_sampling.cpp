@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "asset/image/rgba_lanes.hpp"
 #include "asset/image/srgb.hpp"
 
 namespace faqem::detail {
@@ -61,20 +62,9 @@ const std::array<float, 256>& linear_from_srgb_byte() {
     return table;
 }
 
-// RGBA as in LinearColor, in a vector register. Eigen's arrays are made in memory, from which a register cannot be
-// loaded as long as the four values are not stored.
-using TexelLanes [[gnu::vector_size(16)]] = float;
-using IntegerLanes [[gnu::vector_size(16)]] = std::int32_t;
+RgbaLanes mix(RgbaLanes a, RgbaLanes b, float t) { return a + t * (b - a); }
 
-TexelLanes mix(TexelLanes a, TexelLanes b, float t) { return a + t * (b - a); }
-
-// Four integers, multiplied by a factor.
-template <class Integer>
-TexelLanes scaled_integers(const Integer* p, float factor) {
-    return __builtin_convertvector((IntegerLanes{p[0], p[1], p[2], p[3]}), TexelLanes) * factor;
-}
-
-LinearColor to_linear_color(TexelLanes texel) { return {texel[0], texel[1], texel[2], texel[3]}; }
+LinearColor to_linear_color(RgbaLanes texel) { return {texel[0], texel[1], texel[2], texel[3]}; }
 
 // Source texels covered by texel i of a downsampled row, with their weights.
 struct Taps {
@@ -104,9 +94,9 @@ struct Corners {
     std::array<std::uint32_t, 2> x, y;
     float s, t;
 
-    // read: (x, y) -> TexelLanes
+    // read: (x, y) -> RgbaLanes
     template <class Read>
-    TexelLanes interpolate(const Read& read) const {
+    RgbaLanes interpolate(const Read& read) const {
         return mix(mix(read(x[0], y[0]), read(x[1], y[0]), s), mix(read(x[0], y[1]), read(x[1], y[1]), s), t);
     }
 };
@@ -128,7 +118,7 @@ auto MipImage::with_reader(std::size_t level, const Visit& visit) const {
     };
     if (level > 0) {
         return visit([&, texels = levels_[level - 1].rgba.get()](std::uint32_t x, std::uint32_t y) {
-            return scaled_integers(texels + row(x, y), 1.0f / 65535);
+            return to_lanes(texels + row(x, y)) * (1.0f / 65535);
         });
     }
     constexpr float unit = 1.0f / 255;
@@ -137,16 +127,16 @@ auto MipImage::with_reader(std::size_t level, const Visit& visit) const {
     switch (encoding_) {
         case TexelEncoding::data:
             return visit(
-                [&](std::uint32_t x, std::uint32_t y) { return scaled_integers(texels + row(x, y), unit); });
+                [&](std::uint32_t x, std::uint32_t y) { return to_lanes(texels + row(x, y)) * unit; });
         case TexelEncoding::color_and_data_alpha:
             return visit([&](std::uint32_t x, std::uint32_t y) {
                 const std::uint8_t* p = texels + row(x, y);
-                return TexelLanes{linear[p[0]], linear[p[1]], linear[p[2]], p[3] * unit};
+                return RgbaLanes{linear[p[0]], linear[p[1]], linear[p[2]], p[3] * unit};
             });
         case TexelEncoding::opaque_color:
             return visit([&](std::uint32_t x, std::uint32_t y) {
                 const std::uint8_t* p = texels + row(x, y);
-                return TexelLanes{linear[p[0]], linear[p[1]], linear[p[2]], 1};
+                return RgbaLanes{linear[p[0]], linear[p[1]], linear[p[2]], 1};
             });
         case TexelEncoding::color:
             break;
@@ -154,7 +144,7 @@ auto MipImage::with_reader(std::size_t level, const Visit& visit) const {
     return visit([&](std::uint32_t x, std::uint32_t y) {
         const std::uint8_t* p = texels + row(x, y);
         const float alpha = p[3] * unit;
-        return TexelLanes{linear[p[0]], linear[p[1]], linear[p[2]], 1} * alpha;
+        return RgbaLanes{linear[p[0]], linear[p[1]], linear[p[2]], 1} * alpha;
     });
 }
 
@@ -172,7 +162,7 @@ MipImage::Level MipImage::downsample(std::size_t from, const RunContext& context
         std::uint16_t* to = &result.rgba[y * result.width * 4];
         with_reader(from, [&](const auto& read) {
             for (const Taps& columns : all_columns) {
-                TexelLanes weighted = {};
+                RgbaLanes weighted = {};
                 for (std::uint32_t j = 0; j < rows.count; ++j) {
                     for (std::uint32_t i = 0; i < columns.count; ++i)
                         weighted +=
@@ -212,7 +202,7 @@ LinearColor MipImage::sample(const TextureRef& texture_ref, double u, double v, 
     const double at = lod > 0 ? std::min(lod, deepest) : 0;
     const auto level = static_cast<std::size_t>(at);
     const float t = static_cast<float>(at - static_cast<double>(level));
-    const TexelLanes fine = sample_level(level, u, v, texture_ref);
+    const RgbaLanes fine = sample_level(level, u, v, texture_ref);
     if (!(t > 0)) return to_linear_color(fine);
     return to_linear_color(mix(fine, sample_level(level + 1, u, v, texture_ref), t));
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asset/image/codecs.hpp"
+#include "asset/image/rgba_lanes.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -75,23 +76,6 @@ struct Interpolation {
     float weight;
 };
 
-// Squared difference between a texel and the interpolation of four, as a sum over the channels: four, of which the last one
-// counts only if there is alpha, so that they are computed at once.
-float squared_difference(const std::uint8_t* texel, bool has_alpha,
-                         const std::array<const std::uint8_t*, 4>& corners, float s, float t) {
-    std::array<float, 4> squares;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const float top = static_cast<float>(corners[0][k]) * (1 - s) + static_cast<float>(corners[1][k]) * s;
-        const float bottom =
-            static_cast<float>(corners[2][k]) * (1 - s) + static_cast<float>(corners[3][k]) * s;
-        const float difference = top * (1 - t) + bottom * t - static_cast<float>(texel[k]);
-        squares[k] = difference * difference;
-    }
-    if (!has_alpha) return squares[0] + squares[1] + squares[2];
-    const float alpha = static_cast<float>(texel[3]) / 255;
-    return squares[0] * alpha + squares[1] * alpha + squares[2] * alpha + squares[3];
-}
-
 std::vector<Interpolation> interpolations(std::uint32_t size, std::uint32_t shown_size) {
     std::vector<Interpolation> result;
     const double scale = static_cast<double>(shown_size) / size;
@@ -102,6 +86,34 @@ std::vector<Interpolation> interpolations(std::uint32_t size, std::uint32_t show
     }
     return result;
 }
+
+// Rows of an image with fewer texels, interpolated to the width of another one. The last two are kept.
+class StretchedRows {
+public:
+    StretchedRows(const Pixels& pixels, std::uint32_t width)
+        : pixels_(pixels), columns_(interpolations(width, pixels.width)) {}
+
+    const std::vector<RgbaLanes>& at(std::uint32_t y) {
+        Row& row = rows_[y % 2];
+        if (row.y == y) return row.texels;
+        row = {y, std::move(row.texels)};
+        row.texels.clear();
+        const std::uint8_t* const from = &pixels_.rgba[4 * (std::size_t{y} * pixels_.width)];
+        for (const auto& [first, second, s] : columns_)
+            row.texels.push_back(to_lanes(from + 4 * std::size_t{first}) * (1 - s) +
+                                 to_lanes(from + 4 * std::size_t{second}) * s);
+        return row.texels;
+    }
+
+private:
+    struct Row {
+        std::uint32_t y = no_index;
+        std::vector<RgbaLanes> texels = {};
+    };
+    const Pixels& pixels_;
+    std::vector<Interpolation> columns_;
+    std::array<Row, 2> rows_;
+};
 
 // An image that is being encoded with a loss.
 struct LossyEncoding {
@@ -297,7 +309,7 @@ double quality_change(const std::optional<PictureDifference>& pictures, TextureC
 }
 
 ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {
-    const std::vector<Interpolation> columns = interpolations(original.width, shown.width);
+    StretchedRows stretched(shown, original.width);
     const std::vector<Interpolation> rows = interpolations(original.height, shown.height);
     const std::size_t channels = original.has_alpha ? 4 : 3;
     std::vector<double> blocks((original.width + block_side - 1) / block_side);  // of a row of blocks
@@ -305,19 +317,26 @@ ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::spa
     std::uint64_t count = 0;
     for (std::uint32_t y = 0; y < original.height; ++y) {
         if (y % block_side == 0) std::fill(blocks.begin(), blocks.end(), 0.0);
-        const std::uint8_t* const upper = &shown.rgba[4 * (std::size_t{rows[y].first} * shown.width)];
-        const std::uint8_t* const lower = &shown.rgba[4 * (std::size_t{rows[y].second} * shown.width)];
-        for (std::uint32_t x = 0; x < original.width; ++x) {
-            const std::size_t at = std::size_t{y} * original.width + x;
-            if (!known[at]) continue;
-            const auto& [first, second, s] = columns[x];
-            const float difference =
-                squared_difference(&original.rgba[4 * at], original.has_alpha,
-                                   {upper + 4 * std::size_t{first}, upper + 4 * std::size_t{second},
-                                    lower + 4 * std::size_t{first}, lower + 4 * std::size_t{second}},
-                                   s, rows[y].weight);
-            blocks[x / block_side] += difference;
-            ++count;
+        const auto& [first, second, t] = rows[y];
+        const RgbaLanes *const upper = stretched.at(first).data(), *const lower = stretched.at(second).data();
+        for (std::uint32_t x = 0; x < original.width;) {
+            double in_row = 0;
+            for (const std::uint32_t end = std::min(x + block_side, original.width); x < end; ++x) {
+                const std::size_t at = std::size_t{y} * original.width + x;
+                if (!known[at]) continue;
+                const std::uint8_t* const texel = &original.rgba[4 * at];
+                const RgbaLanes difference = upper[x] * (1 - t) + lower[x] * t - to_lanes(texel);
+                RgbaLanes squares = difference * difference;
+                if (original.has_alpha) {
+                    const float alpha = static_cast<float>(texel[3]) / 255;
+                    squares *= RgbaLanes{alpha, alpha, alpha, 1};
+                } else {
+                    squares[3] = 0;
+                }
+                in_row += squares[0] + squares[1] + squares[2] + squares[3];
+                ++count;
+            }
+            blocks[(x - 1) / block_side] += in_row;
         }
         if (y % block_side + 1 < block_side && y + 1 < original.height) continue;
         for (const double block : blocks) {
