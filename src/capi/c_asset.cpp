@@ -1,8 +1,5 @@
 #include "capi/c_asset.hpp"
 
-#include <string>
-#include <utility>
-
 #include "capi/c_mesh.hpp"
 #include "faqem/bake_onto.hpp"
 #include "scene/check_asset.hpp"

@@ -1,6 +1,5 @@
 #include "render/texture_sampling.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 

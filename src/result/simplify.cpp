@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/position_rounding.hpp"

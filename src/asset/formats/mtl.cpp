@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <set>
 #include <string_view>

@@ -1,10 +1,7 @@
 #include "asset/formats/ply_file.hpp"
 
-#include <algorithm>
-#include <array>
 #include <fstream>
 #include <string_view>
-#include <utility>
 
 #include "asset/formats/formats.hpp"
 

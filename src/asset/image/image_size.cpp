@@ -1,7 +1,6 @@
 #include "asset/image/image_size.hpp"
 
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "asset/image/codecs.hpp"

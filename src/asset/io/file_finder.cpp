@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <system_error>
-#include <utility>
 
 #include "faqem/detail/base/lower_case.hpp"
-#include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {

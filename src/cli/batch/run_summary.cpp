@@ -1,9 +1,7 @@
 #include "cli/batch/run_summary.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
-#include <map>
 #include <unordered_map>
 #include <utility>
 

@@ -1,12 +1,10 @@
 #pragma once
 
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/surface.hpp"
 
 FAQEM_NAMESPACE_BEGIN

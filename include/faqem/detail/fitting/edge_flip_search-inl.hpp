@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/fitting/edge_flip_search.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,11 @@
 #pragma once
 
 #include "faqem/detail/fitting/gauss_newton.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "faqem/detail/base/buckets.hpp"
-#include "faqem/detail/base/parallel.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

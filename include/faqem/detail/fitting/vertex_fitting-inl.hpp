@@ -1,13 +1,11 @@
 #pragma once
 
 #include "faqem/detail/fitting/vertex_fitting.hpp"
-#include "faqem/export.hpp"
 
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "faqem/detail/fitting/edge_flip_search.hpp"
 #include "faqem/detail/fitting/fold_guard.hpp"
 #include "faqem/detail/fitting/gauss_newton.hpp"
 #include "faqem/detail/fitting/two_sided_error.hpp"

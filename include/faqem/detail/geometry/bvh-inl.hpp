@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/geometry/bvh.hpp"
-#include "faqem/export.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,9 +1,6 @@
 #pragma once
 
 #include "faqem/detail/geometry/halfedges.hpp"
-#include "faqem/export.hpp"
-
-#include <algorithm>
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "faqem/detail/geometry/near_triangles.hpp"
-#include "faqem/export.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>

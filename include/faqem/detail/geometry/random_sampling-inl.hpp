@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/geometry/random_sampling.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>

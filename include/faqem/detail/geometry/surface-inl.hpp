@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/geometry/surface.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/geometry/surface_samples.hpp"
-#include "faqem/export.hpp"
 
 #include <cmath>
 #include <cstdint>

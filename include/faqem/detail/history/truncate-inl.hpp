@@ -1,6 +1,5 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/truncate.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/levels.hpp"
 
 #include <cmath>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/forward_map.hpp"
 
 #include <array>

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "faqem/detail/mapping/local_map.hpp"
-#include "faqem/export.hpp"
 
-#include "faqem/detail/mapping/successive_projection.hpp"
 #include "faqem/detail/mapping/surface_map-inl.hpp"
 
 FAQEM_NAMESPACE_BEGIN

@@ -1,13 +1,11 @@
 #pragma once
 
 #include "faqem/detail/mapping/replay.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <span>
 
 #include "faqem/detail/geometry/edge_flip.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"

@@ -1,13 +1,10 @@
 #pragma once
 
 #include "faqem/detail/mapping/successive_projection.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/detail/history/final_versions.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/surface_map.hpp"
 
 #include "faqem/detail/mapping/successive_projection.hpp"

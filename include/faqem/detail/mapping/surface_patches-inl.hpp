@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/mapping/surface_patches.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/compare.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,11 @@
 #pragma once
 
 #include "faqem/detail/measure/hausdorff.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/measure/covering.hpp"
 
 FAQEM_NAMESPACE_BEGIN

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/simplify/block_decimation.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -10,7 +9,6 @@
 #include <utility>
 
 #include "faqem/detail/base/buckets.hpp"
-#include "faqem/detail/base/parallel.hpp"
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/metric/bordered.hpp"
 #include "faqem/engine/metric/memoryless.hpp"

@@ -2,7 +2,6 @@
 
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/simplify/compaction.hpp"
-#include "faqem/export.hpp"
 
 #include <numeric>
 #include <utility>

@@ -1,10 +1,7 @@
 #pragma once
 
 #include "faqem/detail/simplify/error_bound_search.hpp"
-#include "faqem/export.hpp"
 
-#include <algorithm>
-#include <array>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -14,7 +11,6 @@
 #include "faqem/detail/measure/hausdorff.hpp"
 #include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/detail/simplify/presets.hpp"
-#include "faqem/detail/simplify/run.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/simplify/preprocess.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cmath>

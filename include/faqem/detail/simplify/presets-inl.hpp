@@ -3,7 +3,6 @@
 #include <array>
 
 #include "faqem/detail/simplify/presets.hpp"
-#include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
 FAQEM_NAMESPACE_BEGIN

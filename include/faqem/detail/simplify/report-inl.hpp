@@ -1,6 +1,5 @@
 #pragma once
 
-#include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
 #include <array>

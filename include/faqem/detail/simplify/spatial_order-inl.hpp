@@ -1,7 +1,6 @@
 #pragma once
 
 #include "faqem/detail/simplify/spatial_order.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <bit>
