@@ -46,11 +46,10 @@ std::vector<fs::path> referenced_files(const fs::path& model, References which) 
     if (!fs::is_regular_file(model, error)) return {};  // opening a pipe would block
     try {
         // A library is no model, but has references of its own.
-        if (lower_case_extension(model) == library_file_name("")) {
+        if (lower_case_extension(model) == library_file_name(""))
             list_library_references(model, files);
-        } else if (const FileFormat* format = format_of_file(model); format && format->list_references) {
+        else if (const FileFormat* format = format_of_file(model); format && format->list_references)
             format->list_references(model, files);
-        }
     } catch (const fs::filesystem_error&) {  // the model was removed
     }
     return files.finish();

@@ -226,11 +226,10 @@ std::vector<ComplexPoint> least_squares_conformal_map(const ChartMesh& chart_mes
             for (std::size_t k = 0; k < 3; ++k) {
                 const ComplexPoint value = std::conj(local.edge(j)) * local.edge(k) / local.twice_area();
                 const Index column = chart_mesh.vertex(i, k);
-                if (is_pinned(column)) {
+                if (is_pinned(column))
                     right[row] -= value * (column == pinned[0].first ? pinned[0].second : pinned[1].second);
-                } else {
+                else
                     entries.emplace_back(row, column, value);
-                }
             }
         }
     }

@@ -103,11 +103,10 @@ private:
         std::sort(neighbours.begin(), neighbours.end());
         std::size_t count = 0;
         for (const SharedBoundary& s : neighbours) {
-            if (count > 0 && neighbours[count - 1].region == s.region) {
+            if (count > 0 && neighbours[count - 1].region == s.region)
                 neighbours[count - 1].length += s.length;
-            } else {
+            else
                 neighbours[count++] = s;
-            }
         }
         neighbours.resize(count);
     }

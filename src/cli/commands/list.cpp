@@ -74,11 +74,10 @@ int run(const ListArguments& arguments) {
         model.hash = model_hash(model.input, &model.bytes);
         lines += list_line(model, folder);
     }
-    if (arguments.out.empty()) {
+    if (arguments.out.empty())
         std::cout << lines;
-    } else {
+    else
         write_only_output(arguments.out, lines, arguments.force ? Overwrite::yes : Overwrite::no);
-    }
     return exit_ok;
 }
 

@@ -59,11 +59,10 @@ public:
     std::vector<Out> simplify() {
         for (std::size_t i = 0; i < level_targets_.size(); ++i) {
             const std::uint64_t most = targets_.empty() ? faces_ : targets_.back();
-            if (level_targets_[i].faces) {
+            if (level_targets_[i].faces)
                 targets_.push_back(std::min(*level_targets_[i].faces, most));
-            } else if (!search(i, most)) {
+            else if (!search(i, most))
                 return cancelled(out_[i]);
-            }
         }
         // Levels before the one that was cancelled are complete, but not measured, which can take many seconds.
         if (!simplify_to_face_counts()) return cancelled(out_.back());

@@ -127,11 +127,10 @@ struct Found {
         return true;
     }
     void keep(const Piece& piece, double enough) {
-        if (piece.bound_squared <= enough) {
+        if (piece.bound_squared <= enough)
             closed_squared = std::max(closed_squared, piece.bound_squared);
-        } else {
+        else
             open.push_back(piece);
-        }
     }
 };
 

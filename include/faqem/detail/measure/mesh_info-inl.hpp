@@ -48,11 +48,10 @@ inline std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result
         Triangle t = mesh.triangles[f];
         check_indices(t, f, first.size());
         for (Index& v : t) v = first[v];
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
             ++result.degenerate_faces;
-        } else {
+        else
             faces.push_back(t);
-        }
     }
     result.faces = faces.size();
     return faces;

@@ -74,11 +74,10 @@ FAQEM_INLINE std::optional<std::uint64_t> FaceCountSearch::next() {
 FAQEM_INLINE void FaceCountSearch::add_result(std::uint64_t faces, double error, bool within) {
     const auto count = static_cast<double>(faces), target = static_cast<double>(target_);
     if (count > target) reachable_ = std::max(reachable_, std::min(count, good_.faces));
-    if (within && count < good_.faces) {
+    if (within && count < good_.faces)
         good_ = {count, error};
-    } else if (step_ == 0 && target > bad_.faces) {
+    else if (step_ == 0 && target > bad_.faces)
         bad_ = {target, error};
-    }
     // Counts that runs cannot reach are not tried again.
     if (bad_.faces < reachable_ - 1) bad_ = {reachable_ - 1, std::nullopt};
 }
