@@ -16,12 +16,6 @@ inline Vec3f to_vec3f(const Vector3& v) {
     return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-/// Normal of a triangle by its winding, with twice the area as length.
-inline Vector3 area_vector(std::span<const Vec3> positions, const Triangle& t) {
-    return engine::area_vector(to_eigen(positions[t[0]]), to_eigen(positions[t[1]]),
-                               to_eigen(positions[t[2]]));
-}
-
 inline double triangle_area(std::span<const Vec3> positions, const Triangle& t) {
     return area_vector(positions, t).norm() / 2;
 }

@@ -127,10 +127,8 @@ private:
     }
 
     ClosestPoint on_source(Index f, const Vector3& p) const {
-        const Triangle& t = history_.triangles[f];
-        return closest_point_on_triangle(p, to_eigen(history_.positions[t[0]]),
-                                         to_eigen(history_.positions[t[1]]),
-                                         to_eigen(history_.positions[t[2]]));
+        const auto [a, b, c] = corners_of(history_.positions, history_.triangles[f]);
+        return closest_point_on_triangle(p, a, b, c);
     }
 
     bool is_accepted(Index candidate, const Query& q) const {

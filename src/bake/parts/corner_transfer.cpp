@@ -133,10 +133,8 @@ private:
     static constexpr double max_difference = 0.01;  // of UVs at a vertex, relative to an edge of the face
 
     double radius(Index face, std::size_t corner) const {
-        const Triangle& t = mesh_.triangles[face];
-        const Vector3 a = to_eigen(mesh_.positions[t[0]]), b = to_eigen(mesh_.positions[t[1]]),
-                      c = to_eigen(mesh_.positions[t[2]]);
-        return (to_eigen(mesh_.positions[t[corner]]) - (a + b + c) / 3).norm();
+        const std::array<Vector3, 3> t = corners_of(mesh_.positions, mesh_.triangles[face]);
+        return (t[corner] - (t[0] + t[1] + t[2]) / 3).norm();
     }
 
     std::span<float> values(std::uint64_t corner) { return {&to_.values[corner * width_], width_}; }

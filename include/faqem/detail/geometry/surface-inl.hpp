@@ -60,8 +60,7 @@ FAQEM_INLINE Surface extract_surface(const MeshView& mesh) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         const Triangle t = mesh.triangles[f];
         check_indices(t, f, s.positions.size());
-        const Vector3 a = to_eigen(s.positions[t[0]]), b = to_eigen(s.positions[t[1]]),
-                      c = to_eigen(s.positions[t[2]]);
+        const auto [a, b, c] = corners_of(s.positions, t);
         const Vector3 n = engine::area_vector(a, b, c);
         const double longest =
             std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});

@@ -150,8 +150,7 @@ FAQEM_INLINE void SuccessiveProjection::consider(std::uint64_t e, Patch& patch) 
     const Index g = patch.faces[e - patch.begin];
     if (group(g) != query.group) return;
     const Triangle& t = replay_.corners[e];
-    const Vector3 a = to_eigen(replay_.positions[t[0]]), b = to_eigen(replay_.positions[t[1]]),
-                  c = to_eigen(replay_.positions[t[2]]);
+    const auto [a, b, c] = corners_of(replay_.positions, t);
     const bool away = is_facing_away(g, engine::area_vector(a, b, c), query);
     if (away && patch.best.face != no_index) return;
     const bool is_other_surface_patch = surface_patches_.surface_patch[g] != query.surface_patch;
@@ -167,8 +166,8 @@ FAQEM_INLINE void SuccessiveProjection::consider(std::uint64_t e, Patch& patch) 
 FAQEM_INLINE ClosestPoint SuccessiveProjection::on_original(Index face, const Vector3& p0) const {
     const Triangle& t = history_.triangles[face];
     if (t[0] == no_index) return {Vector3::Zero(), {1, 0, 0}, unbounded};
-    return closest_point_on_triangle(p0, to_eigen(history_.positions[t[0]]),
-                                     to_eigen(history_.positions[t[1]]), to_eigen(history_.positions[t[2]]));
+    const auto [a, b, c] = corners_of(history_.positions, t);
+    return closest_point_on_triangle(p0, a, b, c);
 }
 
 FAQEM_INLINE bool SuccessiveProjection::is_accepted(const Bvh::Corners& t, const Query& query) const {
@@ -179,9 +178,8 @@ FAQEM_INLINE bool SuccessiveProjection::is_accepted(const Bvh::Corners& t, const
 FAQEM_INLINE bool SuccessiveProjection::is_accepted(Index f, const Query& query) const {
     const Triangle& t = history_.triangles[f];
     if (t[0] == no_index) return false;
-    return is_accepted({to_eigen(history_.positions[t[0]]), to_eigen(history_.positions[t[1]]),
-                        to_eigen(history_.positions[t[2]]), f},
-                       query);
+    const auto [a, b, c] = corners_of(history_.positions, t);
+    return is_accepted({a, b, c, f}, query);
 }
 
 // Whether a corner of the original face was collapsed into a corner of the simplified face.

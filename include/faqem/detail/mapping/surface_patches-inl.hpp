@@ -80,12 +80,6 @@ inline std::vector<AdjacentFace> adjacent_faces(std::span<const Vec3> positions,
     return result;
 }
 
-inline double area(std::span<const Vec3> positions, const Triangle& t) {
-    return engine::area_vector(to_eigen(positions[t[0]]), to_eigen(positions[t[1]]),
-                               to_eigen(positions[t[2]]))
-        .norm();
-}
-
 FAQEM_INLINE SurfacePatches find_surface_patches(std::span<const Vec3> positions,
                                                  std::span<const Triangle> triangles,
                                                  std::span<const Triangle> unwelded) {
@@ -102,7 +96,7 @@ FAQEM_INLINE SurfacePatches find_surface_patches(std::span<const Vec3> positions
         double signed_area = 0;
         for (std::size_t i = 0; i < faces.size(); ++i) {
             const Index f = faces[i];
-            signed_area += result.sign[f] * area(positions, triangles[f]);
+            signed_area += result.sign[f] * area_vector(positions, triangles[f]).norm();
             for (std::size_t c = 0; c < 3; ++c) {
                 const AdjacentFace& n = next[std::size_t{3} * f + c];
                 if (n.face == no_index || result.surface_patch[n.face] != no_index) continue;
