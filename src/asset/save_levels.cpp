@@ -9,6 +9,7 @@
 #include "asset/gltf/write/levels.hpp"
 #include "asset/scene/flatten.hpp"
 #include "asset/scene/material_textures.hpp"
+#include "asset/scene/part_arrays.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -61,10 +62,8 @@ void append_level(Asset& to, Asset&& level) {
 void divide_into_objects(SavedLevel& level) {
     std::optional<detail::DividedAsset> divided = detail::divided_into_objects(level.asset);
     if (!divided) return;
-    std::vector<double> coverage;
-    for (const std::size_t part : divided->part) coverage.push_back(level.coverage[part]);
     level.asset = std::move(divided->asset);
-    level.coverage = std::move(coverage);
+    level.coverage = detail::gather(level.coverage, divided->part);
 }
 
 /// Values of MSFT_screencoverage for one part, one per level: the coverage below which the next level is

@@ -265,10 +265,7 @@ private:
     // separate coincident faces and, with preserved boundaries, materials.
     void restore_face_groups(std::size_t p, SimplifyResult& result) const {
         result.history.face_groups = face_groups(source_.parts[p], groups_);
-        result.mesh.face_groups.clear();
-        if (result.history.face_groups.empty()) return;
-        for (const Index f : result.face_origin)
-            result.mesh.face_groups.push_back(result.history.face_groups[f]);
+        result.mesh.face_groups = gather(result.history.face_groups, result.face_origin);
     }
 
     // Calls work(part, view, options, context) for every part with faces.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "asset/scene/part_arrays.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/export.hpp"
 
@@ -24,9 +25,7 @@ FAQEM_EXPORT std::vector<std::size_t> measured_indices(const Asset& asset, const
 /// The instances at the measured_indices() of those of the scene.
 inline std::vector<Instance> measured_instances(const Asset& asset) {
     const std::vector<Instance> all = instances(asset);
-    std::vector<Instance> measured;
-    for (const std::size_t i : measured_indices(asset, all)) measured.push_back(all[i]);
-    return measured;
+    return gather(all, measured_indices(asset, all));
 }
 
 }  // namespace faqem::detail

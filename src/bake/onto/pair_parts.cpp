@@ -1,5 +1,7 @@
 #include "bake/onto/pair_parts.hpp"
 
+#include "asset/scene/part_arrays.hpp"
+
 namespace faqem::detail {
 namespace {
 
@@ -13,12 +15,6 @@ double common_share(Box a, Box b) {
     for (Box* box : {&a, &b}) *box = Box(box->min().array() - margin, box->max().array() + margin);
     const Box both = a.intersection(b);
     return both.isEmpty() ? 0 : both.volume() / (a.volume() + b.volume() - both.volume());
-}
-
-std::vector<Index> by_face(const BoxedParts& parts, const std::vector<Index>& pair) {
-    std::vector<Index> result;
-    for (const Index p : parts.of_face) result.push_back(pair[p]);
-    return result;
 }
 
 }  // namespace
@@ -37,7 +33,7 @@ FacePairs pair_parts(const BoxedParts& source, const BoxedParts& target) {
         }
         if (of_source[s] != 0) of_target[of_source[s] - 1] = of_source[s];
     }
-    return {by_face(source, of_source), by_face(target, of_target)};
+    return {gather(of_source, source.of_face), gather(of_target, target.of_face)};
 }
 
 }  // namespace faqem::detail
