@@ -52,8 +52,8 @@ bool show_all(std::span<const PlacedMesh> meshes, std::span<Camera> cameras);
 /// A point in a picture.
 struct ScreenPoint {
     Eigen::Vector2d at;  ///< in pixels, y points down
-    double inverse_depth =
-        0;  ///< 1 / distance along the view axis, which is linear in the picture; > 0 if it is seen
+    /// 1 / distance along the view axis, which is linear in the picture; > 0 if it is seen.
+    double inverse_depth = 0;
 };
 
 /// The corners of a face in a picture.

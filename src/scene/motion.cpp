@@ -105,8 +105,8 @@ std::vector<Triangle> welded_by_motion(const Part& part, const MotionRounding& r
     for (Index v = 0; v < is_used.size(); ++v)
         if (is_used[v]) used.push_back(v), positions.push_back(part.positions[v]);
     const std::vector<Index> near = engine::weld_within(positions, distance);
-    std::vector<std::vector<Index>> others(
-        used.size());  // by first vertex at a position: those that differ from it
+    // By first vertex at a position: those that differ from it.
+    std::vector<std::vector<Index>> others(used.size());
     std::vector<Index> welded(part.positions.size(), no_index);
     bool any = false;
     for (std::size_t i = 0; i < used.size(); ++i) {

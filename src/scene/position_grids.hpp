@@ -16,8 +16,8 @@ struct PositionGrids {
     std::vector<double> spacings;  ///< by part: Part::position_spacing; empty: all 0
     std::vector<double> scales;    ///< by part: the largest scale of its instances
     double spacing = 0;            ///< the largest of the grids in scene units
-    bool is_left_out =
-        false;  ///< grids of the source are not used, since they are coarse for Options::max_error
+    /// Grids of the source are not used, since they are coarse for Options::max_error.
+    bool is_left_out = false;
 
     /// Largest distance by which the rounding moves a point of the surface, scene units.
     double max_distance() const;

@@ -92,8 +92,8 @@ private:
 
     double allowed_, bytes_ = 0;
     ReferenceList* files_;
-    std::size_t depth_ =
-        0;  // number of objects and arrays around the current value; the document has depth 1
+    // Number of objects and arrays around the current value; the document has depth 1.
+    std::size_t depth_ = 0;
     std::string key_, top_key_;  // the last one; the last one of the document
 };
 

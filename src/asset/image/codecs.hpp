@@ -45,8 +45,8 @@ enum class Chroma { full, half };
 /// for are coarser at high frequencies, as for pictures that are viewed from one distance, which textures are not. At
 /// the same error, files are 15 to 25% smaller (docs/measurements/appearance.md, "Image formats").
 struct JpegRounding {
-    std::uint32_t step =
-        16;  ///< in [1, 100]: step of the lowest frequency; that of the highest is 2.4 times as large
+    /// In [1, 100]: step of the lowest frequency; that of the highest is 2.4 times as large.
+    std::uint32_t step = 16;
     Chroma chroma = Chroma::full;
 };
 

@@ -66,8 +66,8 @@ public:
 
 private:
     static constexpr Index leaf_size = 4;
-    static constexpr double rounding_margin =
-        1e-12;  // far above the rounding errors of coordinates in [-1, 1]
+    // Far above the rounding errors of coordinates in [-1, 1].
+    static constexpr double rounding_margin = 1e-12;
 
     struct Box {
         PlanarPoint low, high;

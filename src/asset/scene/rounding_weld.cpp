@@ -20,8 +20,8 @@ namespace faqem::detail {
 namespace {
 
 constexpr double share_of_length = 1.0 / 4;  // the most that a tolerance may be
-constexpr double share_of_length_at_distance =
-    1.0 / 64;  // the same, for the rounding of coordinates elsewhere
+// The same, for the rounding of coordinates elsewhere.
+constexpr double share_of_length_at_distance = 1.0 / 64;
 constexpr double near_factor = 10;
 constexpr int most_candidates = 1000;  // among which the partner of an edge is searched
 
@@ -66,8 +66,8 @@ public:
             const double r = std::min(reach_[i], std::ldexp(1.0, level.size - 1));
             Vec3 p = points_[i], q = p;
             for (std::size_t k = 0; k < 3; ++k) p[k] -= r, q[k] += r;
-            const Vec3 low = cell_of(p, level.size),
-                       high = cell_of(q, level.size);  // the same or the next one
+            // The same or the next one.
+            const Vec3 low = cell_of(p, level.size), high = cell_of(q, level.size);
             for (unsigned corner = 0; corner < 8; ++corner) {
                 Vec3 cell = low;
                 bool is_new = true;
@@ -142,9 +142,7 @@ std::vector<VertexPair> boundary_edges(const std::vector<Triangle>& triangles,
     std::vector<VertexPair> found;
     for (Index a = 0; a < representative.size(); ++a) {
         const std::span<Side> own = std::span(sides.items()).subspan(sides.begin()[a], sides[a].size());
-        std::ranges::sort(own, [](const Side& s, const Side& t) {
-            return std::pair(s.end, s.opposite) < std::pair(t.end, t.opposite);
-        });
+        std::ranges::sort(own, {}, [](const Side& side) { return std::pair(side.end, side.opposite); });
         for (std::size_t i = 0, next; i < own.size(); i = next) {
             for (next = i + 1; next < own.size() && own[next].end == own[i].end;) ++next;
             if (own[i].opposite == own[next - 1].opposite) found.push_back({a, own[i].end});

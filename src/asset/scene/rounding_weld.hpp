@@ -17,8 +17,8 @@ struct RoundingWeld {
     /// By vertex: the vertex whose position it gets, itself for most. Empty if no position changes.
     std::vector<Index> representative;
     std::uint64_t welded = 0;  ///< number of different positions that become equal to another one
-    std::uint64_t near_edges =
-        0;  ///< number of boundary edges that have a partner nearby, but are not welded
+    /// Number of boundary edges that have a partner nearby, but are not welded.
+    std::uint64_t near_edges = 0;
     std::vector<std::string> messages;  ///< what was found, in sentences for a report
 
     /// Moves the vertices that are welded. Positions that are equal to the new ones keep the sign of their zeros.

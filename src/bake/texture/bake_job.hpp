@@ -20,8 +20,8 @@ struct BakeJob {
     const BakeOptions& options;
     std::span<const BakePart> parts;  ///< by part of the source, as map_parts() makes them
     const RunContext& context;
-    bool needs_attributes =
-        false;  ///< whether bake_keep() throws instead of transferring UVs and vertex colours
+    /// Whether bake_keep() throws instead of transferring UVs and vertex colours.
+    bool needs_attributes = false;
 };
 
 /// Bakes new images with a new atlas.

@@ -20,8 +20,8 @@ struct RunArguments {
     std::string extension;  ///< of outputs that the list does not name, with the dot
     Shard shard = {};
     std::string list_hash = {};  ///< SHA-256 of the list, which models_of_shard() sets
-    bool resumes =
-        false;  ///< without a list: results that are up to date are skipped; with one they are always
+    /// Without a list: results that are up to date are skipped; with one they are always.
+    bool resumes = false;
     bool redoes = false;        ///< with a list: also models that are done
     bool replaces_run = false;  ///< with a list: the directory may have the results of another run
 };

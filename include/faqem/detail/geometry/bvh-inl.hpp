@@ -174,8 +174,8 @@ FAQEM_INLINE Bvh::Query::Query(const Vector3& p, const Frame& frame) {
     const Vector3 local = frame(p);
     for (int i = 0; i < 3; ++i) {
         const auto x = static_cast<float>(local[i]);
-        const float error =
-            1.5e-7f * std::abs(x) + 1e-15f;  // rounding to float here, and in double in the frame
+        // Rounding to float here, and in double in the frame.
+        const float error = 1.5e-7f * std::abs(x) + 1e-15f;
         low[static_cast<std::size_t>(i)] = x - error;
         high[static_cast<std::size_t>(i)] = x + error;
     }

@@ -44,8 +44,8 @@ public:
 
     /// What a query leaves for the next ones near it.
     struct Recent {
-        std::size_t entry =
-            max_size;  ///< place in the list of the triangle closest to `at`; max_size: unknown
+        /// Place in the list of the triangle closest to `at`; max_size: unknown.
+        std::size_t entry = max_size;
         Vector3 at = Vector3::Zero();
         double others = 0;  ///< lower bound of the distance of all other triangles of the list from `at`
         std::optional<Plane> plane;  ///< of the triangle, if projection() has needed it

@@ -80,8 +80,8 @@ FAQEM_INLINE SimplifiedPoint ForwardMap::map(Index face, const Vec3& barycentric
     std::array<engine::Vector3, 3> at;
     for (std::size_t k = 0; k < 3; ++k) at[k] = engine::to_eigen(impl_->history.positions[corners[k]]);
     const engine::Vector3 p = barycentric[0] * at[0] + barycentric[1] * at[1] + barycentric[2] * at[2];
-    const engine::Vector3 normal =
-        engine::area_vector(at[0], at[1], at[2]).normalized();  // zero for a face of zero area
+    // Zero for a face of zero area.
+    const engine::Vector3 normal = engine::area_vector(at[0], at[1], at[2]).normalized();
     Impl::Best best;
     for (const Index v : corners)
         if (impl_->vertex[v] != no_index) impl_->search_vertex_faces(impl_->vertex[v], p, normal, best);

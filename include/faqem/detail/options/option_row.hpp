@@ -50,9 +50,9 @@ enum EntryPoint : unsigned {
 
 /// Value of an option.
 struct OptionValue {
-    std::optional<double> number =
-        {};                 ///< number of the enumerator if the option is a choice; nothing: unset
-    bool is_given = false;  ///< false: unset, and `number` is the default if there is one
+    /// Number of the enumerator if the option is a choice; nothing: unset.
+    std::optional<double> number = {};
+    bool is_given = false;                    ///< false: unset, and `number` is the default if there is one
     Length::Unit unit = Length::Unit::model;  ///< of lengths
 };
 

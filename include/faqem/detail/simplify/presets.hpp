@@ -18,8 +18,8 @@ struct Settings {
     engine::CompositeWeights weights = {};
     LinkCondition link = LinkCondition::off;
     bool fit_vertices = false;  ///< vertices are fitted to the original after the last collapse
-    double min_fold_cosine =
-        -1;  ///< fold test: smallest cosine between the normals of adjacent faces; -1: off
+    /// Fold test: smallest cosine between the normals of adjacent faces; -1: off.
+    double min_fold_cosine = -1;
     double min_normal_cosine = 0;  ///< flip test: smallest cosine between old and new normal of a face
     /// Bounding-box diagonal in engine units. It matters for the paper's terms, which have different units.
     double diagonal = 1;

@@ -85,8 +85,8 @@ private:
     /// A part of a path that starts at `begin`.
     struct Growth {
         std::size_t end;  ///< last vertex
-        std::size_t turns =
-            0;  ///< vertices between the first and the last one at which the direction changes
+        /// Vertices between the first and the last one at which the direction changes.
+        std::size_t turns = 0;
         std::size_t first_turn;  ///< `end` if there is none
         std::size_t last_turn;
         Vector3 axis = Vector3::Zero();

@@ -53,8 +53,8 @@ void for_each_edge(std::span<const Triangle> triangles, std::size_t vertices, Vi
     };
     for_each_side([&](Index a, Index) { ++offsets[a + 1]; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    std::vector<Index> larger(
-        offsets.back());  // twice the larger end, plus 1 for the direction to the smaller one
+    // Twice the larger end, plus 1 for the direction to the smaller one.
+    std::vector<Index> larger(offsets.back());
     for_each_side([&](Index a, Index side) { larger[offsets[a]++] = side; });
     std::size_t begin = 0;
     for (Index a = 0; a < vertices; ++a) {  // offsets[a] is now the end of the edges of a

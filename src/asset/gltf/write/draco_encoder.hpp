@@ -15,8 +15,8 @@ namespace faqem::detail {
 /// Steps to which the floats of an attribute are rounded: origin + k * range / (2^bits - 1).
 struct DracoRounding {
     std::uint32_t bits = 0;
-    bool is_octahedral =
-        false;  ///< unit vectors: of each of two octahedral coordinates, without origin and range
+    /// Unit vectors: of each of two octahedral coordinates, without origin and range.
+    bool is_octahedral = false;
     std::vector<float> origin;  ///< per component
     float range = 0;            ///< of all components
 };

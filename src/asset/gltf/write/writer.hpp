@@ -25,8 +25,8 @@ struct PrimitiveData {
     std::vector<Vec3f> positions, normals;
     std::vector<Vec4f> tangents, colors, weights;
     std::vector<std::array<std::uint16_t, 4>> joints;
-    std::size_t degenerate_faces =
-        0;  ///< triangles of which two distinct corner positions are equal after rounding to float
+    /// Triangles of which two distinct corner positions are equal after rounding to float.
+    std::size_t degenerate_faces = 0;
 };
 
 /// The output document under construction, and maps from source and asset objects to output objects.
@@ -50,8 +50,8 @@ struct GltfWriter {
     std::map<std::tuple<Wrap, Wrap, Filter>, Index> samplers = {};
     std::vector<const Image*> images = {};    ///< the output images, borrowed
     std::deque<Image> converted_images = {};  ///< images of kinds that glTF does not have, as PNG
-    std::vector<Index> source_image_of =
-        {};  ///< per asset image: a source image with equal bytes, or no_index
+    /// Per asset image: a source image with equal bytes, or no_index.
+    std::vector<Index> source_image_of = {};
     /// Per source image, after write_numbered_objects(): the asset image that is written instead, or no_index.
     std::vector<Index> replaced_images = {};
     std::vector<Index> mesh_map = {};  ///< source mesh to output mesh; no_index if it was left out
