@@ -119,10 +119,9 @@ Pixels compose_contact_sheet(const std::vector<ContactSheetRow>& rows) {
         for (std::uint32_t c = 0; c < rows[r].frames.size(); ++c)
             paste(sheet, rows[r].frames[c], c * size, r * size);
         const std::uint32_t margin = 6 * dot_size;
-        if (size > glyph_height * dot_size + 2 * margin) {
+        if (size > glyph_height * dot_size + 2 * margin)
             draw_text(sheet, rows[r].label, margin, r * size + size - margin - glyph_height * dot_size,
                       dot_size);
-        }
     }
     return sheet;
 }

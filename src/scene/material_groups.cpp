@@ -43,10 +43,9 @@ bool is_wound_against_normals(const Part& part, const Triangle& t) {
 std::vector<FaceAppearance> face_appearances(const Part& part) {
     std::vector<FaceAppearance> result;
     result.reserve(part.triangles.size());
-    for (const Triangle& t : part.triangles) {
+    for (const Triangle& t : part.triangles)
         result.push_back(
             {face_material(part, static_cast<Index>(result.size())), is_wound_against_normals(part, t)});
-    }
     return result;
 }
 

@@ -375,10 +375,9 @@ std::optional<ChartPage> pack_charts(std::span<const Chart> charts, std::size_t 
     search.start(std::sqrt(0.55 * double(width) * height / area));
     std::map<double, std::optional<ChartPacking>> attempts;  // nothing: the charts do not fit
     for (bool last = true; !search.is_done();) {
-        if (!attempts.contains(search.next)) {
+        if (!attempts.contains(search.next))
             attempts = attempt_all(search.likely_scales(last, thread_count(context.threads)), shapes, width,
                                    height, context);
-        }
         std::optional<ChartPacking>& attempt = attempts[search.next];
         last = attempt.has_value();
         if (attempt) best = std::move(attempt);

@@ -55,10 +55,9 @@ bool take_sample(const PageRequest& page, TexelProjector& projector, std::uint32
     const double dx = at.x - x - 0.5, dy = at.y - y - 0.5;
     to.squared_distance = dx * dx + dy * dy;
     to.appearance = page.sampler.sample(part, point, projector.spacing());
-    if (page.channels[CoreTexture::normal]) {
+    if (page.channels[CoreTexture::normal])
         to.normal = projector.to_tangent_space(
             at, page.sampler.normal(part, point, projector.spacing(), projector.face_normal(at)));
-    }
     sample_layers(page, projector, at, to);
     return true;
 }

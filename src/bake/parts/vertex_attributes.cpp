@@ -26,10 +26,9 @@ void blend_skin(const Part& from, const SurfacePoint& point, Part& to) {
 
 Vec3f blend(const std::vector<Vec3f>& values, const Triangle& t, const Vec3& w) {
     Vec3f result;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
         result[k] =
             static_cast<float>(w[0] * values[t[0]][k] + w[1] * values[t[1]][k] + w[2] * values[t[2]][k]);
-    }
     return result;
 }
 
@@ -147,10 +146,9 @@ void transfer_skin_and_morphs(const BakePart& bake_part, WeldedPart& welded,
         if (skin) blend_skin(from, point, to);
         for (std::size_t m = 0; m < from.morph_targets.size(); ++m) {
             const MorphTarget& target = from.morph_targets[m];
-            if (!target.positions.empty()) {
+            if (!target.positions.empty())
                 to.morph_targets[m].positions.push_back(
                     blend(target.positions, from.triangles[point.face], point.barycentric));
-            }
             if (target.normals.empty() || to.normals.empty()) continue;
             const SurfacePoint own = bake_part.map->map(static_cast<Index>(corner / 3),
                                                         barycentrics_near_corner(corner % 3, 0.02));

@@ -43,10 +43,9 @@ void check_parts_match(const Asset& source, const SimplifiedParts& simplified) {
         const bool history_fits = part.history.remaining_faces.size() == part.mesh.triangles.size() &&
                                   (part.mesh.triangles.empty() ||
                                    part.history.triangles.size() == source.parts[p].triangles.size());
-        if (!history_fits) {
+        if (!history_fits)
             throw InputError("", part_title(source, p),
                              "the history of the simplified mesh is missing or does not match the part");
-        }
     }
 }
 

@@ -146,10 +146,9 @@ void add_occlusion_roughness_metallic(PageImageList& list, const Channels& chann
     const bool has_occlusion = channels[CoreTexture::occlusion] && occlusion != 255.0f;
     const bool is_varying = channels[CoreTexture::metallic_roughness] && !(roughness && metallic);
     TextureRef texture;
-    if (has_occlusion || is_varying) {
+    if (has_occlusion || is_varying)
         texture = list.add(std::move(images.plain[orm_image]), known, "_occlusionRoughnessMetallic",
                            TextureContent::data, from);
-    }
     if (has_occlusion) result.occlusion_texture = texture;
     if (!channels[CoreTexture::metallic_roughness]) return;
     result.metallic = is_varying ? 1 : *metallic / 255;

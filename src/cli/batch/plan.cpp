@@ -61,10 +61,9 @@ void assign_output_paths(std::vector<BatchFile>& files, const fs::path& out_fold
         file.out_name = fs::path(file.name).replace_extension(extension).generic_string();
         file.out = out_folder / file.out_name;
         const auto [other, is_new] = output_names.emplace(file.out_name, &file);
-        if (!is_new) {
+        if (!is_new)
             throw OptionError(file.out.string() + ": two models have this output file: " +
                               other->second->in.string() + " and " + file.in.string());
-        }
     }
 }
 

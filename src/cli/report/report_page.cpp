@@ -125,10 +125,9 @@ std::string scripts(const ReportPage& page) {
 
 std::string ramp_stops() {
     std::string stops;
-    for (const auto& color : heat_ramp) {
+    for (const auto& color : heat_ramp)
         stops += (stops.empty() ? "rgb(" : ", rgb(") + std::to_string(color[0]) + " " +
                  std::to_string(color[1]) + " " + std::to_string(color[2]) + ")";
-    }
     return stops;
 }
 

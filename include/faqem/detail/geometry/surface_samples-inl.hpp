@@ -25,10 +25,9 @@ inline Vec3 even_barycentric(std::size_t k) {
 FAQEM_INLINE std::vector<Vector3> unit_normals(const MeshRef& mesh) {
     std::vector<Vector3> normals;
     normals.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.triangles)
         normals.push_back(t[0] == no_index ? Vector3(Vector3::Zero())
                                            : area_vector(mesh.positions, t).normalized());
-    }
     return normals;
 }
 

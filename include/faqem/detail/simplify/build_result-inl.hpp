@@ -136,16 +136,14 @@ FAQEM_INLINE void finish_report(const Options& options, const Settings& settings
     Report& report = result.report;
     const Weights& w = options.weights;
     if (settings.quadric_policy != Settings::QuadricPolicy::memory &&
-        (w.area || w.boundary || w.normal || w.uv || w.plane_area)) {
+        (w.area || w.boundary || w.normal || w.uv || w.plane_area))
         report.warnings.push_back("weights are ignored: preset " + std::string(name(options.preset)) +
                                   " does not use them (qem, paper and stmw do)");
-    }
     report.faces_out = result.mesh.triangles.size();
     report.vertices_out = result.mesh.positions.size();
-    if (report.faces_dropped > 0) {
+    if (report.faces_dropped > 0)
         report.warnings.push_back(std::to_string(report.faces_dropped) +
                                   " degenerate or duplicate faces were removed");
-    }
     report.components_pruned = prepared.pruned.components;
     report.faces_pruned = prepared.pruned.faces.size();
     if (report.components_pruned > 0) {
@@ -153,10 +151,9 @@ FAQEM_INLINE void finish_report(const Options& options, const Settings& settings
                                   " components smaller than the given size were pruned, with " +
                                   std::to_string(report.faces_pruned) + " faces");
     }
-    if (report.components_deleted > 0) {
+    if (report.components_deleted > 0)
         report.warnings.push_back(std::to_string(report.components_deleted) +
                                   " small components were deleted to reach the target");
-    }
     if (report.stop == StopReason::no_legal_collapse && !options.max_error) {
         const auto most = std::max_element(report.refusals.begin(), report.refusals.end());
         const auto refusal = static_cast<Refusal>(most - report.refusals.begin());

@@ -200,10 +200,9 @@ FAQEM_INLINE void report_search(Report& report, std::uint64_t undecided_count) {
             "no mesh within max_error was found: welding alone moves the surface farther");
     } else {
         report.stop = StopReason::reached_max_error;
-        if (report.collapses == 0 && report.components_deleted == 0) {
+        if (report.collapses == 0 && report.components_deleted == 0)
             report.warnings.push_back(
                 "no smaller mesh within max_error was found: the result is the welded input");
-        }
     }
     if (undecided_count > 0) {
         report.warnings.push_back(std::to_string(undecided_count) +

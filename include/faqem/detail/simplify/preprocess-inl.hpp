@@ -30,10 +30,9 @@ inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
 inline void check_sizes(const MeshView& mesh) {
     if (mesh.positions.size() >= no_index)
         fail("positions", "has " + std::to_string(mesh.positions.size()) + " vertices, more than 2^32 - 2");
-    if (mesh.triangles.size() > engine::max_faces) {
+    if (mesh.triangles.size() > engine::max_faces)
         fail("triangles", "has " + std::to_string(mesh.triangles.size()) + " faces, more than " +
                               std::to_string(engine::max_faces));
-    }
     const auto check_count = [](std::size_t count, std::size_t needed, const char* name,
                                 const char* element) {
         if (count == 0 || count == needed) return;
@@ -216,10 +215,9 @@ FAQEM_INLINE PreprocessedMesh preprocess(const MeshView& mesh, const Settings& s
     drop_duplicate_faces(mesh.face_groups, out);
     context.check_now();
     find_scale(settings.diagonal, out);
-    if (settings.prune) {
+    if (settings.prune)
         out.pruned = prune(out.positions, welded_locks(mesh, out.welded, out.positions.size()),
                            *settings.prune, out.triangles);
-    }
     return out;
 }
 

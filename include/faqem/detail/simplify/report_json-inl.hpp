@@ -99,10 +99,9 @@ FAQEM_INLINE std::string to_json(const Report& report) {
                              {"runs", e.runs},
                              {"within", e.within()}};
     }
-    if (report.position_rounding) {
+    if (report.position_rounding)
         json["position_rounding"] = {{"spacing", report.position_rounding->spacing},
                                      {"max_error", report.position_rounding->max_error}};
-    }
     json["collapses"] = report.collapses;
     json["refusals"] = detail::counts(report.refusals, detail::refusal_names);
     json["rungs"] = detail::counts(report.rungs, detail::rung_names);

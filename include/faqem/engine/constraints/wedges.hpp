@@ -87,10 +87,9 @@ public:
             search(mesh, u, m.at_u, p, best);
             search(mesh, v, m.at_v, p, best);
             const Index nearer = v_is_nearer ? m.at_v : m.at_u;
-            for (std::uint32_t k = 0; k < width_; ++k) {
+            for (std::uint32_t k = 0; k < width_; ++k)
                 new_values.push_back(best.face != no_index ? interpolate(best, k)
                                                            : values_[std::size_t{nearer} * width_ + k]);
-            }
         }
         for (std::size_t i = 0; i < matches_.size(); ++i) {
             std::copy_n(&new_values[i * width_], width_, &values_[std::size_t{matches_[i].at_u} * width_]);
