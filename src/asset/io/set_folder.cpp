@@ -61,8 +61,7 @@ void complete_set(const SetFolder& set, int new_files) {
         if (!is_unchanged(set, new_files, old_files.get(), name.c_str()))
             throw WriteError((set.folder / name).string() +
                              ": belongs to a set of files that an interrupted run replaced only in part, and "
-                             "was changed since; "
-                             "check the files, then delete " +
+                             "was changed since; check the files, then delete " +
                              set.path().string());
     for (const std::string& name : names) {
         struct stat now = {};

@@ -126,10 +126,9 @@ void bake_parts(const Asset& scene, const Asset& source, const Asset& target, co
                                                            out.asset.asset.materials, options.bake, context);
     }
     if (coverage.unmatched_parts.size() == flat.pieces.size())
-        throw InputError(
-            "", "target",
-            "no point of it is near the source, on the side that the source shows: they must be at the "
-            "same place and of the same size, or max_distance must be larger");
+        throw InputError("", "target",
+                         "no point of it is near the source, on the side that the source shows: they must be "
+                         "at the same place and of the same size, or max_distance must be larger");
     textured.materials = std::move(out.asset.asset.materials);
     textured.images = std::move(out.asset.asset.images);
     textured.format = options.format;

@@ -241,8 +241,7 @@ UnencodedResult bake_unencoded(const Asset& given, const SimplifiedParts& simpli
             std::any_of(source.images.begin(), source.images.end(), is_passed_through))
             out.asset.report.warnings.push_back(
                 "images of KTX2, AVIF, DDS and of unknown kinds cannot be baked: the UVs and images of the "
-                "source are "
-                "kept");
+                "source are kept");
         bake_parts(source, simplified, options.bake, requested.bake.kind, false, context, out);
     };
     return run_bake(given, simplified, requested, context, work);

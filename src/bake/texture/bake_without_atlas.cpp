@@ -68,10 +68,9 @@ std::vector<Vec4f> kept_tangents(const Asset& source, const BakePart& part,
 // \return the number of faces that cross borders of UV charts
 std::uint64_t keep_part(const BakeJob& job, const BakePart& part, Part& to) {
     if (!has_corner_attributes(part) && job.needs_attributes) {
-        throw InputError(
-            "", part_title(job.source, part.index),
-            "the simplified mesh must have the source's UVs and vertex colours as attributes, which "
-            "simplify_parts() transfers if bake.kind is Bake::keep");
+        throw InputError("", part_title(job.source, part.index),
+                         "the simplified mesh must have the source's UVs and vertex colours as attributes, "
+                         "which simplify_parts() transfers if bake.kind is Bake::keep");
     }
     KeptCorners kept = kept_corners(part, job.context);
     if (part.writes_normals)

@@ -289,26 +289,24 @@ int run(LodArguments arguments) {
 
 /// The options that only this command has.
 std::vector<OptionInfo> chain_options(LodArguments& a) {
-    return {
-        list_option(
-            "--levels", a.levels,
-            "Comma-separated, from fine to coarse; 0.5 or 50% (ratio of faces), 5000 (number of faces), "
-            "error:0.01 (distance in model units), error:0.1% (of the diagonal) or pixels:1@50 (the "
-            "size of 1 pixel at distance 50) (default 0.5,0.25,0.1,0.01)"),
-        flag_option("--without-original", a.without_original,
-                    "LOD0 is the first level instead of the original"),
-        text_option("--textures", "each|shared", a.textures,
-                    "New textures; each (one for every level; default), shared (one for all levels, baked "
-                    "for the finest)"),
-        format_option(a.format),
-        text_option("--history", "FILE", a.history,
-                    "Write the history of all levels to this file; for faqem truncate"),
-        rare(number_option("--pixel-error", "N", a.view_settings.pixel_error, above_zero,
-                           "Allowed error in pixels, for switch distances (default 1)")),
-        rare(number_option("--fov", "ANGLE", a.view_settings.fov, {.min = 1, .max = 179},
-                           "Vertical field of view in degrees, for switch distances (default 60)")),
-        rare(number_option("--screen-height", "N", a.view_settings.screen_height, from_one(1 << 20),
-                           "Screen height in pixels, for switch distances (default 1080)"))};
+    return {list_option("--levels", a.levels,
+                        "Comma-separated, from fine to coarse; 0.5 or 50% (ratio of faces), 5000 (number of "
+                        "faces), error:0.01 (distance in model units), error:0.1% (of the diagonal) or "
+                        "pixels:1@50 (the size of 1 pixel at distance 50) (default 0.5,0.25,0.1,0.01)"),
+            flag_option("--without-original", a.without_original,
+                        "LOD0 is the first level instead of the original"),
+            text_option("--textures", "each|shared", a.textures,
+                        "New textures; each (one for every level; default), shared (one for all levels, "
+                        "baked for the finest)"),
+            format_option(a.format),
+            text_option("--history", "FILE", a.history,
+                        "Write the history of all levels to this file; for faqem truncate"),
+            rare(number_option("--pixel-error", "N", a.view_settings.pixel_error, above_zero,
+                               "Allowed error in pixels, for switch distances (default 1)")),
+            rare(number_option("--fov", "ANGLE", a.view_settings.fov, {.min = 1, .max = 179},
+                               "Vertical field of view in degrees, for switch distances (default 60)")),
+            rare(number_option("--screen-height", "N", a.view_settings.screen_height, from_one(1 << 20),
+                               "Screen height in pixels, for switch distances (default 1080)"))};
 }
 
 }  // namespace

@@ -55,13 +55,12 @@ std::vector<Picture> draw_pictures(const ReportArguments& arguments, const Flatt
     };
     const std::string both =
         "The first model in the upper row, the second below it, rendered with the same cameras";
-    return {
-        {draw(scenes, render::Edges::hidden), "Shaded. " + both + ".", both + "."},
-        {draw(scenes, render::Edges::drawn), "With mesh edges.", both + ", with mesh edges."},
-        {draw(errors, render::Edges::hidden),
-         "Distance to the other model: from dark (zero) to yellow (the 99.5th percentile of the vertices' "
-         "distances, and above).",
-         both + ", coloured by the distance to the other model."}};
+    return {{draw(scenes, render::Edges::hidden), "Shaded. " + both + ".", both + "."},
+            {draw(scenes, render::Edges::drawn), "With mesh edges.", both + ", with mesh edges."},
+            {draw(errors, render::Edges::hidden),
+             "Distance to the other model: from dark (zero) to yellow (the 99.5th percentile of the "
+             "vertices' distances, and above).",
+             both + ", coloured by the distance to the other model."}};
 }
 
 /// Returns the data of the 3D view. Returns nothing and adds a note to the page if the view is not available.

@@ -121,10 +121,9 @@ CommandInfo truncate_command() {
     add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write));
     OptionInfo faces = number_option("--faces", "N", arguments->faces, from_one(), "Maximum number of faces");
     faces.is_required = true;
-    add_options(command.options,
-                {faces, text_option("--source", "FILE", arguments->source,
-                                    "The original model, for the appearance; without it: geometry "
-                                    "only. The options of baking are about it")});
+    add_options(command.options, {faces, text_option("--source", "FILE", arguments->source,
+                                                     "The original model, for the appearance; without it: "
+                                                     "geometry only. The options of baking are about it")});
     add_options(command.options, table_options(detail::in_truncate, arguments->options));
     add_options(command.options, {strict_option(arguments->strict), force_option(arguments->force),
                                   quiet_option(arguments->quiet)});

@@ -181,12 +181,11 @@ OptionInfo profile_option() {
 }
 
 OptionInfo builtin_profile_option() {
-    OptionInfo info{
-        {"--profile"},
-        names("|"),
-        "Options for web viewers or game engines; faqem profiles shows them. Those typed and those of "
-        "--config take precedence",
-        detail::OptionKind::choice};
+    OptionInfo info{{"--profile"},
+                    names("|"),
+                    "Options for web viewers or game engines; faqem profiles shows them. Those typed and "
+                    "those of --config take precedence",
+                    detail::OptionKind::choice};
     info.read = [](const std::vector<std::string>& values, bool) { builtin_profile(values.back()); };
     return info;
 }

@@ -26,12 +26,11 @@ inline std::string_view without_compression(const Options& o) {
 }
 
 inline constexpr OptionRow appearance_rows[] = {
-    option_row<&Options::budget>(
-        {.name = "budget",
-         .choices = "scene|mesh",
-         .help = "How the faces are distributed among the meshes of a scene; scene (by error), mesh (in "
-                 "proportion to their face counts)",
-         .entry_points = in_all_but_truncate}),
+    option_row<&Options::budget>({.name = "budget",
+                                  .choices = "scene|mesh",
+                                  .help = "How the faces are distributed among the meshes of a scene; scene "
+                                          "(by error), mesh (in proportion to their face counts)",
+                                  .entry_points = in_all_but_truncate}),
     option_row<&Options::visibility>({.name = "visibility",
                                       .choices = "ignored|weighted",
                                       .help = "Errors on hidden surface; ignored (visibility has no effect), "
@@ -128,9 +127,8 @@ inline constexpr OptionRow appearance_rows[] = {
     option_row<&Options::bake, &BakeOptions::untouched>(
         {.name = "untouched",
          .choices = "auto|kept|baked",
-         .help =
-             "Meshes of which the simplification changed nothing: auto (kept unless another option changes "
-             "their images or normals), kept, baked"}),
+         .help = "Meshes of which the simplification changed nothing: auto (kept unless another option "
+                 "changes their images or normals), kept, baked"}),
     option_row<&Options::bake, &BakeOptions::samples>(
         {.name = "samples", .range = {.min = 1, .max = 8}, .help = "Samples per texel along each axis"}),
     option_row<&Options::bake, &BakeOptions::correspondence>(

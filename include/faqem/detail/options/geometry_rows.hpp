@@ -80,9 +80,8 @@ inline constexpr OptionRow geometry_rows[] = {
         {.name = "max-seconds",
          .range = {.excludes_min = true},
          .value_name = "S",
-         .help =
-             "Stop after this time; the collapses end above the target, and images that are not baked yet "
-             "are kept. Results then depend on the machine",
+         .help = "Stop after this time; the collapses end above the target, and images that are not baked "
+                 "yet are kept. Results then depend on the machine",
          .entry_points = in_simplify_and_batch}),
     option_row<&Options::preset>({.name = "preset",
                                   .choices = "qem|paper|stmw|fast|balanced|best",
@@ -132,9 +131,8 @@ inline constexpr OptionRow geometry_rows[] = {
         {.name = "prune",
          .range = {.excludes_min = true},
          .value_name = "LENGTH",
-         .help =
-             "Delete connected components below a size, as 0.01 or 1%; in model units or with % of "
-             "the scene's diagonal, by the diagonal of the bounding box. The largest of each mesh is kept",
+         .help = "Delete connected components below a size, as 0.01 or 1%; in model units or with % of the "
+                 "scene's diagonal, by the diagonal of the bounding box. The largest of each mesh is kept",
          .group = "Shape",
          .entry_points = in_all_but_truncate}),
     {.name = "virtual-edges",

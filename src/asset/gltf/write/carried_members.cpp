@@ -201,8 +201,7 @@ bool keep_feature_ids(GltfWriter& writer, const Part& part, const std::optional<
     if (valid.size() < all.size())
         writer.warnings.push_back(
             "mesh '" + part.name +
-            "': feature ids that the new vertices or texture coordinates do not have were left "
-            "out");
+            "': feature ids that the new vertices or texture coordinates do not have were left out");
     extensions[features_name]["featureIds"] = std::move(valid);
     return true;
 }

@@ -159,10 +159,9 @@ void warn_about_unknown_extensions(GltfWriter& writer) {
             unknown.insert(name);
     });
     for (const std::string& name : unknown)
-        writer.warnings.push_back(
-            "the extension " + name +
-            " is unknown and was passed through; indices of meshes, materials, textures or accessors "
-            "in it may be wrong");
+        writer.warnings.push_back("the extension " + name +
+                                  " is unknown and was passed through; indices of meshes, materials, "
+                                  "textures or accessors in it may be wrong");
 }
 
 }  // namespace
