@@ -161,9 +161,7 @@ std::vector<Index> separate_coincident_faces(const Part& part, std::vector<Index
     const auto group = [&](Index f) { return groups.empty() ? Index{0} : groups[f]; };
     std::vector<Index> order(corners.size());
     std::iota(order.begin(), order.end(), Index{0});
-    std::ranges::sort(order, [&](Index a, Index b) {
-        return std::tuple(corners[a], group(a), a) < std::tuple(corners[b], group(b), b);
-    });
+    std::ranges::sort(order, {}, [&](Index f) { return std::tuple(corners[f], group(f), f); });
     std::vector<Index> separated;
     for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
         const Index a = order[first], b = order[i];

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,9 +27,7 @@ public:
     struct Hit {
         double distance_squared;
         std::size_t point;
-        bool operator<(const Hit& o) const {
-            return std::tie(distance_squared, point) < std::tie(o.distance_squared, o.point);
-        }
+        auto operator<=>(const Hit&) const = default;
     };
 
     NearestInOtherComponents(const std::vector<Index>& component_of, Index own, double radius_squared)
@@ -105,9 +103,7 @@ inline VerticesByComponent vertices_by_component(const CollapseMesh& mesh,
 struct CandidateEdge {
     double length_squared;
     Index a, b;
-    bool operator<(const CandidateEdge& o) const {
-        return std::tie(length_squared, a, b) < std::tie(o.length_squared, o.a, o.b);
-    }
+    auto operator<=>(const CandidateEdge&) const = default;
 };
 
 /// Edges from each boundary vertex to the nearest boundary vertices of other components. An edge that is
