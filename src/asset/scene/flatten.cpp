@@ -78,8 +78,7 @@ std::size_t uninstanced_part_count(const Asset& asset) {
 }
 
 bool has_morph_weights(const Asset& asset) {
-    const std::vector<PosedInstance> all = posed_instances(asset);
-    return std::ranges::any_of(all, [](const PosedInstance& instance) {
+    return std::ranges::any_of(posed_instances(asset), [](const PosedInstance& instance) {
         return instance.pose && !instance.pose->morph_weights.empty();
     });
 }

@@ -171,8 +171,7 @@ private:
 
 // Whether files without a scene have the positions of the parts.
 bool is_in_place(const Asset& asset) {
-    const std::vector<Instance> all = instances(asset);
-    return !scene_center(asset) && std::ranges::all_of(all, [](const Instance& instance) {
+    return !scene_center(asset) && std::ranges::all_of(instances(asset), [](const Instance& instance) {
         return instance.transform == identity_transform;
     });
 }
@@ -238,8 +237,7 @@ bool loses_digits_as_floats(const StoredPrecision& stored, const std::vector<Vec
 
 Part flatten_for_file(const Asset& asset) {
     Part flat = flatten(asset);
-    const bool is_float = asset.precision.type == Type::float32;
-    if (is_float && suits_floats(flat.positions, asset.precision))
+    if (asset.precision.type == Type::float32 && suits_floats(flat.positions, asset.precision))
         round_positions(asset.precision, flat.triangles, flat.positions);
     return flat;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace faqem::detail {
 namespace {
@@ -79,8 +78,7 @@ void push_pull(Pixels& pixels, const std::vector<std::uint8_t>& known, ChannelRa
     levels.push_back(push(pixels.width, pixels.height, pixels.rgba, known));
     while (!is_complete(levels.back().known)) {
         const PyramidLevel& last = levels.back();
-        PyramidLevel next = push(last.width, last.height, last.rgba, last.known);
-        levels.push_back(std::move(next));
+        levels.push_back(push(last.width, last.height, last.rgba, last.known));
     }
     for (std::size_t i = levels.size() - 1; i-- > 0;) {
         PyramidLevel& fine = levels[i];

@@ -77,8 +77,7 @@ struct Supervisor {
     /// Gives the next model to a process without one.
     void begin(std::size_t i) {
         if (is_interrupted()) {
-            const std::size_t model = next_model++;
-            events.ended(model, batch_line(exit_cancelled, "cancelled", "cancelled"));
+            events.ended(next_model++, batch_line(exit_cancelled, "cancelled", "cancelled"));
             return;
         }
         Slot& slot = slots[i];

@@ -57,11 +57,10 @@ Json level_node(const GltfWriter& writer, const Json& mesh_node, Index mesh, std
 
 void attach_levels(GltfWriter& writer, const LeveledAsset& leveled, const std::vector<Index>& mesh) {
     const std::vector<std::uint8_t> is_animated = animated_nodes(writer.out);
-    const std::size_t nodes = is_animated.size();
     std::vector<std::size_t> part_of_mesh(array_size(writer.out, "meshes"), leveled.parts_per_level);
     for (std::size_t p = 0; p < leveled.parts_per_level; ++p)
         if (mesh[p] != no_index) part_of_mesh[mesh[p]] = p;
-    for (Index n = 0; n < nodes; ++n) {
+    for (Index n = 0; n < is_animated.size(); ++n) {
         const Index node_mesh = index_member(writer.out["nodes"][n], "mesh");
         const std::size_t part = node_mesh == no_index ? leveled.parts_per_level : part_of_mesh[node_mesh];
         if (part == leveled.parts_per_level) continue;

@@ -98,11 +98,11 @@ void write_instances(GltfWriter& writer, Json& node) {
 /// Writes the inverse bind matrices of a skin, multiplied by the transform of a grid.
 void write_bind_matrices(GltfWriter& writer, Json& skin, const MeshGrid& grid) {
     const Index accessor = index_member(skin, "inverseBindMatrices");
-    if (accessor != no_index && !grid.needs_transform()) {
-        skin["inverseBindMatrices"] = copy_accessor(writer, accessor, AccessorUse::matrices);
+    if (!grid.needs_transform()) {
+        if (accessor != no_index)
+            skin["inverseBindMatrices"] = copy_accessor(writer, accessor, AccessorUse::matrices);
         return;
     }
-    if (!grid.needs_transform()) return;
     std::vector<std::array<float, 16>> matrices;
     for (const Matrix4& m : inverse_binds(writer.source, skin).matrices)
         matrices.push_back(converted<float>(product(m, matrix_of(grid))));
@@ -176,8 +176,7 @@ bool any_needs_transform(const GltfWriter& writer) {
 void place_grids(GltfWriter& writer) {
     if (!any_needs_transform(writer)) return;
     const std::vector<std::uint8_t> is_animated = animated_nodes(writer.out);
-    const std::size_t nodes = is_animated.size();
-    for (Index n = 0; n < nodes; ++n) {
+    for (Index n = 0; n < is_animated.size(); ++n) {
         Json& node = writer.out["nodes"][n];
         if (member(node, "extensions", instancing_name).contains("attributes")) {
             write_instances(writer, node);

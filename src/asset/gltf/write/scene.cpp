@@ -19,8 +19,7 @@ constexpr std::array<std::string_view, 11> remapped_extensions = {
     outline_name};
 
 bool is_skinned(const Json& mesh) {
-    const Json& primitives = member(mesh, "primitives");
-    return std::ranges::any_of(primitives, [](const Json& primitive) {
+    return std::ranges::any_of(member(mesh, "primitives"), [](const Json& primitive) {
         return member(primitive, "attributes").contains("JOINTS_0");
     });
 }
