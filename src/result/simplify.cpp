@@ -115,12 +115,14 @@ private:
         return std::nullopt;
     }
 
-    // Nothing if the parts were not simplified with their UVs.
+    // Nothing if the parts were not simplified with their UVs, or have too many faces with them: seams are kept.
     std::optional<State> with_source_uvs() const {
         if (simplified_.with_uvs.empty()) return std::nullopt;
         std::vector<Index> all(simplified_.with_uvs.size());
         std::iota(all.begin(), all.end(), Index{0});
         const SimplifiedParts parts{simplified_.with_uvs, report_with_uvs(source_, simplified_, all), {}};
+        const std::uint64_t allowed = std::max(report().target_faces, report().faces_out);
+        if (parts.report.faces_out > allowed) return std::nullopt;
         State one{bake_with_uvs(source_, parts, options_, context_), {}, {}};
         encode(one);
         remove_unused_materials(one.result);
@@ -246,8 +248,9 @@ private:
 /// (Asset::file_bytes), and Options::larger is LargerFiles::avoided, it gives something up, until it has not:
 /// 1. the normal map, if the source has none and BakeOptions::normal_map is automatic;
 /// 2. either the size and quality of the images, unless BakeOptions::image_quality is set: fit_images();
-///    or the new texture, if the parts were simplified with their UVs, too (SimplifiedParts::with_uvs): then the result has
-///    the UVs and images of the source. What fits is taken and, of two that fit, the one with the better pictures.
+///    or the new texture, if the parts were simplified with their UVs, too (SimplifiedParts::with_uvs), and have no more
+///    faces than the target: then the result has the UVs and images of the source. What fits is taken and, of two that
+///    fit, the one with the better pictures.
 /// Untouched parts stay as they are. A warning and
 /// Report::given_up say what was given up, and another warning if the result is larger nevertheless.
 /// \throws whatever bake() throws

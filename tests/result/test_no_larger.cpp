@@ -122,6 +122,31 @@ TEST_CASE("where new images would lose more than the UVs of the source, these ar
     CHECK(result.report.kept_uvs.size() == 1);
 }
 
+TEST_CASE("UVs of the source with which the target is missed are not kept to save bytes") {
+    // Two sheets that enclose a volume. Every edge is a seam, so that no face can be removed with these UVs.
+    faqem::Asset asset = model_with_small_image();
+    const faqem::Part sheet = asset.parts[0];
+    faqem::Part& closed = asset.parts[0];
+    closed.positions.clear(), closed.triangles.clear(), closed.uvs = {{}};
+    for (const bool is_back : {false, true}) {
+        for (const auto& [a, b, c] : sheet.triangles) {
+            const auto first = static_cast<faqem::Index>(closed.positions.size());
+            for (const faqem::Index corner : is_back ? faqem::Triangle{a, c, b} : faqem::Triangle{a, b, c}) {
+                const auto [x, y, z] = sheet.positions[corner];
+                closed.positions.push_back({x, y, is_back ? z - (1 - x * x) * (1 - y * y) : z});
+                const auto [u, v] = sheet.uvs[0][corner];
+                closed.uvs[0].push_back({u + 0.01F * static_cast<float>(first % 7), v});
+            }
+            closed.triangles.push_back({first, first + 1, first + 2});
+        }
+    }
+    closed.face_material.assign(closed.triangles.size(), 0);
+    const std::uint64_t bytes = bytes_with_source_uvs(asset);
+    const auto result = halved(from_files(asset, bytes));
+    CHECK(result.report.faces_out <= closed.triangles.size() / 2);
+    CHECK(result.report.kept_uvs.empty());
+}
+
 TEST_CASE("each textured level of lod that would be larger than the input gives something up") {
     const ModelFolder folder("in.glb", model_with_small_image());
     REQUIRE(run(folder, "lod in.glb larger --levels 0.5,0.2 --allow-larger").code == 0);
