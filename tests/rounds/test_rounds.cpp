@@ -1,6 +1,7 @@
 #include "faqem/detail/rounds/rounds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -10,6 +11,7 @@
 #include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "faqem/engine/mesh/boundary_edges.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "faqem/simplify.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
@@ -27,18 +29,30 @@ const TriangleMesh& lump() {
 
 // The collapses in rounds on two threads, and what they leave.
 struct Rounds {
-    Rounds(const TriangleMesh& mesh, std::size_t target, const RunContext& context = 2, Index lock_every = 0)
+    Rounds(const TriangleMesh& mesh, std::size_t target, const RunContext& context = 2, Index lock_every = 0,
+           bool has_groups = false)
         : input(reorder(preprocess(mesh.view(), settings({})))), locked(input.positions.size(), 0) {
         for (std::size_t v = 0; lock_every && v < locked.size(); v += lock_every) locked[v] = 1;
+        for (std::size_t f = 0; has_groups && f < input.triangles.size(); ++f)
+            groups.push_back(is_above(f) ? 7 : 3);
         ReorderedMesh copy = input;
         std::vector<Links> links;
-        left = simplify_in_rounds({copy.positions, copy.triangles, links, locked, nullptr, Recording::on},
-                                  target, Recording::on, context, found);
+        left = simplify_in_rounds(
+            {copy.positions, copy.triangles, links, locked, groups, nullptr, Recording::on}, target,
+            Recording::on, context, found);
         if (!left) CHECK((copy.positions == input.positions && copy.triangles == input.triangles));
+    }
+
+    // Whether a face of the input is above the plane z = 0.
+    bool is_above(std::size_t f) const {
+        double z = 0;
+        for (const Index v : input.triangles[f]) z += input.positions[v].z();
+        return z > 0;
     }
 
     ReorderedMesh input;
     std::vector<std::uint8_t> locked;
+    std::vector<Index> groups;
     BlockSteps found;
     std::optional<CompactedMesh> left;
 };
@@ -158,6 +172,45 @@ TEST_CASE("rounds: a strip that cannot be oriented keeps a border where its wind
     CHECK(left.triangles.size() < 9000);
     CHECK(engine::find_boundary_edges(left.triangles, left.positions.size()).size() == 800);
     CHECK(test::euler(left.triangles) == 0);
+}
+
+TEST_CASE("rounds: vertices between two groups stay, the others move") {
+    const Rounds rounds(lump(), 2048, 2, 0, true);
+    std::vector<int> sides(rounds.input.positions.size(), 0);
+    for (std::size_t f = 0; f < rounds.input.triangles.size(); ++f)
+        for (const Index v : rounds.input.triangles[f]) sides[v] |= rounds.is_above(f) ? 1 : 2;
+    bool stay = true;
+    for (const BlockStep& step : rounds.found.steps)
+        stay = stay && sides[step.survivor] != 3 && sides[step.gone] != 3;
+    CHECK(stay);
+    CHECK(rounds.left->triangles.size() < 4096);
+    CHECK(test::closed_manifold(rounds.left->triangles));
+}
+
+TEST_CASE("rounds: a large surface with preserved groups keeps their areas, with fast and balanced") {
+    TriangleMesh sphere = test::icosphere(5);
+    for (const Triangle& t : sphere.triangles)
+        sphere.face_groups.push_back(
+            sphere.positions[t[0]][2] + sphere.positions[t[1]][2] + sphere.positions[t[2]][2] > 0.3);
+    const auto areas = [](const TriangleMesh& mesh) {
+        std::array<double, 2> result = {};
+        for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+            const auto& [a, b, c] = mesh.triangles[f];
+            const auto at = [&](Index v) { return engine::to_eigen(mesh.positions[v]); };
+            result[mesh.face_groups[f]] += 0.5 * engine::area_vector(at(a), at(b), at(c)).norm();
+        }
+        return result;
+    };
+    for (const Preset preset : {Preset::fast, Preset::balanced}) {
+        Options options = fast(0.05);
+        options.preset = preset;
+        options.topology.group_boundaries = GroupBoundaries::preserved;
+        const SimplifyResult result = simplify(sphere.view(), options);
+        CHECK(result.report.faces_out <= sphere.triangles.size() / 20);
+        CHECK(test::closed_manifold(result.mesh.triangles));
+        for (std::size_t g = 0; g < 2; ++g)
+            CHECK(areas(result.mesh)[g] == Approx(areas(sphere)[g]).epsilon(0.01));
+    }
 }
 
 TEST_CASE("rounds: no locked vertex is in a collapse") {

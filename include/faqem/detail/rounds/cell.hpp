@@ -107,9 +107,8 @@ private:
 
     bool has_repeated_vertex() const {
         for (int i = 1; i < size_; ++i) {
-            for (int j = 0; j < i; ++j) {
+            for (int j = 0; j < i; ++j)
                 if (ring_[i] == ring_[j]) return true;
-            }
         }
         return false;
     }
@@ -147,9 +146,8 @@ private:
         if (!gather(turned(4 * f + next(k)), g)) return refuse(key, Refusal::link);
         const int first = size_;  // number of faces around u
         if (!gather(turned(4 * g + next(m)), f)) return refuse(key, Refusal::link);
-        for (int i = 0; i < size_; ++i) {
+        for (int i = 0; i < size_; ++i)
             if (!is_inside(ring_[i])) return;
-        }
         if (size_ < 3 || first == 0 || first == size_ || has_repeated_vertex())
             return refuse(key, Refusal::link);
         place_ring(u, t, first);
@@ -223,9 +221,8 @@ private:
         }
         for (int i = first; i < size_; ++i) mesh_.faces[corner_[i] >> 2].v[corner_[i] & 3] = u;
         Planes sum = {};
-        for (int i = 0; i < size_; ++i) {
+        for (int i = 0; i < size_; ++i)
             for (unsigned j = 0; j < 6; ++j) sum[j] += star_.after[j][i];
-        }
         at.planes = sum;
         int last = size_ - 1;
         for (int i = 0; i < size_; last = i++) {

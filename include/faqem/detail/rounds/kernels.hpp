@@ -100,11 +100,10 @@ inline void choose(EdgeBatch& b, int i) {
     if (is_first) part = 0, best = b.at_first[i];
     if (is_second) part = 1, best = b.at_second[i];
     if (!is_first && !is_second && b.pivot_1[i] > least_pivot && b.pivot_2[i] > least_pivot &&
-        b.away[i] <= 64 * b.half[i] && b.at_minimum[i] <= best) {
+        b.away[i] <= 64 * b.half[i] && b.at_minimum[i] <= best)
         best = b.at_minimum[i];
-    } else {
+    else
         for (int k = 0; k < 3; ++k) b.x[k][i] = part * b.t[k][i];
-    }
     b.cost[i] = best > 1e-37f ? best : 1e-37f;
 }
 

@@ -200,16 +200,18 @@ inline std::vector<std::uint8_t> reversed_faces(std::span<const Triangle> triang
     return reversed;
 }
 
-/// A face with the winding that Mesh::reversed gives it. Edges whose faces still differ, as a Moebius strip has, have no links.
-inline Face face_of(Index f, std::span<const Triangle> triangles, std::span<const Links> links,
-                    const std::vector<std::uint8_t>& reversed) {
-    Face face{triangles[f], links[f], f, 0};
+/// A face with the winding that Mesh::reversed gives it. Edges between groups have no links, nor those whose faces still
+/// differ, as a Moebius strip has.
+inline Face face_of(Index f, const RoundInput& input, const std::vector<std::uint8_t>& reversed) {
+    Face face{input.triangles[f], input.links[f], f, 0};
     const auto is_reversed = [&](Index g) { return !reversed.empty() && reversed[g]; };
     for (unsigned k = 0; k < 3; ++k) {
         Corner& c = face.o[k];
         if (c == no_index) continue;
         const Index g = c >> 2;
-        if (have_one_winding(triangles, 4 * f + k, c) != (is_reversed(f) == is_reversed(g)))
+        const bool agrees = have_one_winding(input.triangles, 4 * f + k, c);
+        if (agrees != (is_reversed(f) == is_reversed(g)) ||
+            (!input.groups.empty() && input.groups[f] != input.groups[g]))
             c = no_index;
         else if (is_reversed(g) && (c & 3) != 0)
             c ^= 3;
@@ -231,7 +233,7 @@ inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit,
     const auto set_faces = [&] {
         parallel_blocks(mesh.alive, elements_per_block, context, [&](std::size_t first, std::size_t end) {
             for (std::size_t f = first; f < end; ++f) {
-                mesh.faces[f] = face_of(static_cast<Index>(f), input.triangles, input.links, mesh.reversed);
+                mesh.faces[f] = face_of(static_cast<Index>(f), input, mesh.reversed);
                 if (mesh.reversed.empty() && mesh.faces[f].o != input.links[f]) is_mixed = true;
             }
         });
@@ -275,12 +277,10 @@ inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit,
 /// Removes vertices and faces without use. O(faces)
 inline void compact(Mesh& mesh, const RunContext& context) {
     Index vertices = 0, faces = 0;
-    for (Vertex& v : mesh.vertices) {
+    for (Vertex& v : mesh.vertices)
         if (v.slot != no_index) v.cell = vertices++;
-    }
-    for (Face& f : mesh.faces) {
+    for (Face& f : mesh.faces)
         if (f.v[0] != no_index) f.place = faces++;
-    }
     parallel_blocks(mesh.faces.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             Face& f = mesh.faces[i];

@@ -29,9 +29,8 @@ inline constexpr unsigned most_idle_rounds = 3;
 inline float threshold(const Mesh& mesh, std::size_t edges) {
     const std::size_t size = mesh.keys.size(), step = (size / 65536) | 1;
     std::vector<float> sample;
-    for (std::size_t i = 0; i < size; i += step) {
+    for (std::size_t i = 0; i < size; i += step)
         if (mesh.keys[i] < never) sample.push_back(mesh.keys[i]);
-    }
     if (sample.empty()) return 0;
     const auto at = sample.begin() + static_cast<std::ptrdiff_t>(std::min(edges / step, sample.size() - 1));
     std::nth_element(sample.begin(), at, sample.end());
@@ -130,9 +129,8 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
         const std::size_t cells = assign_cells(mesh, mesh.area, round, untimed);
         const Buckets<Corner> sorted = candidates(mesh, cells, limit, untimed);
         std::vector<std::uint32_t> used;
-        for (std::uint32_t cell = 0; cell < cells; ++cell) {
+        for (std::uint32_t cell = 0; cell < cells; ++cell)
             if (!sorted[cell].empty()) used.push_back(cell);
-        }
         if (used.empty()) break;
         std::vector<BlockSteps> steps(used.size());
         const double quota = 0.5 * static_cast<double>(need) / static_cast<double>(sorted.items().size());

@@ -16,12 +16,13 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// A surface without attributes, groups or virtual edges. References arrays that rounds release, unless they decline.
+/// A surface without attributes, weights or virtual edges. References arrays that rounds release, unless they decline.
 struct RoundInput {
     std::vector<engine::Vector3>& positions;         ///< one per vertex slot, engine units
     std::vector<Triangle>& triangles;                ///< each with three different corners
     std::vector<Links>& links;                       ///< see link_corners(); empty: not yet known
     std::span<const std::uint8_t> locked;            ///< one per vertex; nonzero: must not move
+    std::span<const Index> groups = {};              ///< empty, or one per face: their boundaries do not move
     const engine::PlanarBorders* borders = nullptr;  ///< of this surface; null: none
     Recording merges = Recording::off;  ///< whether CompactedMesh::vertex_map has merged vertices
 };
@@ -37,7 +38,7 @@ inline constexpr std::size_t min_vertices_of_rounds = 8192, min_target_of_rounds
 /// Simplifies the whole surface in parallel.
 ///
 /// In each round the surface is divided into the cells of a grid that is shifted at random. Each cell collapses its
-/// cheapest edges, if all faces around them are in the cell. Vertices do not move on a border, at folds, at faces too
+/// cheapest edges, if all faces around them are in the cell. Vertices do not move on a border or between groups, at folds, at faces too
 /// narrow for single precision, and where the surface is not an
 /// orientable manifold. Windings may be mixed, and stay as they are.
 /// \param input    the surface

@@ -159,7 +159,7 @@ private:
         if (settings_.quadric_policy != Settings::QuadricPolicy::memory &&
             options_.topology.virtual_edges != VirtualEdges::on)
             state_.find_planar_borders();
-        if (!supports_blocks() || settings_.fit_vertices) state_.release_links();
+        if (!supports_rounds() || settings_.fit_vertices) state_.release_links();
         untimed_.check_now();
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length_,
@@ -204,16 +204,23 @@ private:
         return options_.topology.group_boundaries != GroupBoundaries::free && !mesh_.face_groups.empty();
     }
 
-    // Meshes with attributes, preserved groups, weights or virtual edges are not split into blocks.
-    bool supports_blocks() const {
-        return settings_.quadric_policy != Settings::QuadricPolicy::memory && !mesh_.attributes &&
-               mesh_.vertex_weights.empty() && !has_curves() &&
-               options_.topology.virtual_edges != VirtualEdges::on;
+    // One per face slot; empty if their boundaries are free.
+    std::vector<Index> groups() const {
+        return has_curves() ? state_.mesh().per_face(mesh_.face_groups) : std::vector<Index>();
     }
+
+    // Not with attributes, weights or virtual edges.
+    bool supports_rounds() const {
+        return settings_.quadric_policy != Settings::QuadricPolicy::memory && !mesh_.attributes &&
+               mesh_.vertex_weights.empty() && options_.topology.virtual_edges != VirtualEdges::on;
+    }
+
+    // Nor with preserved groups.
+    bool supports_blocks() const { return supports_rounds() && !has_curves(); }
 
     // Simplifies in blocks as far as possible and compacts the rest. \return false if cancelled
     bool simplify_in_blocks_first() {
-        if (!supports_blocks()) return true;
+        if (!supports_rounds()) return true;
         if (!state_.original()) return reduce_in_blocks(loop_.target_faces, nullptr);
         const engine::OriginalSurface& original = *state_.original();
         const std::size_t far = engine::TrackedMetric::tracking_start_ratio * loop_.target_faces;
@@ -239,8 +246,9 @@ private:
         std::optional<CompactedMesh> left;
         // Where vertices are fitted, rounds would save little of the time, with Hausdorff distances 4% larger.
         if (allows_rounds && !settings_.fit_vertices && (!tracking || tracking->watched == Watched::borders))
-            left = state_.simplify_in_rounds(least, options_.history, step, found);
+            left = state_.simplify_in_rounds(least, groups(), options_.history, step, found);
         has_just_used_rounds_ = left.has_value();
+        if (!left && !supports_blocks()) return true;
         if (!left) {
             const BlockInput input{now.positions,   now.triangles,
                                    state_.locked(), vertices_per_block(now.positions.size(), few),
@@ -255,29 +263,11 @@ private:
         for (std::size_t i = 0; i < refusal_kinds; ++i) totals_.refusals[i] += found.refusals[i];
         for (std::size_t i = 0; i < rung_kinds; ++i) totals_.rungs[i] += found.rungs[i];
         totals_.components_collapsed += left->isolated_slots;  // blocks do not delete components
-        if (history_) record_blocks(found, *left);
+        if (history_) record_steps(found, *left, loop_.target_faces, *history_);
         state_.advance_to(std::move(*left));
         // Rounds end early where much of the surface cannot move. Blocks go on if much is left.
         const bool is_enough = state_.mesh().triangles.size() <= 2 * std::max(least, max_vertices_per_block);
         return !has_just_used_rounds_ || is_enough || reduce_in_blocks(least, tracking, false);
-    }
-
-    // Reserves memory for the remaining collapses as well: growing the arrays later would need twice as much.
-    void record_blocks(const BlockSteps& blocks, const CompactedMesh& compacted) {
-        const std::size_t to_go = compacted.triangles.size() - loop_.target_faces;
-        const auto steps = static_cast<double>(std::max<std::size_t>(blocks.steps.size(), 1));
-        const double share = 1.05 * (1 + 0.5 * static_cast<double>(to_go) / steps);
-        history_->reserve(static_cast<std::size_t>(share * static_cast<double>(blocks.steps.size())),
-                          static_cast<std::size_t>(share * static_cast<double>(blocks.patch_faces.size())));
-        for (std::size_t i = 0; i < blocks.steps.size(); ++i) {
-            const auto& [survivor, gone, to] = blocks.steps[i];
-            const std::size_t begin = blocks.patch_begin[i];
-            const std::size_t end =
-                i + 1 < blocks.steps.size() ? blocks.patch_begin[i + 1] : blocks.patch_faces.size();
-            history_->add_collapse(survivor, gone, to,
-                                   std::span(blocks.patch_faces).subspan(begin, end - begin));
-        }
-        history_->renumber(compacted.vertices, compacted.faces);
     }
 
     engine::LoopResult collapse(EngineInput& work, RunRecorder& recorder,
@@ -313,7 +303,7 @@ private:
         work.locked = state_.locked();
         work.borders = state_.borders().at;
         if (has_curves()) {
-            work.groups = state_.mesh().per_face(mesh_.face_groups);
+            work.groups = groups();
             work.curves = engine::FeatureCurves(work.collapse_mesh, work.groups);
         }
         work.importance = vertex_importance(mesh_, prepared_, state_.mesh());

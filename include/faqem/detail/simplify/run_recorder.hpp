@@ -3,9 +3,12 @@
 /// The recorder of a run: slot trace, collapse history and cost curve.
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
+#include "faqem/detail/rounds/block_steps.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
 #include "faqem/detail/simplify/undoable_steps.hpp"
@@ -54,6 +57,27 @@ private:
     SlotTrace trace_;
     double cost_ = 0;
 };
+
+/// Adds the collapses of all blocks or rounds to a history. Reserves memory for those that remain as well: growing the arrays
+/// later would need twice as much. O(steps and their patches)
+/// \param left    the surface after the steps
+/// \param target  number of faces that later collapses leave
+inline void record_steps(const BlockSteps& found, const CompactedMesh& left, std::size_t target,
+                         engine::HistoryRecorder& history) {
+    const std::size_t to_go = left.triangles.size() - target;
+    const auto steps = static_cast<double>(std::max<std::size_t>(found.steps.size(), 1));
+    const double share = 1.05 * (1 + 0.5 * static_cast<double>(to_go) / steps);
+    history.reserve(static_cast<std::size_t>(share * static_cast<double>(found.steps.size())),
+                    static_cast<std::size_t>(share * static_cast<double>(found.patch_faces.size())));
+    for (std::size_t i = 0; i < found.steps.size(); ++i) {
+        const auto& [survivor, gone, to] = found.steps[i];
+        const std::size_t begin = found.patch_begin[i];
+        const std::size_t end =
+            i + 1 < found.steps.size() ? found.patch_begin[i + 1] : found.patch_faces.size();
+        history.add_collapse(survivor, gone, to, std::span(found.patch_faces).subspan(begin, end - begin));
+    }
+    history.renumber(left.vertices, left.faces);
+}
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

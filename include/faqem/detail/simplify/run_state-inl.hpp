@@ -37,17 +37,21 @@ FAQEM_INLINE void RunState::find_planar_borders() {
                          : search.find(engine::find_boundary_edges(mesh_.triangles, mesh_.positions.size()));
 }
 
-FAQEM_INLINE std::optional<CompactedMesh> RunState::simplify_in_rounds(std::size_t least, Recording patches,
+FAQEM_INLINE std::optional<CompactedMesh> RunState::simplify_in_rounds(std::size_t least,
+                                                                       std::span<const Index> groups,
+                                                                       Recording patches,
                                                                        const engine::RunContext& context,
                                                                        BlockSteps& found) {
     if (!original_)
-        return detail::simplify_in_rounds({mesh_.positions, mesh_.triangles, links_, locked_, &borders_},
-                                          std::max(least, min_target_of_rounds), patches, context, found);
+        return detail::simplify_in_rounds(
+            {mesh_.positions, mesh_.triangles, links_, locked_, groups, &borders_},
+            std::max(least, min_target_of_rounds), patches, context, found);
     const auto target = static_cast<std::size_t>(static_cast<double>(least) / spare_faces);
     std::vector<engine::Vector3> positions = mesh_.positions;
     std::vector<Triangle> triangles = mesh_.triangles;
-    return detail::simplify_in_rounds({positions, triangles, links_, locked_, &borders_, Recording::on},
-                                      std::max(target, min_target_of_rounds), patches, context, found);
+    return detail::simplify_in_rounds(
+        {positions, triangles, links_, locked_, groups, &borders_, Recording::on},
+        std::max(target, min_target_of_rounds), patches, context, found);
 }
 
 FAQEM_INLINE void RunState::advance_to(CompactedMesh&& compacted) {

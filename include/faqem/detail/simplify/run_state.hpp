@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
@@ -51,8 +52,9 @@ public:
     /// Simplifies the current surface in rounds, to spare_faces times `least` faces, or to `least` if a distance is
     /// tracked, whose start needs no spare faces. The parameters and the result are those of detail::simplify_in_rounds().
     /// \post advance_to() follows if there is a result, since the arrays of the current surface may be released
-    std::optional<CompactedMesh> simplify_in_rounds(std::size_t least, Recording patches,
-                                                    const engine::RunContext& context, BlockSteps& found);
+    std::optional<CompactedMesh> simplify_in_rounds(std::size_t least, std::span<const Index> groups,
+                                                    Recording patches, const engine::RunContext& context,
+                                                    BlockSteps& found);
 
     /// Replaces the current surface by a simplified one.
     /// \param compacted  made from mesh(); moved from
