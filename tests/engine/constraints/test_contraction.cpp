@@ -1,6 +1,7 @@
 #include "faqem/engine/constraints/contraction.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "support/catch.hpp"
@@ -108,7 +109,7 @@ TEST_CASE("contraction: applied to a neck, it leaves two closed surfaces that sh
     CHECK(test::euler(left) == 3);
 }
 
-TEST_CASE("contraction: a tetrahedron vanishes as a whole, at a hundred times the fourth power of its edge") {
+TEST_CASE("contraction: a tetrahedron vanishes as a whole, at 33 times the square of its area") {
     const TriangleMesh both = test::both(test::tetrahedron(), test::moved(test::cube(), {3, 0, 0}));
     const CollapseMesh mesh = test::collapse_mesh_of(both),
                        alone = test::collapse_mesh_of(test::tetrahedron());
@@ -118,7 +119,8 @@ TEST_CASE("contraction: a tetrahedron vanishes as a whole, at a hundred times th
     CHECK(contraction.remaining().empty());
     CHECK_FALSE(refusal_with_lock(contraction, mesh, no_index));
     CHECK(refusal_with_lock(contraction, mesh, 3) == Refusal::locked);
-    CHECK(contraction.candidate(mesh, no_index).cost >= 100 * 4);
+    const double area = 1.5 + std::sqrt(0.75);
+    CHECK(contraction.candidate(mesh, no_index).cost == Approx(33 * area * area + 4));  // 4: of the diameter
     REQUIRE(contraction.find(alone, 0, 1));
     CHECK(refusal_with_lock(contraction, alone, no_index) == Refusal::last_faces);
 }

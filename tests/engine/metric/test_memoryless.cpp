@@ -101,15 +101,24 @@ TEST_CASE("memoryless: a non-manifold edge has planes if a face ends there, not 
     CHECK(held({{0, 1, 2}, {1, 0, 2}, {1, 0, 3}, {0, 1, 3}}) == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("memoryless: the last faces of a component cost 100 times the fourth power of their longest edge") {
-    // The longest edge is 5. The boundary edges add a small cost.
+TEST_CASE("memoryless: the last faces of a component cost 33 times the square of their area") {
+    // The planes along boundary edges add 54; those along folds, 0.4 times as much.
     const std::vector<Vector3> p = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
     const CollapseMesh triangle(p, {{0, 1, 2}});
     const CollapseMesh doubled(p, {{0, 1, 2}, {0, 2, 1}});
-    CHECK(evaluated(triangle, 0, 1).cost == Approx(100 * 625).epsilon(0.01));
-    CHECK(evaluated(doubled, 0, 1).cost == Approx(100 * 625).epsilon(0.01));
+    CHECK(evaluated(triangle, 0, 1).cost == Approx(33 * 36 + 54));
+    CHECK(evaluated(doubled, 0, 1).cost == Approx(33 * 144 + 0.4 * 54));
     // The component does not vanish if it has other faces.
     CHECK(evaluated(test::collapse_mesh_of(test::quad()), 0, 1).cost < 100);
+}
+
+TEST_CASE("memoryless: of separate faces a long thin one vanishes before shorter ones of larger area") {
+    TriangleMesh mesh = test::make({{0, -2, 0}, {0, -2.1, 0}, {10, -2, 0}}, {{0, 1, 2}});
+    const TriangleMesh card = test::make({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2}});
+    for (int i = 0; i < 4; ++i) mesh = test::both(mesh, test::moved(card, {2.5 * i, 0, 0}));
+    const SimplifyResult result = simplify(mesh.view(), {.target = faces(4), .preset = Preset::fast});
+    REQUIRE(result.mesh.triangles.size() == 4);
+    for (const Vec3& p : result.mesh.positions) CHECK(p[1] >= 0);
 }
 
 TEST_CASE("memoryless: after collapses the costs equal those of a metric initialised with the current mesh") {
