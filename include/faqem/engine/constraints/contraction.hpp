@@ -23,7 +23,7 @@ FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
 /// Price of the last faces of a connected component: 33 times the square of their area. The component causes an error of
-/// at least its own size, and may be the only surface in a large neighbourhood. This is a hundred times the fourth power of
+/// at least its own size, and may be the only surface in a large neighbourhood. This is about a hundred times the fourth power of
 /// the edge of a regular tetrahedron, and little for a rope or a twig, which covers little of any picture.
 /// \param for_each_face  calls a function with each of the faces
 template <class ForEachFace>
