@@ -51,7 +51,7 @@ struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<Face> faces;
     std::vector<float> keys;  ///< three per face; see key()
-    /// One per face of the input: 1 if its winding is reversed here. Empty: none is.
+    /// One per face of the input: 1 if its winding is reversed here. May be empty if none is.
     std::vector<std::uint8_t> reversed;
     /// One per vertex of the input: what it was merged into, or no_index. Empty: not recorded.
     std::vector<Index> merged_into;
@@ -177,7 +177,7 @@ inline void evaluate_edges(Mesh& mesh, const std::vector<Vector>& roots, Index f
 }
 
 /// Finds windings for which neighbours agree: those of the first face of each component. O(faces)
-/// \return one per face: 1 if its winding has to be reversed; empty if none has to be
+/// \return one per face: 1 if its winding has to be reversed
 inline std::vector<std::uint8_t> reversed_faces(std::span<const Triangle> triangles,
                                                 std::span<const Links> links) {
     constexpr std::uint8_t unknown = 2;
@@ -229,17 +229,17 @@ inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit,
     mesh.alive = input.triangles.size();
     if (input.links.empty()) input.links = link_corners(input.triangles, input.positions.size(), context);
     mesh.faces.resize(mesh.alive);
-    std::atomic<bool> is_mixed = false;
+    std::atomic<bool> lacks_links = false;  // because of windings or groups
     const auto set_faces = [&] {
         parallel_blocks(mesh.alive, elements_per_block, context, [&](std::size_t first, std::size_t end) {
             for (std::size_t f = first; f < end; ++f) {
                 mesh.faces[f] = face_of(static_cast<Index>(f), input, mesh.reversed);
-                if (mesh.reversed.empty() && mesh.faces[f].o != input.links[f]) is_mixed = true;
+                if (mesh.reversed.empty() && mesh.faces[f].o != input.links[f]) lacks_links = true;
             }
         });
     };
     set_faces();
-    if (is_mixed) {
+    if (lacks_links) {
         mesh.reversed = reversed_faces(input.triangles, input.links);
         set_faces();
     }

@@ -38,9 +38,9 @@ inline constexpr std::size_t min_vertices_of_rounds = 8192, min_target_of_rounds
 /// Simplifies the whole surface in parallel.
 ///
 /// In each round the surface is divided into the cells of a grid that is shifted at random. Each cell collapses its
-/// cheapest edges, if all faces around them are in the cell. Vertices do not move on a border or between groups, at folds, at faces too
-/// narrow for single precision, and where the surface is not an
-/// orientable manifold. Windings may be mixed, and stay as they are.
+/// cheapest edges, if all faces around them are in the cell. Vertices do not move on a border or between groups, at folds,
+/// at faces too narrow for single precision, and where the surface is not an orientable manifold. Windings may be mixed,
+/// and stay as they are.
 /// \param input    the surface
 /// \param target   number of faces of the result; rounds keep a quarter more at least, and 8 for each vertex that
 ///     does not move for the reasons above
