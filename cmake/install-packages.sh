@@ -50,8 +50,11 @@ libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-
 done
 
 missing=""
+native=$(dpkg --print-architecture 2>/dev/null || true)
 for package in $packages; do
-    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing="$missing $package"
+    case $package in *:*) architecture=${package#*:} ;; *) architecture="$native|all" ;; esac
+    dpkg-query -W -f='${Architecture} ${Status}\n' "$package" 2>/dev/null |
+        grep -Eq "^($architecture) install ok installed$" || missing="$missing $package"
 done
 if [ -z "$missing" ]; then
     echo "packages: all installed"
