@@ -29,7 +29,7 @@ const TriangleMesh& lump() {
 
 // The collapses in rounds on two threads, and what they leave.
 struct Rounds {
-    Rounds(const TriangleMesh& mesh, std::size_t target, const RunContext& context = 2, Index lock_every = 0,
+    Rounds(const TriangleMesh& mesh, std::size_t least, const RunContext& context = 2, Index lock_every = 0,
            bool has_groups = false)
         : input(reorder(preprocess(mesh.view(), settings({})))), locked(input.positions.size(), 0) {
         for (std::size_t v = 0; lock_every && v < locked.size(); v += lock_every) locked[v] = 1;
@@ -38,7 +38,7 @@ struct Rounds {
         ReorderedMesh copy = input;
         std::vector<Links> links;
         left = simplify_in_rounds(
-            {copy.positions, copy.triangles, links, locked, groups, nullptr, Recording::on}, target,
+            {copy.positions, copy.triangles, links, locked, groups, nullptr, Recording::on}, least,
             Recording::on, context, found);
         if (!left) CHECK((copy.positions == input.positions && copy.triangles == input.triangles));
     }
@@ -67,9 +67,9 @@ Options fast(double share) {
 }  // namespace
 
 TEST_CASE("rounds: 1, 2 and 8 threads find the same collapses in the same order") {
-    const BlockSteps one = Rounds(lump(), 2048, 1).found;
+    const BlockSteps one = Rounds(lump(), 2560, 1).found;
     for (const std::uint32_t threads : {2u, 8u}) {
-        const BlockSteps more = Rounds(lump(), 2048, threads).found;
+        const BlockSteps more = Rounds(lump(), 2560, threads).found;
         REQUIRE(more.steps.size() == one.steps.size());
         bool same = true;
         for (std::size_t i = 0; i < one.steps.size(); ++i)
@@ -81,8 +81,17 @@ TEST_CASE("rounds: 1, 2 and 8 threads find the same collapses in the same order"
     }
 }
 
-TEST_CASE("rounds: a quarter more faces than the target are left, and the surface stays a closed manifold") {
-    const CompactedMesh left = *Rounds(lump(), 2048).left;
+TEST_CASE(
+    "rounds: a quarter more faces than a high target are left to the engine, and twice as many of a low "
+    "one") {
+    CHECK(faces_after_rounds(100'000) == 125'000);
+    CHECK(faces_after_rounds(4000) == 6250);
+    CHECK(faces_after_rounds(2000) == 4000);
+    CHECK(faces_after_rounds(10) == 3000);
+}
+
+TEST_CASE("rounds: the faces asked for are left, and the surface stays a closed manifold") {
+    const CompactedMesh left = *Rounds(lump(), 2560).left;
     CHECK(left.triangles.size() >= 2560);
     CHECK(left.triangles.size() <= 2650);
     CHECK(test::closed_manifold(left.triangles));
@@ -90,7 +99,7 @@ TEST_CASE("rounds: a quarter more faces than the target are left, and the surfac
 }
 
 TEST_CASE("rounds: the surface that is left is that of the steps, applied one by one") {
-    const Rounds rounds(lump(), 2048);
+    const Rounds rounds(lump(), 2560);
     CHECK(rounds.found.collapses == rounds.found.steps.size());
     const CompactedMesh& left = *rounds.left;
     const CompactedMesh applied =
@@ -105,7 +114,7 @@ TEST_CASE("rounds: the surface that is left is that of the steps, applied one by
 }
 
 TEST_CASE("rounds: the patch of a collapse is the faces around its vertices just before it") {
-    const Rounds rounds(lump(), 4096);
+    const Rounds rounds(lump(), 5120);
     const BlockSteps& found = rounds.found;
     std::vector<Triangle> faces = rounds.input.triangles;
     std::vector<std::set<Index>> around(rounds.input.positions.size());
@@ -141,7 +150,7 @@ TEST_CASE("rounds: faces with reversed windings are simplified as the others, an
     TriangleMesh turned = lump();
     for (std::size_t f = 0; f < turned.triangles.size(); f += 3)
         std::swap(turned.triangles[f][1], turned.triangles[f][2]);
-    const Rounds rounds(turned, 2048);
+    const Rounds rounds(turned, 2560);
     std::vector<Triangle> left = rounds.left->triangles;
     CHECK(left.size() >= 2560);
     CHECK(left.size() <= 2650);
@@ -175,7 +184,7 @@ TEST_CASE("rounds: a strip that cannot be oriented keeps a border where its wind
 }
 
 TEST_CASE("rounds: vertices between two groups stay, the others move") {
-    const Rounds rounds(lump(), 2048, 2, 0, true);
+    const Rounds rounds(lump(), 2560, 2, 0, true);
     std::vector<int> sides(rounds.input.positions.size(), 0);
     for (std::size_t f = 0; f < rounds.input.triangles.size(); ++f)
         for (const Index v : rounds.input.triangles[f]) sides[v] |= rounds.is_above(f) ? 1 : 2;
@@ -183,7 +192,7 @@ TEST_CASE("rounds: vertices between two groups stay, the others move") {
     for (const BlockStep& step : rounds.found.steps)
         stay = stay && sides[step.survivor] != 3 && sides[step.gone] != 3;
     CHECK(stay);
-    CHECK(rounds.left->triangles.size() < 4096);
+    CHECK(rounds.left->triangles.size() < 5120);
     CHECK(test::closed_manifold(rounds.left->triangles));
 }
 
@@ -214,7 +223,7 @@ TEST_CASE("rounds: a large surface with preserved groups keeps their areas, with
 }
 
 TEST_CASE("rounds: no locked vertex is in a collapse") {
-    const Rounds rounds(lump(), 2048, 2, 100);
+    const Rounds rounds(lump(), 2560, 2, 100);
     CHECK(rounds.found.collapses > 5000);
     bool stay = true;
     for (const BlockStep& step : rounds.found.steps)
@@ -248,7 +257,7 @@ TEST_CASE("rounds: the rim of a thin blade and the corners of narrow faces do no
     const Triangle t = narrow.triangles[1000];
     auto& p = narrow.positions;
     for (unsigned k = 0; k < 3; ++k) p[t[0]][k] = 0.5 * (p[t[1]][k] + p[t[2]][k]) + 1e-6 * p[t[0]][k];
-    const Rounds rounds(narrow, 2048);
+    const Rounds rounds(narrow, 2560);
     const std::vector<engine::Vector3>& left = rounds.left->positions;
     const auto slot = [&](Index v) {
         const std::vector<Index>& vertex = rounds.input.vertex;
@@ -265,11 +274,11 @@ TEST_CASE("rounds: surfaces with many vertices that cannot move are left to bloc
 
 TEST_CASE("rounds: no collapse is made after the time limit, and the callback can cancel") {
     const RunContext late(2, {}, std::chrono::steady_clock::now() - std::chrono::seconds(1));
-    const Rounds none(lump(), 2048, late);
+    const Rounds none(lump(), 2560, late);
     CHECK(none.found.collapses == 0);
     CHECK(none.left->positions == none.input.positions);
     const RunContext stopped(2, [](Phase, double) { return Continue::cancel; });
-    CHECK_THROWS_AS(Rounds(lump(), 2048, stopped), engine::Cancelled);
+    CHECK_THROWS_AS(Rounds(lump(), 2560, stopped), engine::Cancelled);
 }
 
 TEST_CASE("rounds: powers of two scale the result bit by bit, and the target is met") {

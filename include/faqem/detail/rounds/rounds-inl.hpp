@@ -105,13 +105,12 @@ inline void append(const BlockSteps& from, BlockSteps& to) {
 
 }  // namespace rounds
 
-FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t target,
+FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t least,
                                                              Recording patches, const RunContext& context,
                                                              BlockSteps& result) {
     using namespace rounds;
     const std::size_t slots = input.positions.size(), faces = input.triangles.size();
     const std::size_t most_left = faces - faces / 4;
-    auto least = static_cast<std::size_t>(spare_faces * static_cast<double>(target));
     if (slots < min_vertices_of_rounds || least > most_left) return {};
     const RunContext untimed = context.untimed();
     std::optional<Mesh> made = load(input, most_left / faces_per_unfit, untimed);

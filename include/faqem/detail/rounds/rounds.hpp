@@ -2,6 +2,7 @@
 /// \file
 /// Memoryless simplification in rounds over shifted cells, before one engine simplifies the rest.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,13 +28,15 @@ struct RoundInput {
     Recording merges = Recording::off;  ///< whether CompactedMesh::vertex_map has merged vertices
 };
 
-/// Of the target, rounds keep this many faces at least. The engine takes the rest exactly in the order of its costs, and
-/// collapses what rounds refuse.
-inline constexpr double spare_faces = 1.25;
+/// Surfaces with fewer vertices are left to the engine, and so are the last faces: the order of costs in a cell is coarse,
+/// and few collapses are left to correct it.
+inline constexpr std::size_t min_vertices_of_rounds = 4096, min_faces_after_rounds = 3000;
 
-/// Surfaces with fewer vertices are left to the engine, and lower targets: the order of costs in a cell is coarse, and
-/// few collapses are left to correct it.
-inline constexpr std::size_t min_vertices_of_rounds = 8192, min_target_of_rounds = 5000;
+/// The number of faces that rounds leave to the engine, which takes the rest exactly in the order of its costs, and
+/// collapses what rounds refuse: a quarter more than the target, or up to twice as many if they are few.
+inline std::size_t faces_after_rounds(std::size_t target) {
+    return std::max(target + target / 4, std::clamp(2 * target, min_faces_after_rounds, std::size_t{6250}));
+}
 
 /// Simplifies the whole surface in parallel.
 ///
@@ -42,8 +45,8 @@ inline constexpr std::size_t min_vertices_of_rounds = 8192, min_target_of_rounds
 /// at faces too narrow for single precision, and where the surface is not an orientable manifold. Windings may be mixed,
 /// and stay as they are.
 /// \param input    the surface
-/// \param target   number of faces of the result; rounds keep a quarter more at least, and 8 for each vertex that
-///     does not move for the reasons above
+/// \param least    number of faces that are kept at least; so are 8 for each vertex that does not move for the reasons
+///     above
 /// \param patches  whether steps are recorded, with patch_faces and patch_begin
 /// \param context  reports Phase::simplify; the result does not depend on the number of threads
 /// \param found    the number of collapses, refusals, and the steps
@@ -51,9 +54,8 @@ inline constexpr std::size_t min_vertices_of_rounds = 8192, min_target_of_rounds
 ///     be removed
 /// \throws engine::Cancelled  if the progress callback cancels; also whatever it throws
 /// Complexity: O(n) time, distributed over the threads; O(n) memory
-std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t target,
-                                                Recording patches, const RunContext& context,
-                                                BlockSteps& found);
+std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t least, Recording patches,
+                                                const RunContext& context, BlockSteps& found);
 
 }  // namespace detail
 FAQEM_NAMESPACE_END

@@ -44,14 +44,13 @@ FAQEM_INLINE std::optional<CompactedMesh> RunState::simplify_in_rounds(std::size
                                                                        BlockSteps& found) {
     if (!original_)
         return detail::simplify_in_rounds(
-            {mesh_.positions, mesh_.triangles, links_, locked_, groups, &borders_},
-            std::max(least, min_target_of_rounds), patches, context, found);
-    const auto target = static_cast<std::size_t>(static_cast<double>(least) / spare_faces);
+            {mesh_.positions, mesh_.triangles, links_, locked_, groups, &borders_}, faces_after_rounds(least),
+            patches, context, found);
     std::vector<engine::Vector3> positions = mesh_.positions;
     std::vector<Triangle> triangles = mesh_.triangles;
     return detail::simplify_in_rounds(
         {positions, triangles, links_, locked_, groups, &borders_, Recording::on},
-        std::max(target, min_target_of_rounds), patches, context, found);
+        std::max(least, min_faces_after_rounds), patches, context, found);
 }
 
 FAQEM_INLINE void RunState::advance_to(CompactedMesh&& compacted) {

@@ -49,8 +49,8 @@ public:
     /// Sets borders(). \pre advance_to() has not been called. O(faces)
     void find_planar_borders();
 
-    /// Simplifies the current surface in rounds, to spare_faces times `least` faces, or to `least` if a distance is
-    /// tracked, whose start needs no spare faces. The parameters and the result are those of detail::simplify_in_rounds().
+    /// Simplifies the current surface in rounds, to faces_after_rounds(least), or to `least` if a distance is tracked,
+    /// whose start needs no spare faces. The parameters and the result are those of detail::simplify_in_rounds().
     /// \post advance_to() follows if there is a result, since the arrays of the current surface may be released
     std::optional<CompactedMesh> simplify_in_rounds(std::size_t least, std::span<const Index> groups,
                                                     Recording patches, const engine::RunContext& context,
