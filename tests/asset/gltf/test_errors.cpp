@@ -64,6 +64,8 @@ TEST_CASE("a BIN chunk shorter than its buffer is rejected") {
     GltfBuilder builder = square_gltf();
     builder.json["buffers"] = {{{"byteLength", 1000}}};
     check_refused(builder, {"/buffers/0", "needs 1000 bytes, there are 60"});
+    builder.json["buffers"] = {{{"byteLength", UINT64_MAX}}};
+    check_refused(builder, {"/buffers/0", "there are 60"});
 }
 
 TEST_CASE("an empty BIN chunk is valid") {

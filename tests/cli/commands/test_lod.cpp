@@ -249,15 +249,6 @@ TEST_CASE("lod meets error levels given in pixels at a distance") {
     CHECK(json["levels"][2]["switch_distance"] > 2);
 }
 
-TEST_CASE("levels with --bake keep share the original image in one file") {
-    const ModelFolder folder("a.glb", sheet(20, 0.2));
-    REQUIRE(run(folder, "lod a.glb all.glb --levels 0.5,0.1 --bake keep --quiet").code == 0);
-    const std::string bytes = read(folder / "all.glb");
-    const nlohmann::json document = nlohmann::json::parse(bytes.substr(20, bytes.find("BIN\0", 20, 4) - 24));
-    CHECK(document["images"].size() == 1);
-    CHECK(document["meshes"].size() == 3);
-}
-
 TEST_CASE("levels with --textures shared share a new texture, stored once in one file") {
     const ModelFolder folder("a.glb", sheet(20, 0.2));
     const std::string options =

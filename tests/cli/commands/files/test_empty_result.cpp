@@ -1,7 +1,9 @@
 #include <string>
 
+#include "faqem/simplify.hpp"
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
+#include "support/results.hpp"
 
 using namespace tool_test;
 
@@ -26,6 +28,14 @@ TEST_CASE("a model of which nothing is left exits with 3 and is not written") {
         CAPTURE(file);
         CHECK(!fs::exists(folder / file));
     }
+    faqem::Options options;
+    options.history = faqem::Recording::on;
+    const std::vector<faqem::Vec3> positions(3, {1, 1, 1});
+    const std::vector<faqem::Triangle> triangles = {{0, 1, 2}};
+    const faqem::SimplifyResult empty = faqem::simplify({positions, triangles}, options);
+    REQUIRE(empty.mesh.triangles.empty());
+    write(folder / "empty.bin", faqem::test::file_bytes(empty.history));
+    refused("truncate empty.bin out.glb --faces 10", "empty.bin");
     faqem::save(sheet(4), folder / "sheet.glb");
     refused("simplify sheet.glb out.glb --weld 100", "sheet.glb");
 }

@@ -92,29 +92,6 @@ TEST_CASE("simplify does not overwrite the library or an image of its OBJ input"
     check_refused(folder, "simplify in.obj small.gltf" + quick, "small_0.png", "in.obj");
 }
 
-TEST_CASE("textures and images that are not read are protected") {
-    const Folder folder;
-    save_obj(folder, "in.obj", "lib.mtl", "tex.png");
-    write(folder / "lib.mtl", read(folder / "lib.mtl") + "map_Bump -bm 0.5 out_0.png\n");
-    write(folder / "out_0.png", "bumps");
-    check_refused(folder, "simplify in.obj out.gltf" + quick, "out_0.png", "in.obj");
-
-    save_gltf(folder, "in.gltf", "in.bin", "in.png");
-    write(folder / "unused_0.png", "unused");
-    write(folder / "basisu_0.png", "used by an extension");
-    write(folder / "with blank_0.png", "percent-encoded");
-    write(folder / "film.json", "named in an extension");
-    add_member(folder / "in.gltf", "/images/1", {{"uri", "unused_0.png"}});
-    add_member(folder / "in.gltf", "/images/2", {{"uri", "basisu_0.png"}});
-    add_member(folder / "in.gltf", "/images/3", {{"uri", "with%20blank_0.png"}});
-    add_member(folder / "in.gltf", "/textures/0/extensions/KHR_texture_basisu", {{"source", 2}});
-    add_member(folder / "in.gltf", "/extensions/VENDOR_media", {{"items", {{{"uri", "film.json"}}}}});
-    check_refused(folder, "simplify in.gltf unused.gltf" + quick, "unused_0.png", "in.gltf");
-    check_refused(folder, "simplify in.gltf basisu.gltf" + quick, "basisu_0.png", "in.gltf");
-    check_refused(folder, "simplify in.gltf 'with blank.gltf'" + quick, "with blank_0.png", "in.gltf");
-    check_refused(folder, "simplify in.gltf a.glb --report film.json" + quick, "film.json", "in.gltf");
-}
-
 TEST_CASE("every output file that a command is given is compared with the files of the input") {
     const Folder folder;
     save_gltf(folder, "in.gltf", "in.bin", "in.png");

@@ -123,22 +123,7 @@ TEST_CASE("baking options determine maps and image format and the report describ
 }
 
 TEST_CASE("a missed target is an error only with --strict-target, and then no model is written") {
-    const Folder folder;
-    // A strip: all of its vertices are on the boundary, which is locked.
-    faqem::Asset strip = sheet(1, 0);
-    faqem::Part& part = strip.parts[0];
-    part.positions.clear();
-    part.triangles.clear();
-    part.uvs.clear();
-    for (faqem::Index i = 0; i < 42; ++i) {
-        part.positions.push_back({double(i / 2), double(i % 2), 0.1 * (i % 3)});
-        if (i < 2) continue;
-        part.triangles.push_back(i % 2 ? faqem::Triangle{i - 2, i, i - 1} : faqem::Triangle{i - 2, i - 1, i});
-    }
-    part.face_material.assign(part.triangles.size(), 0);
-    strip.images.clear();
-    strip.materials[0].base_color_texture = {};
-    faqem::save(strip, folder / "in.glb");
+    const ModelFolder folder("in.glb", sheet(6, 0.2));  // 24 vertices on the boundary, which is locked
     const std::string common =
         "simplify in.glb out.glb --faces 10 --lock-boundary --bake none --report r.json ";
     CHECK(run(folder, common).code == 0);
