@@ -157,6 +157,30 @@ TEST_CASE("meshopt: the filter of octahedral normals is applied") {
     CHECK(got[1] / 32767.0 == Approx(y).margin(1e-3));
 }
 
+TEST_CASE("meshopt: octahedral normals are rounded to the nearest integers") {
+    std::vector<std::int8_t> raw;
+    for (int x = -127; x <= 127; ++x)
+        for (int y = -127; y <= 127; ++y)
+            for (const int value : {x, y, 127, 5}) raw.push_back(static_cast<std::int8_t>(value));
+    const std::size_t count = raw.size() / 4;
+    std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(count, 4));
+    packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), raw.data(), count, 4));
+    const std::vector<std::uint8_t> bytes = detail::decode_meshopt(
+        {{"count", count}, {"byteStride", 4}, {"mode", "ATTRIBUTES"}, {"filter", "OCTAHEDRAL"}}, packed, "",
+        "");
+    double worst = 0;
+    for (std::size_t i = 0; i < raw.size(); i += 4) {
+        const double z = 127.0 - std::abs(raw[i]) - std::abs(raw[i + 1]), fold = std::min(z, 0.0);
+        const double x = raw[i] + std::copysign(fold, raw[i] < 0 ? 1 : -1),
+                     y = raw[i + 1] + std::copysign(fold, raw[i + 1] < 0 ? 1 : -1);
+        const double scale = 127 / std::hypot(x, y, z);
+        for (const auto& [k, wanted] : {std::pair{0, x}, {1, y}, {2, z}})
+            worst = std::max(worst, std::abs(static_cast<std::int8_t>(bytes[i + k]) - wanted * scale));
+        CHECK(bytes[i + 3] == 5);
+    }
+    CHECK(worst < 0.5001);
+}
+
 #endif
 #ifdef FAQEM_WITH_DRACO
 

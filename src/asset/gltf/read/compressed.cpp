@@ -1,7 +1,10 @@
 #include "asset/gltf/read/compressed.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -49,6 +52,28 @@ void decompress_views(SourceDocument& source, const std::string& file) {
     }
 }
 
+#ifdef FAQEM_WITH_MESHOPT
+
+/// The filter OCTAHEDRAL for vectors of integers T. The instructions by which meshoptimizer approximates reciprocal square
+/// roots have other results on other processors.
+template <class T>
+void decode_octahedral(std::vector<std::uint8_t>& bytes) {
+    for (std::size_t at = 0; at < bytes.size(); at += 4 * sizeof(T)) {
+        std::array<T, 3> v;  // two coordinates and the integer that means 1
+        std::memcpy(v.data(), &bytes[at], sizeof v);
+        float x = v[0], y = v[1];
+        const float z = static_cast<float>(v[2]) - std::abs(x) - std::abs(y), fold = std::min(z, 0.0f);
+        x += x >= 0 ? fold : -fold;
+        y += y >= 0 ? fold : -fold;
+        const float squared = x * x + (y * y + z * z);
+        const float scale = squared > 0 ? std::numeric_limits<T>::max() / std::sqrt(squared) : 0;
+        v = {static_cast<T>(std::nearbyint(x * scale)), static_cast<T>(std::nearbyint(y * scale)),
+             static_cast<T>(std::nearbyint(z * scale))};
+        std::memcpy(&bytes[at], v.data(), sizeof v);
+    }
+}
+
+#endif
 #ifdef FAQEM_WITH_DRACO
 
 /// Stores the bytes of an accessor in a new buffer and view.
@@ -149,7 +174,8 @@ std::vector<std::uint8_t> decode_meshopt(const Json& extension, std::span<const 
     else
         error = meshopt_decodeIndexSequence(result.data(), count, stride, bytes.data(), bytes.size());
     if (error != 0) throw InputError(file, where, std::string(meshopt_name) + ": the data is damaged");
-    if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(result.data(), count, stride);
+    if (filter == "OCTAHEDRAL" && stride == 4) decode_octahedral<std::int8_t>(result);
+    if (filter == "OCTAHEDRAL" && stride == 8) decode_octahedral<std::int16_t>(result);
     if (filter == "QUATERNION") meshopt_decodeFilterQuat(result.data(), count, stride);
     if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(result.data(), count, stride);
     return result;
