@@ -7,17 +7,15 @@ import unittest
 import faqem
 import faqem.fast_simplification as fast
 import numpy
-from test_arrays import flat_grid
+from test_arrays import InFolder, flat_grid
 from test_compatible import bumpy_grid
 
 
-class Objects(unittest.TestCase):
+class Objects(InFolder):
     """Objects of another class than the argument's. The C library cannot tell them apart."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.mesh = bumpy_grid(6)
         self.out = faqem.simplify(*self.mesh, ratio=0.5, history=True)
         self.model = faqem.Model.from_arrays(*self.mesh)

@@ -3,8 +3,10 @@
 import ctypes
 import gc
 import os
+import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import faqem
@@ -26,6 +28,15 @@ def flat_grid(n, dtype=numpy.float64):
 def area(vertices, triangles):
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     return 0.5 * numpy.cross(b - a, c - a)[:, 2].sum()
+
+
+class InFolder(unittest.TestCase):
+    """Tests that write files, in a folder of their own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
 
 
 class Arrays(unittest.TestCase):

@@ -4,18 +4,16 @@ import hashlib
 import importlib.util
 import json
 import os
-import pathlib
 import pickle
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import unittest
 
 import faqem
-from test_arrays import flat_grid
+from test_arrays import InFolder, flat_grid
 
 count = 70  # of models: more than two groups of those by URL
 
@@ -25,11 +23,9 @@ def contents(folder):
     return {file.name: file.read_bytes() for file in folder.rglob("*.ply")}
 
 
-class Folder(unittest.TestCase):
+class Folder(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         (self.folder / "in").mkdir()
         for i in range(count):
             faqem.save(flat_grid(4 + i % 5), self.folder / f"in/m{i}.ply")

@@ -9,14 +9,12 @@ import unittest
 
 import faqem
 import numpy
-from test_arrays import flat_grid
+from test_arrays import InFolder, flat_grid
 
 
-class Command(unittest.TestCase):
+class Command(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.file = self.folder / "a b.ply"
         faqem.save(flat_grid(6), self.file)
 

@@ -1,20 +1,12 @@
 """Tests of faqem.load, bake and save with model files."""
 
-import pathlib
-import tempfile
-import unittest
 
 import faqem
 from numpy.testing import assert_array_equal
-from test_arrays import flat_grid
+from test_arrays import InFolder, flat_grid
 
 
-class Models(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Models(InFolder):
     def coloured(self):
         """Writes a square in four colours as OBJ with vertex colours."""
         vertices, triangles = flat_grid(12)

@@ -1,16 +1,14 @@
 """Tests of the UVs, materials and images of a model."""
 
 import gc
-import pathlib
 import struct
-import tempfile
 import unittest
 import zlib
 
 import faqem
 import numpy
 from numpy.testing import assert_array_equal
-from test_arrays import flat_grid
+from test_arrays import InFolder, flat_grid
 
 
 def write_png(file, pixels):
@@ -25,11 +23,9 @@ def write_png(file, pixels):
     file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
-class Textures(unittest.TestCase):
+class Textures(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.pixels = numpy.random.default_rng(1).integers(0, 255, (4, 6, 3)).astype(numpy.uint8)
 
     def textured(self, pixels):
