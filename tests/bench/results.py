@@ -2,6 +2,7 @@
 
 import json
 import math
+import pathlib
 
 # Smaller values are due to rounding. Units: the diagonal, its square, degrees, the diagonal.
 FLOORS = {"hausdorff": 1e-7, "chamfer": 1e-14, "normal_degrees": 1e-2, "border_hausdorff": 1e-7}
@@ -9,18 +10,18 @@ TOLERANCE = 0.01
 ONE_COLLAPSE = 4  # faces removed by one collapse: two, or more at a non-manifold edge
 
 
+def json_lines(file):
+    """Yields the objects of a file of JSON lines. Truncated lines are ignored."""
+    for line in pathlib.Path(file).read_text(encoding="utf-8").splitlines():
+        try:
+            yield json.loads(line)
+        except json.JSONDecodeError:
+            continue
+
+
 def load(files):
-    """Returns the rows by (ratio, mesh, simplifier). Later rows replace earlier ones. Truncated lines are ignored."""
-    rows = {}
-    for file in files:
-        with open(file, encoding="utf-8") as lines:
-            for line in lines:
-                try:
-                    row = json.loads(line)
-                except json.JSONDecodeError:
-                    continue
-                rows[row["ratio"], row["mesh"], row["simplifier"]] = row
-    return rows
+    """Returns the rows by (ratio, mesh, simplifier). Later rows replace earlier ones."""
+    return {(row["ratio"], row["mesh"], row["simplifier"]): row for file in files for row in json_lines(file)}
 
 
 class Rows:

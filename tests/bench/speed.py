@@ -10,18 +10,14 @@ import argparse
 import json
 import pathlib
 
-from results import number, table
+from results import json_lines, number, table
 
 BASELINE = "meshoptimizer"
 LAMP = {"FA-QEM (the paper's lamp)": (240e3, 1710), "Liu et al. (the paper's lamp)": (240e3, 25201)}  # seconds
 
 
 def load(files):
-    rows = {}
-    for file in files:
-        for line in pathlib.Path(file).read_text(encoding="utf-8").splitlines():
-            row = json.loads(line)
-            rows[row["mesh"], row["faces"], row["simplifier"]] = row
+    rows = {(row["mesh"], row["faces"], row["simplifier"]): row for file in files for row in json_lines(file)}
     return list(rows.values())
 
 

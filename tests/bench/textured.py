@@ -5,7 +5,7 @@ import pathlib
 import subprocess
 import tempfile
 
-from results import geomean
+from results import geomean, json_lines
 
 RATIO = 0.1
 SAMPLES = 50000
@@ -53,15 +53,7 @@ def measure(arguments, file, weights):
 
 
 def load(file):
-    rows = {}
-    if file.exists():
-        for line in file.read_text(encoding="utf-8").splitlines():
-            try:
-                row = json.loads(line)
-            except json.JSONDecodeError:
-                continue
-            rows[row["model"], row["label"]] = row
-    return rows
+    return {(row["model"], row["label"]): row for row in json_lines(file)} if file.exists() else {}
 
 
 def run(arguments, steps, file):

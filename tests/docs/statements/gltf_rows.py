@@ -1,18 +1,12 @@
 """Checks of the rows about meshes and materials of glTF."""
-from model import Glb, expect, gltf_grid, grid, png, warns
+from model import Glb, expect, gltf_grid, grid, png, rows_of, warns
 
 ROWS = {}
+row = rows_of(ROWS, "glTF")
 RED = {"name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}
 VERTICES = len(grid()[0])
 PATTERN = png(lambda x, y: (60 * x, 60 * y, 0, 255))
 TURNED = png(lambda x, y: (60 * y, 60 * x, 0, 255))
-
-
-def row(statement):
-    def add(check):
-        ROWS["glTF", statement] = check
-        return check
-    return add
 
 
 def write(runs, glb, used=()):

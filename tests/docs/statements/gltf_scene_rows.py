@@ -1,15 +1,9 @@
 """Checks of the rows about scenes, compression and extensions of glTF."""
 from gltf_rows import PATTERN, RED, VERTICES, expect_no_warning, primitive_of, textured, three, write
-from model import expect, gltf_grid, grid, png, warns
+from model import expect, gltf_grid, grid, png, rows_of, warns
 
 ROWS = {}
-
-
-def row(statement):
-    def add(check):
-        ROWS["glTF", statement] = check
-        return check
-    return add
+row = rows_of(ROWS, "glTF")
 
 
 @row("nodes, scenes, cameras, lights, `extras`, names")

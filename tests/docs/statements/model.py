@@ -21,6 +21,16 @@ def expect(condition, what):
         raise Failure(what)
 
 
+def rows_of(rows, *kind):
+    """A decorator of checks: its arguments, after those of the kind, are the row of the table that is checked."""
+    def row(*statement):
+        def add(check):
+            rows[kind + statement] = check
+            return check
+        return add
+    return row
+
+
 def grid(side=SIDE):
     """A bumpy square of 2 x side^2 faces: positions, (u, v) with v upwards, triangles."""
     n = side + 1

@@ -1,15 +1,9 @@
 """Checks of the rows about material libraries."""
-from model import expect, grid, png, warns
+from model import expect, grid, png, rows_of, warns
 
 ROWS = {}
+row = rows_of(ROWS, "MTL")
 GREY, WHITE, BLACK = (128, 128, 128, 255), (255, 255, 255, 255), (0, 0, 0, 255)
-
-
-def row(statement):
-    def add(check):
-        ROWS["MTL", statement] = check
-        return check
-    return add
 
 
 def write_obj(runs, library, images=None):

@@ -1,17 +1,11 @@
 """Checks of the rows about OBJ, PLY, STL and OFF."""
 import struct
 
-from model import expect, grid, png, warns
+from model import expect, grid, png, rows_of, warns
 from mtl_rows import GREY, expect_no_warning, expect_repair
 
 ROWS = {}
-
-
-def row(kind, statement):
-    def add(check):
-        ROWS[kind, statement] = check
-        return check
-    return add
+row = rows_of(ROWS)
 
 
 def halves():
