@@ -124,21 +124,25 @@ TEST_CASE("tracked metric: without faces around the pair the cost is that of the
     CHECK(bench.exact_cost(0, 1, {{0.5, 0, 0}, 3}) == 3);
 }
 
-TEST_CASE("tracked metric: balanced has a smaller Hausdorff distance than fast") {
-    const TriangleMesh mesh = test::shaken(test::icosphere(4), 0.03, 5);
-    const auto hausdorff = [&](Preset preset) {
-        const SimplifyResult r = simplify(mesh.view(), {.target = ratio(0.1), .preset = preset});
-        CHECK(r.mesh.triangles.size() <= mesh.triangles.size() / 10);
-        return compare(mesh.view(), r.mesh.view(), {.samples = 20'000}).hausdorff;
-    };
-    CHECK(hausdorff(Preset::balanced) < hausdorff(Preset::fast));
+TEST_CASE("tracked metric: balanced has a Hausdorff distance a twentieth smaller than fast, on average") {
+    double balanced = 0, fast = 0;
+    for (const unsigned seed : {5, 6, 7, 8, 9, 10, 11, 12}) {
+        const TriangleMesh mesh = test::shaken(test::icosphere(4), 0.03, seed);
+        const auto hausdorff = [&](Preset preset) {
+            const SimplifyResult r = simplify(mesh.view(), {.target = ratio(0.1), .preset = preset});
+            CHECK(r.mesh.triangles.size() <= mesh.triangles.size() / 10);
+            return compare(mesh.view(), r.mesh.view(), {.samples = 20'000}).hausdorff;
+        };
+        balanced += hausdorff(Preset::balanced), fast += hausdorff(Preset::fast);
+    }
+    CHECK(balanced < 0.95 * fast);
 }
 
 TEST_CASE("tracked metric: far above the target only boundaries are tracked, then all vertices") {
-    // A cylinder of 16 sides and 16 rings. Four times the target is reached by collapses along the
+    // A cylinder of 16 sides and 16 rings. Three times the target is reached by collapses along the
     // boundaries.
     const TriangleMesh tube = test::cylinder(16, 16, 4);
-    TrackedBench bench(tube, 120);
+    TrackedBench bench(tube, 160);
     const Candidate in_place{bench.collapse_mesh.position(1), 0}, inside{bench.collapse_mesh.position(17), 0};
     REQUIRE(bench.collapse_mesh.face_count() > 480);
     CHECK(bench.exact_cost(17, 16, inside) == 0);
@@ -149,7 +153,7 @@ TEST_CASE("tracked metric: far above the target only boundaries are tracked, the
     // Vertex 0 was merged into 1. Its distance from the surface is the height of its arc above the chord
     // from 15 to 1.
     const double height = 1 - std::cos(test::pi / 8);
-    const double face_area = 2 * test::pi * 4 / 120;
+    const double face_area = 2 * test::pi * 4 / 160;
     const double cost = bench.exact_cost(1, 17, in_place);
     CHECK(cost > 0.9 * face_area * height * height);
 }

@@ -55,7 +55,7 @@ public:
 
     /// The surface is tracked once the face count is at most this many times the target. Tracking at all
     /// sizes takes four times as long with almost no improvement (docs/measurements/quality.md).
-    static constexpr std::size_t tracking_start_ratio = 4;
+    static constexpr std::size_t tracking_start_ratio = 3;
     /// Factor on the squared distances of boundaries: outlines are visible first, and the distances at the
     /// original boundary vertices are smaller than those between them.
     static constexpr double boundary_factor = 2;
