@@ -1,7 +1,5 @@
 #include "faqem/detail/fitting/two_sided_error.hpp"
 
-#include <cmath>
-
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 

@@ -6,7 +6,6 @@
 #include "support/meshes.hpp"
 
 using faqem::Index;
-using faqem::no_index;
 using faqem::detail::closest_point_on_triangle;
 using faqem::detail::ClosestPoint;
 using faqem::detail::NearTriangles;

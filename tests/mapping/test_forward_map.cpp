@@ -17,22 +17,10 @@ namespace {
 
 // Two layers of n x n squares at distance `thick` that share their boundary; the upper faces first.
 TriangleMesh thin_wall(Index n, double thick) {
-    TriangleMesh wall = grid(n);
-    const Index shift = static_cast<Index>(wall.positions.size());
-    const auto is_rim = [&](Index v) {
-        const Index x = v % (n + 1), y = v / (n + 1);
-        return x == 0 || y == 0 || x == n || y == n;
-    };
-    const auto below = [&](Index v) { return is_rim(v) ? v : v + shift; };
-    for (const Triangle& t : grid(n).triangles)
-        wall.triangles.push_back({below(t[0]), below(t[2]), below(t[1])});
-    wall.positions.resize(2 * wall.positions.size());
-    for (Index v = 0; v < shift; ++v) {
-        Vec3& upper = wall.positions[v];
-        upper = {upper[0] / n, upper[1] / n, 0};
-        upper[2] = 0.05 * std::sin(5 * upper[0]) * std::cos(4 * upper[1]);
-        wall.positions[v + shift] = upper;
-        if (!is_rim(v)) wall.positions[v + shift][2] -= thick;
+    TriangleMesh wall = two_layers(n, thick / 2);
+    for (Vec3& p : wall.positions) {
+        const double x = p[0] / n, y = p[1] / n;
+        p = {x, y, 0.05 * std::sin(5 * x) * std::cos(4 * y) + p[2]};
     }
     return wall;
 }
@@ -70,11 +58,7 @@ TEST_CASE("forward map: without collapses, each point is mapped to itself") {
 }
 
 TEST_CASE("forward map: vertex_map() gives the vertex that each vertex was collapsed into") {
-    std::vector<Vec3> positions;
-    for (int j = 0; j < 3; ++j) {
-        for (int i = 0; i < 3; ++i) positions.push_back({double(i), double(j), 0});
-    }
-    HandHistory hand(positions, grid_faces(2, [](Index i, Index j) { return 3 * j + i; }));
+    HandHistory hand(grid(2).positions, grid(2).triangles);
     hand.collapse(hand.collapse(4, 5, {1.5, 1, 0}), 7, {1.25, 1.5, 0});
     const CollapseHistory history = hand.finish();
     REQUIRE(history.remaining_versions == std::vector<Index>{0, 1, 2, 3, 6, 10});

@@ -14,20 +14,10 @@ namespace {
 
 // Two wavy sheets of n x n squares with a distance of `gap`, facing away from each other.
 TriangleMesh double_sheet(Index n, double gap) {
-    TriangleMesh mesh;
-    for (const double side : {1.0, -1.0}) {
-        for (Index j = 0; j <= n; ++j) {
-            for (Index i = 0; i <= n; ++i) {
-                const double x = i / double(n), y = j / double(n);
-                mesh.positions.push_back({x, y, 0.05 * std::sin(9 * x) * std::cos(7 * y) + side * gap / 2});
-            }
-        }
-    }
-    const Index sheet = (n + 1) * (n + 1);
-    mesh.triangles = grid_faces(n, [&](Index i, Index j) { return (n + 1) * j + i; });
-    for (const Triangle& t : grid_faces(n, [&](Index i, Index j) { return sheet + (n + 1) * j + i; }))
-        mesh.triangles.push_back({t[0], t[2], t[1]});
-    return mesh;
+    TriangleMesh above = square(n, 1, 0), below;
+    for (Vec3& p : above.positions) p[2] = 0.05 * std::sin(9 * p[0]) * std::cos(7 * p[1]) + gap / 2;
+    below = moved(inside_out(above), {0, 0, -gap});
+    return both(above, below);
 }
 
 bool same(const SurfacePoint& a, const SurfacePoint& b) {

@@ -20,11 +20,8 @@ double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 // A flat grid whose inner vertices were collapsed into neighbours, in a random order that inverts no face.
 CollapseHistory collapsed_grid(Index n) {
-    std::vector<Vec3> positions;  // of versions
-    for (Index j = 0; j <= n; ++j) {
-        for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
-    }
-    const std::vector<Triangle> faces = grid_faces(n, [n](Index i, Index j) { return (n + 1) * j + i; });
+    std::vector<Vec3> positions = grid(n).positions;  // of versions
+    const std::vector<Triangle> faces = grid(n).triangles;
     HandHistory hand(positions, faces);
     const auto inner = [&](Index v) {
         return positions[v][0] > 0 && positions[v][0] < n && positions[v][1] > 0 && positions[v][1] < n;
@@ -58,7 +55,7 @@ TEST_CASE("successive projection: points are mapped to their material group") {
     for (int j = 0; j < 4; ++j) {
         for (int i = 0; i < 4; ++i) positions.push_back({double(i), double(j), 0});
     }
-    const auto faces = grid_faces(3, [](Index i, Index j) { return 4 * j + i; });
+    const auto faces = grid(3).triangles;
     std::vector<Index> groups;
     for (Index f = 0; f < faces.size(); ++f) groups.push_back(f % 6 < 2 ? 7 : no_index);  // left column
     HandHistory hand(positions, faces, groups);
@@ -109,16 +106,12 @@ TEST_CASE("successive projection: points of an inverted face are marked as inexa
 // Two coincident plates of the same orientation that share their vertices after welding.
 TEST_CASE("successive projection: points are mapped to their plate if two plates share all vertices") {
     constexpr Index n = 4, layer = (n + 1) * (n + 1);
-    std::vector<Vec3> positions;
-    for (Index j = 0; j <= n; ++j) {
-        for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
-    }
-    const std::vector<Triangle> plate = grid_faces(n, [](Index i, Index j) { return (n + 1) * j + i; });
+    const std::vector<Triangle> plate = grid(n).triangles;
     const Index count = static_cast<Index>(plate.size());
     std::vector<Triangle> welded = plate, unwelded = plate;
     welded.insert(welded.end(), plate.begin(), plate.end());
     for (const Triangle& t : plate) unwelded.push_back({t[0] + layer, t[1] + layer, t[2] + layer});
-    HandHistory hand(positions, welded);
+    HandHistory hand(grid(n).positions, welded);
     Index last = 6;
     for (const Index v : {7u, 8u, 13u, 12u, 11u, 16u, 17u, 18u}) last = hand.collapse(last, v, {2, 2, 0});
     const CollapseHistory history = hand.finish();
@@ -175,11 +168,8 @@ TEST_CASE("successive projection: walks that are too long fall back to the surfa
 // Three faces on each edge, also before welding; those of the plane continue each other.
 TEST_CASE("successive projection: points stay on a plane with a fin on every edge, and on their fin") {
     constexpr Index n = 6;
-    std::vector<Vec3> positions;
-    for (Index j = 0; j <= n; ++j) {
-        for (Index i = 0; i <= n; ++i) positions.push_back({double(i), double(j), 0});
-    }
-    std::vector<Triangle> faces = grid_faces(n, [](Index i, Index j) { return (n + 1) * j + i; });
+    std::vector<Vec3> positions = grid(n).positions;
+    std::vector<Triangle> faces = grid(n).triangles;
     const Index plane_faces = static_cast<Index>(faces.size());
     for (Index f = 0; f < plane_faces; f += 2) {  // each inner edge belongs to exactly one of these faces
         for (std::size_t c = 0; c < 3; ++c) {

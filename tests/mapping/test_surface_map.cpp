@@ -19,11 +19,7 @@ namespace {
 // | /| /|
 // 0--1--2
 CollapseHistory grid_with_two_collapses() {
-    std::vector<Vec3> positions;
-    for (int j = 0; j < 3; ++j) {
-        for (int i = 0; i < 3; ++i) positions.push_back({double(i), double(j), 0});
-    }
-    HandHistory hand(positions, grid_faces(2, [](Index i, Index j) { return 3 * j + i; }));
+    HandHistory hand(grid(2).positions, grid(2).triangles);
     const Index nine = hand.collapse(4, 5, {1.5, 1, 0});
     hand.collapse(nine, 7, {1.25, 1.5, 0});
     return hand.finish();
@@ -41,18 +37,8 @@ struct Pillow {
 };
 
 Pillow pillow(Index n, double h) {
-    Pillow p{n, {}, {}};
-    for (double side : {1.0, -1.0}) {
-        for (Index j = 0; j <= n; ++j) {
-            for (Index i = 0; i <= n; ++i)
-                p.positions.push_back({double(i), double(j), p.rim(i, j) ? 0 : side * h});
-        }
-    }
-    p.faces = grid_faces(n, [&](Index i, Index j) { return p.top(i, j); });
-    for (Triangle t : grid_faces(n, [&](Index i, Index j) { return p.bottom(i, j); })) {
-        p.faces.push_back({t[0], t[2], t[1]});
-    }
-    return p;
+    const TriangleMesh layers = two_layers(n, h);
+    return {n, layers.positions, layers.triangles};
 }
 
 // Collapses every other rim vertex and every other inner vertex into its left neighbour. The new positions
@@ -164,14 +150,13 @@ TEST_CASE("surface map: points are not mapped to the other side of a thin plate"
 TEST_CASE("surface map: projection gives the closest preimage face of the same orientation") {
     constexpr Index n = 8;
     const auto vertex = [](Index i, Index j) { return (n + 1) * j + i; };
-    std::vector<Vec3> positions;
-    for (Index j = 0; j <= n; ++j) {
-        for (Index i = 0; i <= n; ++i) {
-            const double rough = 0.03 * double((7 * i + 5 * j + i * j) % 5);
-            positions.push_back({i - (i > 4 ? 0.9 : 0.0), double(j), (i > 4 ? 0.7 : 0.0) + rough});
-        }
+    std::vector<Vec3> positions = grid(n).positions;
+    const std::vector<Triangle> faces = grid(n).triangles;
+    for (Index v = 0; v < positions.size(); ++v) {
+        const Index i = v % (n + 1), j = v / (n + 1);
+        const double rough = 0.03 * double((7 * i + 5 * j + i * j) % 5);
+        positions[v] = {i - (i > 4 ? 0.9 : 0.0), double(j), (i > 4 ? 0.7 : 0.0) + rough};
     }
-    const std::vector<Triangle> faces = grid_faces(n, vertex);
     HandHistory hand(positions, faces);
     for (Index j = 1; j < n; ++j) {
         Index last = vertex(3, j);

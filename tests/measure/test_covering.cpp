@@ -1,8 +1,5 @@
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include "faqem/compare.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
@@ -29,19 +26,6 @@ double bound(const TriangleMesh& surface, const std::array<Vec3, 3>& triangle, d
 }
 
 constexpr std::array<Vec3, 3> large = {Vec3{2.1, 2.3, 0}, {17.2, 3.4, 0}, {5.5, 16.6, 0}};
-
-// The surface of a cube of side 1 with 12 n^2 faces, without common vertices of its sides.
-TriangleMesh fine_cube(Index n) {
-    TriangleMesh mesh;
-    for (const std::size_t axis : {0, 1, 2}) {
-        for (const double height : {0.0, 1.0}) {
-            TriangleMesh side = test::square(n, 1, height);
-            for (Vec3& p : side.positions) std::swap(p[axis], p[2]);
-            mesh = test::both(std::move(mesh), side);
-        }
-    }
-    return mesh;
-}
 
 }  // namespace
 
@@ -120,7 +104,7 @@ TEST_CASE("covering: two faces and a plate of many, 12 and a box of many have di
     const DistanceBound flat = hausdorff(plate.view(), two.view());
     CHECK(flat.bound < 1e-8);
     CHECK(flat.pieces <= 8);
-    const DistanceBound box = hausdorff(fine_cube(30).view(), test::cube().view());
+    const DistanceBound box = hausdorff(test::fine_cube(30).view(), test::cube().view());
     CHECK(box.bound < 1e-8);
     CHECK(box.pieces <= 48);
 }

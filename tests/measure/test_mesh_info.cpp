@@ -3,16 +3,13 @@
 #include "faqem/compare.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 
 namespace {
 
-const std::vector<Vec3> cube_positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0},
-                                          {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
-const std::vector<Triangle> cube_triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7},
-                                              {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5},
-                                              {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+const TriangleMesh large_cube = test::scaled(test::cube(), 2);
 
 MeshInfo info_of(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
     return info(MeshView{positions, triangles});
@@ -21,7 +18,7 @@ MeshInfo info_of(const std::vector<Vec3>& positions, const std::vector<Triangle>
 }  // namespace
 
 TEST_CASE("info: a closed cube") {
-    const MeshInfo cube = info_of(cube_positions, cube_triangles);
+    const MeshInfo cube = info(large_cube.view());
     CHECK(cube.faces == 12);
     CHECK(cube.vertices == 8);
     CHECK(cube.components == 1);
@@ -36,16 +33,11 @@ TEST_CASE("info: a closed cube") {
 }
 
 TEST_CASE("info: vertices at equal positions are welded, unreferenced ones are ignored") {
-    std::vector<Vec3> positions;
-    std::vector<Triangle> triangles;
-    for (const Triangle& t : cube_triangles) {
-        const auto v = static_cast<Index>(positions.size());
-        for (const Index i : t) positions.push_back(cube_positions[i]);
-        for (double& x : positions.back()) x = x == 0 ? -0.0 : x;
-        triangles.push_back({v, v + 1, v + 2});
-    }
-    positions.push_back({100, 100, 100});
-    const MeshInfo soup = info_of(positions, triangles);
+    TriangleMesh apart = test::separated(large_cube);
+    for (std::size_t v = 2; v < apart.positions.size(); v += 3)
+        for (double& x : apart.positions[v]) x = x == 0 ? -0.0 : x;
+    apart.positions.push_back({100, 100, 100});
+    const MeshInfo soup = info(apart.view());
     CHECK(soup.vertices == 8);
     CHECK(soup.boundary_edges == 0);
     CHECK(soup.euler == 2);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -161,23 +159,7 @@ TEST_CASE("rounds: faces with reversed windings are simplified as the others, an
 }
 
 TEST_CASE("rounds: a strip that cannot be oriented keeps a border where its windings meet") {
-    // A Moebius band of 400 by 24 vertices.
-    TriangleMesh band;
-    for (Index i = 0; i < 400; ++i) {
-        for (Index j = 0; j < 24; ++j) {
-            const double a = 2 * std::numbers::pi * i / 400, w = (j - 11.5) / 24;
-            const double r = 2 + w * std::cos(a / 2);
-            band.positions.push_back({r * std::cos(a), r * std::sin(a), w * std::sin(a / 2)});
-        }
-    }
-    const auto at = [](Index i, Index j) { return i < 400 ? 24 * i + j : 23 - j; };
-    for (Index i = 0; i < 400; ++i) {
-        for (Index j = 0; j < 23; ++j) {
-            band.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-            band.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-        }
-    }
-    const CompactedMesh left = *Rounds(band, 5000).left;
+    const CompactedMesh left = *Rounds(test::moebius(400, 23), 5000).left;
     CHECK(left.triangles.size() < 9000);
     CHECK(engine::find_boundary_edges(left.triangles, left.positions.size()).size() == 800);
     CHECK(test::euler(left.triangles) == 0);
@@ -240,15 +222,8 @@ TEST_CASE("rounds: a border does not move, and 8 faces are left for each of its 
 }
 
 TEST_CASE("rounds: the rim of a thin blade and the corners of narrow faces do not move") {
-    TriangleMesh blade = test::grid(80);  // then two sheets with a common rim
-    const auto on_rim = [](const auto& p) { return p[0] == 0 || p[0] == 80 || p[1] == 0 || p[1] == 80; };
-    const std::vector<Triangle> sheet = blade.triangles;
-    const std::vector<Vec3> above = blade.positions;
-    for (const Vec3& p : above) blade.positions.push_back({p[0], p[1], p[2] - 1});
-    for (Triangle t : sheet) {
-        for (Index& v : t) v = on_rim(above[v]) ? v : v + static_cast<Index>(above.size());
-        blade.triangles.push_back({t[0], t[2], t[1]});
-    }
+    const TriangleMesh blade = test::two_layers(80, 0.25);
+    const auto on_rim = [](const Vec3& p) { return p[2] == 0; };
     const Rounds thin(blade, 2000);
     Index stay = 0;
     for (const Index v : thin.left->vertices) stay += on_rim(blade.positions[thin.input.vertex[v]]);

@@ -144,20 +144,3 @@ TEST_CASE("simplify refuses negative vertex indices") {
     const MeshView mesh{corner_positions, {triangles.data(), 2, 3 * sizeof(std::int32_t)}};
     CHECK_THROWS_WITH(simplify(mesh), "face 1: vertex index -2 is out of range: there are 4 vertices");
 }
-
-TEST_CASE("the result of simplify does not depend on the memory layout of the input") {
-    const TriangleMesh mesh = test::shaken(test::grid(20), 0.2, 3);
-    std::vector<double> columns;
-    for (std::size_t k = 0; k < 3; ++k) {
-        for (const Vec3& p : mesh.positions) columns.push_back(p[k]);
-    }
-    std::vector<std::uint16_t> narrow;
-    for (const Triangle& t : mesh.triangles) {
-        for (const Index v : t) narrow.push_back(static_cast<std::uint16_t>(v));
-    }
-    const std::size_t n = mesh.positions.size();
-    const PositionView positions(columns.data(), n, sizeof(double), n * sizeof(double));
-    const SimplifyResult a = simplify(mesh.view()), b = simplify({positions, narrow});
-    CHECK(a.mesh.positions == b.mesh.positions);
-    CHECK(a.mesh.triangles == b.mesh.triangles);
-}

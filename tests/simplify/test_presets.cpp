@@ -15,33 +15,37 @@ detail::Settings of(Preset preset, const Weights& weights = {}, const Topology& 
 
 }  // namespace
 
-TEST_CASE("preset paper has the weights of Table 1 at a diagonal of 100") {
-    const detail::Settings s = of(Preset::paper);
-    CHECK(s.weights.base == BaseWeight::inverse_area);
-    CHECK(s.weights.plane_area == 1);
-    CHECK(s.weights.area == 100);
-    CHECK(s.weights.boundary == 500);
-    CHECK(s.weights.normal == 0.01);
-    CHECK(s.weights.seam == 5000);
-    CHECK(s.weights.area_term == AreaTerm::after_placement);
-    CHECK(s.weights.min_area > 0);
-    CHECK(s.link == LinkCondition::off);
-    CHECK(s.min_normal_cosine == 0);
-    CHECK(s.diagonal == 100);
-    CHECK(s.weld_distance == 1e-6);
-}
-
-TEST_CASE("preset qem has unweighted plane quadrics and the link condition") {
-    const detail::Settings s = of(Preset::qem);
-    CHECK(s.weights.base == BaseWeight::unit);
-    CHECK(s.weights.area == 0);
-    CHECK(s.weights.boundary == 0);
-    CHECK(s.weights.normal == 0);
-    CHECK(s.weights.seam == 1);
-    CHECK(s.link == LinkCondition::on);
-    CHECK(s.min_normal_cosine == 0);
-    CHECK(s.diagonal == 1);
-    CHECK(s.weld_distance == 0);
+TEST_CASE("presets with memory have the weights of their publications") {
+    struct Row {
+        Preset preset;
+        BaseWeight base;
+        double area, boundary, normal, seam;
+        AreaTerm area_term;
+        LinkCondition link;
+        double diagonal, weld_distance;
+    };
+    // That of `paper` is Table 1.
+    for (const Row& row :
+         {Row{Preset::qem, BaseWeight::unit, 0, 0, 0, 1, AreaTerm::after_placement, LinkCondition::on, 1, 0},
+          {Preset::paper, BaseWeight::inverse_area, 100, 500, 0.01, 5000, AreaTerm::after_placement,
+           LinkCondition::off, 100, 1e-6},
+          {Preset::stmw, BaseWeight::area, 1, 0, 0, 1, AreaTerm::before_placement, LinkCondition::off, 1,
+           0}}) {
+        CAPTURE(name(row.preset));
+        const detail::Settings s = of(row.preset);
+        CHECK(s.weights.base == row.base);
+        CHECK(s.weights.area == row.area);
+        CHECK(s.weights.boundary == row.boundary);
+        CHECK(s.weights.normal == row.normal);
+        CHECK(s.weights.seam == row.seam);
+        CHECK((row.area == 0 || s.weights.area_term == row.area_term));
+        CHECK(s.link == row.link);
+        CHECK(s.min_normal_cosine == 0);
+        CHECK(s.diagonal == row.diagonal);
+        CHECK(s.weld_distance == row.weld_distance);
+    }
+    CHECK(of(Preset::paper).weights.plane_area == 1);
+    CHECK(of(Preset::paper).weights.min_area > 0);
 }
 
 TEST_CASE("preset fast is memoryless and preset balanced also tracks distances") {
@@ -52,18 +56,6 @@ TEST_CASE("preset fast is memoryless and preset balanced also tracks distances")
     CHECK(s.min_normal_cosine == 0.3);
     CHECK(s.diagonal == 1);
     CHECK(detail::settings({}).quadric_policy == detail::Settings::QuadricPolicy::tracked);
-}
-
-TEST_CASE("preset stmw weights planes by area and uses the area term for placement") {
-    const detail::Settings s = of(Preset::stmw);
-    CHECK(s.weights.base == BaseWeight::area);
-    CHECK(s.weights.area == 1);
-    CHECK(s.weights.boundary == 0);
-    CHECK(s.weights.normal == 0);
-    CHECK(s.weights.area_term == AreaTerm::before_placement);
-    CHECK(s.link == LinkCondition::off);
-    CHECK(s.diagonal == 1);
-    CHECK(s.weld_distance == 0);
 }
 
 TEST_CASE("every weight and topology option overrides the preset") {

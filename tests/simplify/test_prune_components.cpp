@@ -159,14 +159,6 @@ TEST_CASE("max_error ignores pruned components") {
     CHECK(hausdorff(test::icosphere(3).view(), result.mesh.view()).value <= 0.01 * diagonal);
 }
 
-TEST_CASE("nothing is pruned without a prune size") {
-    const SimplifyResult result = simplify(dusty().view(), {.target = ratio(1)});
-    CHECK(result.report.components_pruned == 0);
-    CHECK(result.report.faces_pruned == 0);
-    CHECK(result.report.warnings.empty());
-    CHECK(result.mesh.triangles.size() == dusty().triangles.size());
-}
-
 TEST_CASE("a prune size must be finite and positive") {
     for (const double bad :
          {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

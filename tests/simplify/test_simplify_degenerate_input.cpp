@@ -71,11 +71,6 @@ TriangleMesh turned_surface(Index m, Index n, bool is_closed, Curve curve) {
     return mesh;
 }
 
-/// A Moebius strip.
-TriangleMesh moebius(Index m, Index n) {
-    return turned_surface(m, n, false, [](double t) { return std::pair(0.8 * t - 0.4, 0.0); });
-}
-
 /// A Klein bottle (figure-eight immersion): closed, non-orientable and self-intersecting.
 TriangleMesh klein_bottle(Index m, Index n) {
     return turned_surface(m, n, true, [](double t) {
@@ -133,7 +128,7 @@ TEST_CASE("degenerate input: a sphere with mixed or inverted winding keeps its s
 }
 
 TEST_CASE("degenerate input: non-orientable surfaces keep their topology under the link condition") {
-    for (const TriangleMesh& mesh : {moebius(40, 6), klein_bottle(40, 16)}) {
+    for (const TriangleMesh& mesh : {test::moebius(40, 6), klein_bottle(40, 16)}) {
         REQUIRE(test::euler(mesh.triangles) == 0);
         every_preset(mesh, 0.2, [](const SimplifyResult&) {});
         Options options = to_ratio(Preset::qem, 0.2);

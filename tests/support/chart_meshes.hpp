@@ -37,26 +37,6 @@ inline std::vector<detail::PageTriangle> chart_faces(const TriangleMesh& mesh, d
     return result;
 }
 
-/// A Moebius strip of `around` x `across` quads.
-inline TriangleMesh moebius(Index around, Index across) {
-    TriangleMesh mesh;
-    for (Index i = 0; i < around; ++i) {
-        for (Index j = 0; j <= across; ++j) {
-            const double a = 2 * pi * i / around, v = 0.5 * (double(j) / across - 0.5);
-            const double r = 1 + v * std::cos(a / 2);
-            mesh.positions.push_back({r * std::cos(a), r * std::sin(a), v * std::sin(a / 2)});
-        }
-    }
-    const auto vertex = [&](Index i, Index j) { return i < around ? i * (across + 1) + j : across - j; };
-    for (Index i = 0; i < around; ++i) {
-        for (Index j = 0; j < across; ++j) {
-            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
-            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-        }
-    }
-    return mesh;
-}
-
 /// Area of the intersection of two triangles, by clipping (Sutherland and Hodgman 1974).
 inline double shared_area(const detail::Triangle2& a, const detail::Triangle2& b) {
     std::vector<detail::Point2> polygon(a.begin(), a.end());

@@ -2,7 +2,6 @@
 /// \file
 /// Collapse histories with given collapses, recorded by brute force over all faces.
 
-#include <numeric>
 #include <vector>
 
 #include "faqem/history.hpp"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "faqem/surface_map.hpp"
+#include "support/meshes.hpp"
 
 namespace faqem::test {
 
@@ -30,32 +31,6 @@ inline Vec3 original_point(const CollapseHistory& history, const SurfacePoint& p
 
 inline double distance(const Vec3& a, const Vec3& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-/// Barycentric coordinates of a regular grid over a triangle, including its edges and corners.
-/// \param n  number of intervals along an edge, > 0
-inline std::vector<Vec3> spread(int n) {
-    std::vector<Vec3> result;
-    for (int i = 0; i <= n; ++i) {
-        for (int j = 0; i + j <= n; ++j) {
-            result.push_back({i / double(n), j / double(n), (n - i - j) / double(n)});
-        }
-    }
-    return result;
-}
-
-/// Faces of a grid of n x n squares with vertices vertex(i, j). Of each square, the even face is below the
-/// diagonal.
-template <class Vertex>
-std::vector<Triangle> grid_faces(Index n, Vertex&& vertex) {
-    std::vector<Triangle> faces;
-    for (Index j = 0; j < n; ++j) {
-        for (Index i = 0; i < n; ++i) {
-            faces.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
-            faces.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-        }
-    }
-    return faces;
 }
 
 }  // namespace faqem::test

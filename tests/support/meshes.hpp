@@ -104,6 +104,24 @@ inline TriangleMesh square(Index n, double side, double height) {
     return mesh;
 }
 
+/// grid(n) at z = height, then a copy of it below, at z = -height and turned over, with the same vertices on the rim. Copies
+/// of these on the rim have no faces.
+inline TriangleMesh two_layers(Index n, double height) {
+    TriangleMesh mesh = grid(n);
+    const auto shift = static_cast<Index>(mesh.positions.size());
+    const auto is_rim = [&](Index v) { return v % (n + 1) % n == 0 || v / (n + 1) % n == 0; };
+    for (const Triangle& t : grid(n).triangles) {
+        const auto below = [&](Index v) { return is_rim(v) ? v : v + shift; };
+        mesh.triangles.push_back({below(t[0]), below(t[2]), below(t[1])});
+    }
+    for (Index v = 0; v < shift; ++v) {
+        Vec3& p = mesh.positions[v];
+        if (!is_rim(v)) p[2] = height;
+        mesh.positions.push_back({p[0], p[1], -p[2]});
+    }
+    return mesh;
+}
+
 /// A sphere around the origin of rings x 2 rings quads of two triangles, with outward normals. Each pole
 /// consists of many vertices at the same position.
 inline TriangleMesh globe(Index rings, double radius) {
@@ -211,6 +229,26 @@ inline TriangleMesh torus(Index m, Index n) {
     return mesh;
 }
 
+/// A Moebius strip of `around` x `across` quads.
+inline TriangleMesh moebius(Index around, Index across) {
+    TriangleMesh mesh;
+    for (Index i = 0; i < around; ++i) {
+        for (Index j = 0; j <= across; ++j) {
+            const double a = 2 * pi * i / around, v = 0.5 * (double(j) / across - 0.5);
+            const double r = 1 + v * std::cos(a / 2);
+            mesh.positions.push_back({r * std::cos(a), r * std::sin(a), v * std::sin(a / 2)});
+        }
+    }
+    const auto vertex = [&](Index i, Index j) { return i < around ? i * (across + 1) + j : across - j; };
+    for (Index i = 0; i < around; ++i) {
+        for (Index j = 0; j < across; ++j) {
+            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        }
+    }
+    return mesh;
+}
+
 /// A unit square:    3 - 2
 ///                   | / |
 ///                   0 - 1
@@ -288,6 +326,31 @@ inline TriangleMesh both(TriangleMesh a, const TriangleMesh& b) {
     return a;
 }
 
+/// The mesh with three vertices of its own for each face.
+inline TriangleMesh separated(const TriangleMesh& mesh) {
+    TriangleMesh result;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const auto first = static_cast<Index>(result.positions.size());
+        for (const Index v : {a, b, c}) result.positions.push_back(mesh.positions[v]);
+        result.triangles.push_back({first, first + 1, first + 2});
+    }
+    return result;
+}
+
+/// The cube [0, 1]^3 with n x n squares of two triangles on each side, two sides for each axis. Sides have no common
+/// vertices; normals are outward.
+inline TriangleMesh fine_cube(Index n) {
+    TriangleMesh mesh;
+    for (const int axis : {0, 1, 2}) {
+        for (const double height : {0.0, 1.0}) {
+            TriangleMesh side = square(n, 1, height);
+            for (Vec3& p : side.positions) std::rotate(p.begin(), p.begin() + (2 - axis), p.end());
+            mesh = both(std::move(mesh), height > 0 ? side : inside_out(side));
+        }
+    }
+    return mesh;
+}
+
 inline engine::CollapseMesh collapse_mesh_of(const TriangleMesh& mesh) {
     std::vector<engine::Vector3> positions;
     for (const Vec3& p : mesh.positions) positions.push_back(engine::to_eigen(p));
@@ -327,6 +390,17 @@ inline int euler(const std::vector<Triangle>& triangles) {
 inline bool closed_manifold(const std::vector<Triangle>& triangles) {
     const Edges all = edges(triangles);
     return std::all_of(all.begin(), all.end(), [](const auto& edge) { return edge.second == 2; });
+}
+
+/// Barycentric coordinates of a regular grid over a triangle, including its edges and corners.
+/// \param n  number of intervals along an edge, > 0
+inline std::vector<Vec3> spread(int n) {
+    std::vector<Vec3> result;
+    for (int i = 0; i <= n; ++i) {
+        for (int j = 0; i + j <= n; ++j)
+            result.push_back({i / double(n), j / double(n), (n - i - j) / double(n)});
+    }
+    return result;
 }
 
 inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }

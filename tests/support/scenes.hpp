@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 #include "faqem/bake.hpp"
 #include "support/hand_history.hpp"
@@ -183,17 +182,6 @@ inline std::array<double, 4> look(const Part& part, const Pixels& pixels, std::s
     if (part.uvs.empty()) return read(pixels, 0, 0);
     const auto uv = blend(part.uvs[0], part.triangles[face], w);
     return read(pixels, uv[0], uv[1]);
-}
-
-/// Barycentric coordinates of a regular grid over a triangle, including its edges and corners.
-/// \param n  number of intervals along an edge, > 0
-inline std::vector<Vec3> spread(int n) {
-    std::vector<Vec3> result;
-    for (int i = 0; i <= n; ++i) {
-        for (int j = 0; i + j <= n; ++j)
-            result.push_back({i / double(n), j / double(n), (n - i - j) / double(n)});
-    }
-    return result;
 }
 
 }  // namespace faqem::test

@@ -22,16 +22,9 @@ inline TriangleMesh float_soup(const TriangleMesh& mesh, double units) {
     const double unit =
         static_cast<double>(std::nextafter(size, std::numeric_limits<float>::max())) - double{size};
     Random random(7);
-    TriangleMesh result;
-    for (const Triangle& t : mesh.triangles) {
-        const auto first = static_cast<Index>(result.positions.size());
-        for (const Index v : t) {
-            Vec3 p = mesh.positions[v];
-            for (double& x : p) x = static_cast<float>(x + unit * random.between(-units, units));
-            result.positions.push_back(p);
-        }
-        result.triangles.push_back({first, first + 1, first + 2});
-    }
+    TriangleMesh result = separated(mesh);
+    for (Vec3& p : result.positions)
+        for (double& x : p) x = static_cast<float>(x + unit * random.between(-units, units));
     return result;
 }
 

@@ -48,35 +48,6 @@ double mean_angle(const Simplified& simplified) {
     return sum / static_cast<double>(exact.size()) * 180 / std::numbers::pi;
 }
 
-// The cube [0, 1]^3 with n x n squares of two triangles on each side.
-TriangleMesh fine_cube(Index n) {
-    TriangleMesh mesh;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const double side : {0.0, 1.0}) {
-            const auto first = static_cast<Index>(mesh.positions.size());
-            for (Index j = 0; j <= n; ++j) {
-                for (Index i = 0; i <= n; ++i) {
-                    Vec3 p;
-                    p[axis] = side;
-                    p[(axis + 1) % 3] = i / double(n);
-                    p[(axis + 2) % 3] = j / double(n);
-                    mesh.positions.push_back(p);
-                }
-            }
-            for (Index j = 0; j < n; ++j) {
-                for (Index i = 0; i < n; ++i) {
-                    const Index a = first + j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
-                    if (side > 0)
-                        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
-                    else
-                        mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, d, c}});
-                }
-            }
-        }
-    }
-    return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("corner points: normals differ little from those of the map") {

@@ -1,6 +1,7 @@
 #include "faqem/engine/metric/weighted.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "faqem/compare.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
@@ -146,17 +147,6 @@ TEST_CASE("vertex weights: a region of weight 10 keeps more faces and has a smal
     }
 }
 
-TEST_CASE("vertex weights: weights of 1 do not change the result") {
-    const Globe none(1);
-    for (const Preset preset : all_presets) {
-        CAPTURE(name(preset));
-        const SimplifyResult ones = none.simplified(preset);
-        const SimplifyResult plain = simplify(none.mesh.view(), {.target = ratio(0.1), .preset = preset});
-        CHECK(ones.mesh.positions == plain.mesh.positions);
-        CHECK(ones.mesh.triangles == plain.mesh.triangles);
-    }
-}
-
 TEST_CASE("vertex weights: a uniform weight does not change the result, lifted rules or deletions") {
     // A ring with a triangular cross-section cannot be collapsed under the link condition; beside it are
     // components to delete. A power of two as the weight keeps all costs exact.
@@ -182,19 +172,10 @@ TEST_CASE("vertex weights: a uniform weight does not change the result, lifted r
 TEST_CASE("vertex weights: welded vertices have the largest of their weights") {
     // Each face has its own three vertices. Of those at one position, only one has the weight.
     const Globe globe(10);
-    TriangleMesh split;
-    std::vector<float> weights;
-    std::vector<bool> given(globe.mesh.positions.size(), false);
-    for (const Triangle& t : globe.mesh.triangles) {
-        Triangle own;
-        for (std::size_t k = 0; k < 3; ++k) {
-            own[k] = static_cast<Index>(split.positions.size());
-            split.positions.push_back(globe.mesh.positions[t[k]]);
-            weights.push_back(given[t[k]] ? 1 : globe.weights[t[k]]);
-            given[t[k]] = true;
-        }
-        split.triangles.push_back(own);
-    }
+    const TriangleMesh split = test::separated(globe.mesh);
+    std::vector<float> weights, left = globe.weights;
+    for (const Triangle& t : globe.mesh.triangles)
+        for (const Index v : t) weights.push_back(std::exchange(left[v], 1.0f));
     MeshView view{.positions = split.positions, .triangles = split.triangles, .vertex_weights = weights};
     const SimplifyResult a = simplify(view, {.target = ratio(0.1)});
     const SimplifyResult b = globe.simplified(Preset::balanced);
