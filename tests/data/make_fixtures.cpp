@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "faqem/asset.hpp"
+#include "support/meshes.hpp"
 
 namespace {
 
@@ -32,42 +33,24 @@ Image checkers() {
     return encode_png(pixels, "checkers");
 }
 
+Part part_of(const TriangleMesh& mesh) {
+    Part part;
+    part.positions = mesh.positions;
+    part.triangles = mesh.triangles;
+    return part;
+}
+
 /// The unit cube, n x n squares on each side. Every side has vertices of its own: normals and UVs have seams along
 /// all edges of the cube.
 Part cube_with_seams(Index n) {
-    Part part;
+    Part part = part_of(test::fine_cube(n));
     part.uvs.resize(1);
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const double side : {0.0, 1.0}) {
-            const auto first = static_cast<Index>(part.positions.size());
-            const auto u = static_cast<std::size_t>((axis + 1) % 3),
-                       v = static_cast<std::size_t>((axis + 2) % 3);
-            for (Index j = 0; j <= n; ++j) {
-                for (Index i = 0; i <= n; ++i) {
-                    Vec3 p = {side, side, side};
-                    p[u] = static_cast<double>(i) / n;
-                    p[v] = static_cast<double>(j) / n;
-                    part.positions.push_back(p);
-                    Vec3f normal = {0, 0, 0};
-                    normal[static_cast<std::size_t>(axis)] = side > 0 ? 1.0f : -1.0f;
-                    part.normals.push_back(normal);
-                    part.uvs[0].push_back({static_cast<float>(p[u]), static_cast<float>(p[v])});
-                }
-            }
-            for (Index j = 0; j < n; ++j) {
-                for (Index i = 0; i < n; ++i) {
-                    const Index a = first + j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-                    const auto add = [&](Index x, Index y, Index z) {
-                        if (side > 0)
-                            part.triangles.push_back({x, y, z});
-                        else
-                            part.triangles.push_back({x, z, y});
-                    };
-                    add(a, b, d);
-                    add(a, d, c);
-                }
-            }
-        }
+    for (std::size_t v = 0; v < part.positions.size(); ++v) {
+        const std::size_t side = v / ((n + 1) * (n + 1)), axis = side / 2;
+        const Vec3& p = part.positions[v];
+        part.normals.push_back({0, 0, 0});
+        part.normals[v][axis] = side % 2 ? 1.0f : -1.0f;
+        part.uvs[0].push_back({static_cast<float>(p[(axis + 1) % 3]), static_cast<float>(p[(axis + 2) % 3])});
     }
     return part;
 }
@@ -87,20 +70,8 @@ Part nonmanifold_fan(Index pages) {
 
 /// n x n squares over [0, 1]^2 with a low bump: a surface with one boundary.
 Part open_grid(Index n) {
-    Part part;
-    for (Index j = 0; j <= n; ++j) {
-        for (Index i = 0; i <= n; ++i) {
-            const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
-            part.positions.push_back({x, y, x * (1 - x) * y * (1 - y)});
-        }
-    }
-    for (Index j = 0; j < n; ++j) {
-        for (Index i = 0; i < n; ++i) {
-            const Index a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-            part.triangles.push_back({a, b, d});
-            part.triangles.push_back({a, d, c});
-        }
-    }
+    Part part = part_of(test::square(n, 1, 0));
+    for (auto& [x, y, z] : part.positions) z = x * (1 - x) * y * (1 - y);
     return part;
 }
 
