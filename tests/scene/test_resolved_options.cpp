@@ -1,5 +1,6 @@
 #include "scene/resolved_options.hpp"
 #include "support/catch.hpp"
+#include "support/scenes.hpp"
 
 using namespace faqem;
 
@@ -8,22 +9,8 @@ namespace {
 // A plate of 12 x 12 squares whose vertices have the colour by column.
 template <class ColorOf>
 Asset plate(const ColorOf& color_of) {
-    constexpr Index n = 12;
-    Asset asset;
-    Part& part = asset.parts.emplace_back();
-    for (Index y = 0; y <= n; ++y) {
-        for (Index x = 0; x <= n; ++x) {
-            part.positions.push_back({double(x), double(y), 0});
-            part.colors.push_back(color_of(x));
-        }
-    }
-    for (Index y = 0; y < n; ++y) {
-        for (Index x = 0; x < n; ++x) {
-            const Index a = y * (n + 1) + x;
-            part.triangles.push_back({a, a + 1, a + n + 2});
-            part.triangles.push_back({a, a + n + 2, a + n + 1});
-        }
-    }
+    Asset asset = test::asset_with({test::part_of(test::grid(12))});
+    for (Index v = 0; v < 13 * 13; ++v) asset.parts[0].colors.push_back(color_of(v % 13));
     return asset;
 }
 
@@ -36,14 +23,10 @@ Bake kind_for(ModelFormat format, const Asset& asset) {
 
 // Two plates side by side, each of one colour.
 Asset two_classes() {
-    Asset asset = plate([](Index) { return red; });
-    const Part other = plate([](Index) { return blue; }).parts[0];
-    Part& part = asset.parts[0];
-    const auto first = static_cast<Index>(part.positions.size());
-    for (const Vec3& p : other.positions) part.positions.push_back({p[0] + 12, p[1], p[2]});
-    part.colors.insert(part.colors.end(), other.colors.begin(), other.colors.end());
-    for (const Triangle& t : other.triangles)
-        part.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    const TriangleMesh grid = test::grid(12);
+    Asset asset = test::asset_with({test::part_of(test::both(grid, test::moved(grid, {12, 0, 0})))});
+    asset.parts[0].colors.assign(13 * 13, red);
+    asset.parts[0].colors.resize(2 * 13 * 13, blue);
     return asset;
 }
 

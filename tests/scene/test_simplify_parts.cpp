@@ -106,14 +106,6 @@ TEST_CASE("the budget per mesh is proportional to face counts and tiny parts kee
     }
 }
 
-TEST_CASE("with a budget per mesh the ratio applies to every part") {
-    Asset asset = asset_with({bumpy(20), bumpy(10)});
-    const SimplifiedParts simplified = simplify_parts(asset, {.target = ratio(0.25), .budget = Budget::mesh});
-    CHECK(simplified.parts[0].mesh.triangles.size() <= 200);
-    CHECK(simplified.parts[1].mesh.triangles.size() <= 50);
-    CHECK(simplified.report.target_faces == 250);
-}
-
 TEST_CASE("a part with many small components keeps all of them") {
     // Twelve squares in one part, and another part of 800 faces, at the expense of which they are kept.
     Asset asset = asset_with({bumpy(20), Part{}});
@@ -140,14 +132,8 @@ TEST_CASE("a part with many small components keeps all of them") {
 
 TEST_CASE("components are counted after welding equal positions") {
     // The second grid is a triangle soup: its budget is in proportion to its faces, not all of them.
-    Asset asset = asset_with({bumpy(20), bumpy(10)});
-    Part soup;
-    for (const Triangle& t : asset.parts[1].triangles) {
-        const Index n = static_cast<Index>(soup.positions.size());
-        for (Index v : t) soup.positions.push_back(asset.parts[1].positions[v]);
-        soup.triangles.push_back({n, n + 1, n + 2});
-    }
-    asset.parts[1] = soup;
+    const Part part = bumpy(10);
+    Asset asset = asset_with({bumpy(20), part_of(separated(make(part.positions, part.triangles)))});
     Options options{.target = ratio(0.25), .budget = Budget::mesh};
     CHECK(simplify_parts(asset, options).parts[1].report.target_faces == 50);
 }
@@ -204,32 +190,6 @@ TEST_CASE("progress over several parts never decreases") {
     CHECK(std::is_sorted(seen.begin(), seen.end()));
     CHECK(seen.back() <= 1);
     CHECK(seen.back() > 0.75);
-}
-
-TEST_CASE("simplifying and baking preserves the colours of the source") {
-    // A wavy grid whose texture is a ramp in x and y, so that colours identify positions.
-    Asset asset = textured_square(ramp(128));
-    const auto uv_of = [](const Vec3& p) { return std::array{p[0] / 24, p[1] / 24}; };
-    asset.parts = {uv_mapped(bumpy(24), uv_of)};
-    const Part& part = asset.parts[0];
-    Options options{.target = ratio(0.2), .history = Recording::on, .bake = {.texture_size = 512}};
-    const SimplifiedAsset simplified = simplify(asset, options);
-    REQUIRE(simplified.asset.parts[0].triangles.size() <= part.triangles.size() / 5);
-    CHECK(simplified.histories.size() == 1);
-    const Pixels atlas = decode(simplified.asset.images[0]), painted = ramp(128);
-    const Part& out = simplified.asset.parts[0];
-    double error = 0, count = 0;
-    for (std::size_t f = 0; f < out.triangles.size(); ++f) {
-        for (const Vec3& w : spread(8)) {
-            const auto p = blend(out.positions, out.triangles[f], w);
-            const auto expected = read(painted, p[0] / 24, p[1] / 24), got = look(out, atlas, f, w);
-            for (std::size_t k = 0; k < 2; ++k) error += std::abs(expected[k] - got[k]);
-            count += 2;
-        }
-    }
-    // The ramp spans 180 levels over 24 cells, 7.5 per cell.
-    CHECK(error / count < 2.5);
-    CHECK(simplified.report.seconds.bake > 0);
 }
 
 TEST_CASE("invalid assets are rejected with the name of the part or material") {

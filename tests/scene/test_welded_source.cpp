@@ -6,6 +6,7 @@
 #include "faqem/bake_levels.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
+#include "support/scenes.hpp"
 #include "support/torn_meshes.hpp"
 
 using namespace faqem;
@@ -15,12 +16,8 @@ using faqem::testing::any_contains;
 namespace {
 
 Asset asset_of(const TriangleMesh& mesh) {
-    Asset asset;
-    asset.parts.resize(1);
+    Asset asset = asset_with({part_of(mesh)});
     asset.parts[0].name = "ball";
-    asset.parts[0].positions = mesh.positions;
-    asset.parts[0].triangles = mesh.triangles;
-    asset.parts[0].face_material.assign(mesh.triangles.size(), no_index);
     return asset;
 }
 

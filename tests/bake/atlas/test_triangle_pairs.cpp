@@ -3,6 +3,7 @@
 
 #include "bake/atlas/triangle_pairs.hpp"
 #include "support/catch.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;
@@ -31,19 +32,10 @@ std::vector<PairTriangle> flat_mesh(const Points& points, const Corners& triangl
 
 // n x n squares of side 10, each split by its diagonal.
 std::vector<PairTriangle> split_squares(Index n) {
+    const TriangleMesh grid = test::grid(n);
     Points points;
-    Corners triangles;
-    for (Index y = 0; y <= n; ++y) {
-        for (Index x = 0; x <= n; ++x) points.push_back({10.0 * x, 10.0 * y});
-    }
-    for (Index y = 0; y < n; ++y) {
-        for (Index x = 0; x < n; ++x) {
-            const Index a = y * (n + 1) + x, b = a + 1, c = a + n + 2, d = a + n + 1;
-            triangles.push_back({a, b, c});
-            triangles.push_back({a, c, d});
-        }
-    }
-    return flat_mesh(points, triangles);
+    for (const Vec3& p : grid.positions) points.push_back({10 * p[0], 10 * p[1]});
+    return flat_mesh(points, grid.triangles);
 }
 
 void check_mutual(const std::vector<PairTriangle>& triangles, const std::vector<std::uint8_t>& corner) {

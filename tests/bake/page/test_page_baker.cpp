@@ -208,18 +208,6 @@ TEST_CASE("automatic uses charts unless they have too few faces") {
           Bake::per_triangle);
 }
 
-TEST_CASE("a page of charts does not depend on the number of threads") {
-    const Asset source = painted_ball();
-    Options options = of_kind(Bake::atlas, 128);
-    options.target = ratio(0.5);
-    options.threads = 1;
-    const SimplifiedAsset one = simplify(source, options);
-    options.threads = 3;
-    const SimplifiedAsset three = simplify(source, options);
-    CHECK(one.asset.images.at(0).encoded == three.asset.images.at(0).encoded);
-    CHECK(one.asset.parts[0].uvs == three.asset.parts[0].uvs);
-}
-
 TEST_CASE("every covered texel is mapped to a close point of the source") {
     const Asset source = painted_ball();
     Options options = of_kind(GENERATE(Bake::atlas, Bake::per_triangle), GENERATE(64u, 256u));

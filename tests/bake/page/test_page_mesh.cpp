@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"

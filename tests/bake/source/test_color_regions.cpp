@@ -1,5 +1,6 @@
 #include "bake/source/facets.hpp"
 #include "support/catch.hpp"
+#include "support/scenes.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;
@@ -9,17 +10,8 @@ namespace {
 // A plate of n x n squares of side 1, in two materials by the given function.
 template <class MaterialOf>
 Part plate(Index n, const MaterialOf& material_of) {
-    Part part;
-    for (Index y = 0; y <= n; ++y)
-        for (Index x = 0; x <= n; ++x) part.positions.push_back({double(x), double(y), 0});
-    for (Index y = 0; y < n; ++y) {
-        for (Index x = 0; x < n; ++x) {
-            const Index a = y * (n + 1) + x;
-            part.triangles.push_back({a, a + 1, a + n + 2});
-            part.triangles.push_back({a, a + n + 2, a + n + 1});
-            part.face_material.insert(part.face_material.end(), 2, material_of(x, y));
-        }
-    }
+    Part part = test::part_of(test::grid(n));
+    for (Index f = 0; f < 2 * n * n; ++f) part.face_material[f] = material_of(f / 2 % n, f / 2 / n);
     return part;
 }
 
