@@ -15,6 +15,7 @@
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 #include "support/gltf_builder.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;
@@ -125,20 +126,10 @@ TEST_CASE("formats: the files beside a model are found, and hold its images unle
 
 TEST_CASE("formats: files have at least the stated number of bytes per face") {
     // A grid, which has half a vertex per face.
-    constexpr Index side = 260;  // more vertices than 16-bit indices can name
-    std::vector<Vec3> positions;
-    std::vector<Triangle> triangles;
-    for (Index y = 0; y <= side; ++y)
-        for (Index x = 0; x <= side; ++x) positions.push_back({x / 7.0, y / 7.0, 0});
-    for (Index y = 0; y < side; ++y) {
-        for (Index x = 0; x < side; ++x) {
-            const Index v = y * (side + 1) + x;
-            triangles.push_back({v, v + 1, v + side + 2});
-            triangles.push_back({v, v + side + 2, v + side + 1});
-        }
-    }
-    const auto faces = static_cast<double>(triangles.size());
-    const Asset asset = one_part(positions, triangles);
+    TriangleMesh grid = test::grid(260);  // more vertices than 16-bit indices can name
+    for (Vec3& p : grid.positions) p = {p[0] / 7, p[1] / 7, 0};
+    const auto faces = static_cast<double>(grid.triangles.size());
+    const Asset asset = one_part(grid.positions, grid.triangles);
     for (const FileFormat& format : detail::file_formats()) {
         if (!format.encode) continue;
         INFO(format.extension);

@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/gltf_builder.hpp"
+#include "support/meshes.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;
@@ -13,13 +14,13 @@ namespace {
 
 /// A grid of 2 * n * n triangles in a pseudo-random order, with all attributes.
 Asset shuffled_grid(Index n) {
-    Asset asset = one_part({}, {});
+    const TriangleMesh grid = test::grid(n);
+    Asset asset = one_part(grid.positions, grid.triangles);
     Part& part = asset.parts[0];
     part.uvs.resize(2);
     part.morph_targets.resize(1);
     for (Index i = 0; i < (n + 1) * (n + 1); ++i) {
         const float x = static_cast<float>(i % (n + 1)), y = static_cast<float>(i / (n + 1));
-        part.positions.push_back({x, y, 0});
         part.normals.push_back(i % 2 ? Vec3f{0, 0, 1} : Vec3f{0, 1, 0});
         part.tangents.push_back({1, 0, 0, i % 3 ? 1.0f : -1.0f});
         part.uvs[0].push_back({x / 64, y / 64});
@@ -29,17 +30,11 @@ Asset shuffled_grid(Index n) {
         part.weights.push_back({1, 0, 0, 0});
         part.morph_targets[0].positions.push_back({y, 0, x});
     }
-    for (Index i = 0; i < n * n; ++i) {
-        const Index v = i / n * (n + 1) + i % n;
-        part.triangles.push_back({v, v + 1, v + n + 1});
-        part.triangles.push_back({v + 1, v + n + 2, v + n + 1});
-    }
     std::uint32_t random = 1;
     for (std::size_t i = part.triangles.size(); i > 1; --i) {
         random = random * 1664525u + 1013904223u;
         std::swap(part.triangles[i - 1], part.triangles[(random >> 8) % i]);
     }
-    part.face_material.assign(part.triangles.size(), no_index);
     return asset;
 }
 

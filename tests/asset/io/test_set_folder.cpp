@@ -1,7 +1,5 @@
 #include "asset/io/set_folder.hpp"
 
-#include <fcntl.h>
-
 #include <chrono>
 
 #include "asset/io/file.hpp"
