@@ -137,9 +137,9 @@ private:
         for (unsigned j = 0; j < 6; ++j) shared[j] = shared_f[j] + shared_g[j];
         put(batch_, 0, mesh_.vertices[u].planes, mesh_.vertices[v].planes, shared, t);
         solve(batch_, 0);
-        if (batch_.cost[0] > candidate.key) {
+        if (!(batch_.cost[0] <= candidate.key)) {
             key = batch_.cost[0];
-            if (key > limit_) return;
+            if (!(key <= limit_)) return;
             if (bucket_of(key) > bucket_) return push({c, key});
         }
         size_ = 0;
@@ -206,7 +206,7 @@ private:
             at.p = mesh_.vertices[v].p;
             at.source = mesh_.vertices[v].source;
         } else {
-            for (unsigned j = 0; j < 3; ++j) at.p[j] += static_cast<double>(x[j]);
+            for (unsigned j = 0; j < 3; ++j) at.p[j] += static_cast<double>(x[j]) * mesh_.unit;
             if (at.p != old) at.source = no_index;
         }
         ++out_.collapses;

@@ -104,7 +104,7 @@ inline void choose(EdgeBatch& b, int i) {
         best = b.at_minimum[i];
     else
         for (int k = 0; k < 3; ++k) b.x[k][i] = part * b.t[k][i];
-    b.cost[i] = best > 1e-37f ? best : 1e-37f;
+    b.cost[i] = best < 1e-37f ? 1e-37f : best;
 }
 
 inline void solve(EdgeBatch& b, int i) {

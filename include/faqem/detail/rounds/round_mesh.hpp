@@ -57,7 +57,9 @@ struct Mesh {
     std::vector<Index> merged_into;
     std::size_t alive = 0;  ///< number of faces
     std::size_t unfit = 0;  ///< number of vertices that cannot move though the input does not lock them
-    double area = 0;
+    double area = 0;        ///< in engine units
+    /// Factors from engine units to those of single precision, in which edges are about 1 long, and back. Powers of two.
+    double scale = 1, unit = 1;
 
     /// Cost of the edge opposite a corner, at the smaller of its two corners; `never` at the other one, at edges
     /// with a locked end, and at edges that were refused since an end moved.
@@ -71,8 +73,8 @@ struct Mesh {
 
     Vector difference(Index from, Index to) const {
         const auto &a = vertices[from].p, &b = vertices[to].p;
-        return {static_cast<float>(b[0] - a[0]), static_cast<float>(b[1] - a[1]),
-                static_cast<float>(b[2] - a[2])};
+        return {static_cast<float>((b[0] - a[0]) * scale), static_cast<float>((b[1] - a[1]) * scale),
+                static_cast<float>((b[2] - a[2]) * scale)};
     }
 };
 
@@ -106,6 +108,26 @@ inline void add_square(const Vector& n, Planes& q) {
     q[3] += n[1] * n[1], q[4] += n[1] * n[2], q[5] += n[2] * n[2];
 }
 
+/// Sets the scale by the median of the longest edges of some faces: a stray face may be far larger or smaller.
+inline void set_scale(Mesh& mesh) {
+    const std::size_t step = (mesh.faces.size() / 4096) | 1;
+    std::vector<double> squares;
+    for (std::size_t f = 0; f < mesh.faces.size(); f += step) {
+        double longest = 0;
+        for (unsigned k = 0; k < 3; ++k) {
+            const Vertex &a = mesh.vertices[mesh.faces[f].v[k]], &b = mesh.vertices[mesh.faces[f].v[next(k)]];
+            longest = std::max(longest, (engine::to_eigen(a.p) - engine::to_eigen(b.p)).squaredNorm());
+        }
+        squares.push_back(longest);
+    }
+    const auto median = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::nth_element(squares.begin(), median, squares.end());
+    if (!(*median > 0)) return;
+    const int exponent = std::ilogb(*median) / 2;
+    mesh.scale = std::ldexp(1.0, -exponent);
+    mesh.unit = std::ldexp(1.0, exponent);
+}
+
 /// Sums the planes of all vertices that are not locked, and locks those around which the faces are not
 /// one closed fan or two neighbours are unfit.
 /// \return root_of() of all faces
@@ -116,6 +138,7 @@ inline std::vector<Vector> sum_planes(Mesh& mesh, const RunContext& context) {
     });
     mesh.area = 0;
     for (const auto& n : roots) mesh.area += static_cast<double>(dot(n, n));
+    mesh.area *= mesh.unit * mesh.unit;
     for (Index f = static_cast<Index>(roots.size()); f-- > 0;) {
         for (unsigned k = 0; k < 3; ++k) {
             Vertex& at = mesh.vertices[mesh.faces[f].v[k]];
@@ -257,6 +280,7 @@ inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit,
                             at.slot = at.source = static_cast<Index>(v);
                         }
                     });
+    set_scale(mesh);
     const std::vector<Vector> roots = sum_planes(mesh, context);
     mesh.unfit = static_cast<std::size_t>(std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
                                                         [](const Vertex& v) { return v.lock == unfit; }));
