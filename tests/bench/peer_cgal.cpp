@@ -6,8 +6,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
-#include <optional>
-
 #include "faqem/detail/base/stopwatch.hpp"
 #include "simplifier.hpp"
 

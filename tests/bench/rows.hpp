@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <set>
 #include <string>
-#include <tuple>
 
 #include "child.hpp"
 

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <limits>
 #include <map>
-#include <optional>
 
 #include "allocations.hpp"
 #include "faqem/compare.hpp"
