@@ -2,10 +2,12 @@
 
 #include "faqem/detail/fitting/vertex_fitting.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
+#include "faqem/detail/base/portable_math.hpp"
 #include "faqem/detail/fitting/fold_guard.hpp"
 #include "faqem/detail/fitting/gauss_newton.hpp"
 #include "faqem/detail/fitting/two_sided_error.hpp"
@@ -139,8 +141,9 @@ private:
     /// Whether the maximum distance has decreased, without too large an increase of the sums.
     static bool has_reduced_max_distance(const FaceDeviation& now, const FaceDeviation& before) {
         if (!(now.max_squared_distance < max_distance_ratio * before.max_squared_distance)) return false;
-        const double gain =
-            std::pow(before.max_squared_distance / now.max_squared_distance, tradeoff_exponent);
+        const double ratio = std::min(before.max_squared_distance / now.max_squared_distance,
+                                      std::numeric_limits<double>::max());
+        const double gain = portable_exp(tradeoff_exponent * portable_log(ratio));
         const double normal_deviation_ratio = now.normal_deviation / before.normal_deviation;
         return now.squared_distance_sum <= gain * before.squared_distance_sum &&
                normal_deviation_ratio * normal_deviation_ratio <= gain;

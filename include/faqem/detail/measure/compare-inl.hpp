@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/base/portable_math.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"
 #include "faqem/detail/measure/hausdorff.hpp"
@@ -59,7 +60,7 @@ inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tre
                 sum.max_squared = std::max(sum.max_squared, hit.distance_squared);
                 sum.distance += std::sqrt(hit.distance_squared);
                 sum.squared += hit.distance_squared;
-                sum.degrees += std::acos(std::max(cosine, -1.0)) * degrees_per_radian;
+                sum.degrees += detail::portable_acos(std::max(cosine, -1.0)) * degrees_per_radian;
             }
         });
     DistanceSums total;

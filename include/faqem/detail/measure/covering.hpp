@@ -105,7 +105,7 @@ struct Covering::Prism {
         for (std::size_t k = 0; k < 3; ++k) corner[k] = (1 - shrunk / reach) * (*this)(at[k]);
         for (std::size_t k = 0; k < 3; ++k) {
             const Vector3 &a = corner[k], &b = corner[(k + 1) % 3];
-            const double dx = b.x() - a.x(), dy = b.y() - a.y(), length = std::hypot(dx, dy);
+            const double dx = b.x() - a.x(), dy = b.y() - a.y(), length = std::sqrt(dx * dx + dy * dy);
             if (!(length > rounding)) return;
             walls[k] = {-dy / length, dx / length, 0};
             walls[k].offset = walls[k](a) - rounding;
@@ -213,7 +213,7 @@ inline bool Covering::covers(const Prism& prism, const std::vector<Index>& set) 
                 const Vector3 &a = face[k], &b = face[(k + 1) % 3];
                 const double x = b.x() - a.x(), y = b.y() - a.y();
                 const double area = x * (p.y() - a.y()) - y * (p.x() - a.x());
-                is_general = is_general && std::abs(area) > prism.rounding * std::hypot(x, y);
+                is_general = is_general && std::abs(area) > prism.rounding * std::sqrt(x * x + y * y);
                 left += area > 0;
             }
             odd ^= left == 0 || left == 3;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "faqem/detail/base/portable_math.hpp"
+
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
@@ -30,11 +32,11 @@ FAQEM_INLINE bool FaceCountSearch::is_bracketing() const {
 // The error of a smooth surface is proportional to 1 / faces. If both ends are measured: regula falsi, or
 // bisection if the last guess did not halve the bracket. All in logarithms.
 FAQEM_INLINE double FaceCountSearch::guess() const {
-    const double low = std::log(bad_.faces), high = std::log(good_.faces);
+    const double low = portable_log(bad_.faces), high = portable_log(good_.faces);
     // Logarithm of error / allowed, clamped so that zero, infinite and NaN errors are usable.
     const auto log_excess = [&](double error) {
-        if (error <= 0) return std::log(1e-6);
-        return error <= 1e6 * allowed_ ? std::log(std::max(error / allowed_, 1e-6)) : std::log(1e6);
+        if (error <= 0) return portable_log(1e-6);
+        return error <= 1e6 * allowed_ ? portable_log(std::max(error / allowed_, 1e-6)) : portable_log(1e6);
     };
     double at;
     if (good_.error && bad_.error) {
@@ -43,14 +45,14 @@ FAQEM_INLINE double FaceCountSearch::guess() const {
         if (!(share >= measured_margin)) share = measured_margin;
         at = high + std::min(share, 1 - measured_margin) * (low - high);
     } else if (bad_.error) {
-        at = low + log_excess(*bad_.error) + std::log(overshoot);
+        at = low + log_excess(*bad_.error) + portable_log(overshoot);
     } else if (good_.error) {
-        at = high + log_excess(*good_.error) - std::log(overshoot);
+        at = high + log_excess(*good_.error) - portable_log(overshoot);
     } else {
-        at = high + std::log(initial_ratio);
+        at = high + portable_log(initial_ratio);
     }
     const double space = margin * (high - low);
-    return std::exp(at > low + space ? std::min(at, high - space) : low + space);
+    return portable_exp(at > low + space ? std::min(at, high - space) : low + space);
 }
 
 FAQEM_INLINE std::optional<std::uint64_t> FaceCountSearch::next() {
@@ -58,7 +60,7 @@ FAQEM_INLINE std::optional<std::uint64_t> FaceCountSearch::next() {
         ++runs_;
         // There is an integer between the ends.
         const double count = std::clamp(std::round(guess()), bad_.faces + 1, good_.faces - 1);
-        last_width_ = std::log(good_.faces / bad_.faces);
+        last_width_ = portable_log(good_.faces / bad_.faces);
         target_ = static_cast<std::uint64_t>(count);
         return target_;
     }
