@@ -11,6 +11,12 @@ using faqem::TriangleMesh;
 
 namespace {
 
+/// A wave like a sine of x turns, whose bytes do not depend on a library of functions.
+double wave(double x) {
+    const double t = x - std::floor(x);
+    return t < 0.5 ? 16 * t * (0.5 - t) : 16 * (t - 0.5) * (t - 1);
+}
+
 /// The quads of an n x m grid of vertices in two triangles each.
 void add_quads(Index n, Index m, TriangleMesh& mesh) {
     for (Index y = 0; y + 1 < m; ++y) {
@@ -32,7 +38,7 @@ TriangleMesh wavy_grid(Index n) {
         for (Index x = 0; x <= n; ++x) {
             const double u = static_cast<double>(x) / n, v = static_cast<double>(y) / n;
             mesh.positions.push_back(
-                {u, v, 0.05 * std::sin(9 * u) * std::cos(7 * v) + 0.01 * u * v * (x % 3)});
+                {u, v, 0.05 * wave(1.4 * u) * wave(1.1 * v + 0.25) + 0.01 * u * v * (x % 3)});
         }
     }
     add_quads(n + 1, n + 1, mesh);
@@ -43,8 +49,8 @@ TriangleMesh open_tube(Index n, Index m) {
     TriangleMesh mesh;
     for (Index y = 0; y <= m; ++y) {
         for (Index x = 0; x <= n; ++x) {
-            const double angle = 6.283185307179586 * (x % n) / n, r = 1 + 0.1 * std::sin(0.5 * y);
-            mesh.positions.push_back({r * std::cos(angle), r * std::sin(angle), 0.1 * y});
+            const double turn = static_cast<double>(x % n) / n, r = 1 + 0.1 * wave(0.08 * y);
+            mesh.positions.push_back({r * wave(turn + 0.25), r * wave(turn), 0.1 * y});
         }
     }
     add_quads(n + 1, m + 1, mesh);
