@@ -2,24 +2,17 @@
 
 #include "faqem/report_json.hpp"
 
-#include <sys/resource.h>
-
 #include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "faqem/detail/base/peak_memory.hpp"
 #include "faqem/detail/simplify/report-inl.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 
 namespace detail {
-
-inline std::uint64_t peak_rss_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
 
 template <std::size_t n>
 nlohmann::ordered_json counts(const std::array<std::uint64_t, n>& values,
@@ -138,7 +131,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     const PhaseSeconds& s = report.seconds;
     json["seconds"] = {{"load", s.load}, {"weld", s.weld}, {"simplify", s.simplify}, {"map", s.map},
                        {"bake", s.bake}, {"save", s.save}, {"total", s.total}};
-    json["peak_rss_bytes"] = detail::peak_rss_bytes();
+    json["peak_rss_bytes"] = detail::peak_memory_bytes();
     // File names need not be UTF-8: what is not is shown as U+FFFD.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
