@@ -27,7 +27,13 @@ extern "C" {
 #define FAQEM_ENUM
 #endif
 
+#ifndef _WIN32
 #define FAQEM_API __attribute__((visibility("default")))
+#elif defined(FAQEM_EXPORTS)
+#define FAQEM_API __declspec(dllexport)
+#else
+#define FAQEM_API
+#endif
 
 /** Outcome of a call. The values are the exit codes of the faqem command. */
 typedef enum faqem_status FAQEM_ENUM {
