@@ -10,6 +10,7 @@
 #   blender what tests/run.sh --suite blender needs: shared libraries that Blender as a Python module links to
 #   comfyui what tests/run.sh --suite comfyui needs
 #   ktx2    what the option FAQEM_WITH_KTX2 and tests/run.sh --suite ktx2 need besides, without cargo
+#   windows what tests/run.sh --suite windows needs besides
 #   fresh   what tests/run.sh --suite fresh needs, without the packages of the group build
 # Uses sudo only when not root.
 set -eu
@@ -41,9 +42,10 @@ libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-
             packages="python3-venv libx11-6 libxrender1 libxfixes3 libxi6 libxkbcommon0 libsm6 libgl1"
             ;;
         ktx2) packages="$packages libzstd-dev python3-venv" ;;
+        windows) packages="$packages g++-mingw-w64-x86-64-posix wine64" ;;
         slurm) packages="$packages slurm-wlm munge" ;;
         *)
-            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, fresh, engines, slurm, blender, comfyui, ktx2)" >&2
+            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, fresh, engines, slurm, blender, comfyui, ktx2, windows)" >&2
             exit 2
             ;;
     esac
