@@ -182,7 +182,7 @@ TexelProjector::Ball TexelProjector::ball_around(const Box2& box, const TexelSam
     if (at.cache_index > 0) {
         const Vec3 middle = frame_.at((box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2);
         return {weights_beyond(at.cache_index - 1, middle),
-                std::hypot(box.width(), box.height()) / 2 * texel_length_};
+                length({box.width(), box.height()}) / 2 * texel_length_};
     }
     const CutTriangle cut = cut_to(placement_, box);
     if (cut.size == 0) return {at.weights, box.width() * texel_length_};

@@ -22,7 +22,7 @@ constexpr std::size_t max_versions = 64;
 
 using Uv = std::array<double, 2>;
 
-double uv_distance(const Uv& a, const Uv& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+double uv_distance(const Uv& a, const Uv& b) { return std::hypot(a[0] - b[0], a[1] - b[1], 0.0); }
 
 Uv uv_at(const Part& part, std::size_t set, const SurfacePoint& point) {
     return interpolated<double>(part.uvs[set], part, point);

@@ -181,7 +181,8 @@ private:
         const Vector3f n = normal(c);
         const Vector3f a = project_and_normalize(position(previous(c)) - position(c), n);
         const Vector3f b = project_and_normalize(position(next(c)) - position(c), n);
-        return std::acos(std::clamp(a.dot(b), -1.0f, 1.0f)) * project_and_normalize(faces_[c / 3].along_u, n);
+        const auto angle = static_cast<float>(std::acos(std::clamp(double(a.dot(b)), -1.0, 1.0)));
+        return angle * project_and_normalize(faces_[c / 3].along_u, n);
     }
 
     // Degenerate triangles get the tangents of other triangles at the same vertices.
