@@ -6,6 +6,7 @@
 #   tidy    clang-tidy and clang-format
 #   docs    what the target docs needs
 #   wheel   what src/python/build_wheel.sh needs, without the packages of the group build
+#   aarch64 what src/python/build_wheel.sh needs besides the group wheel for a wheel for aarch64, and qemu to run it
 #   engines what tests/run.sh --suite engines needs, without Slurm, which the group slurm has
 #   blender what tests/run.sh --suite blender needs: shared libraries that Blender as a Python module links to
 #   comfyui what tests/run.sh --suite comfyui needs
@@ -23,6 +24,7 @@ command -v npm >/dev/null 2>&1 || npm=npm
 packages="build-essential cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libopenmesh-dev \
 libpng-dev libjpeg62-turbo-dev libwebp-dev libdeflate-dev libopenimageio-dev \
 libdraco-dev libmeshoptimizer-dev libcli11-dev libmd-dev"
+foreign=""
 for group in "$@"; do
     case $group in
         build) ;;
@@ -36,6 +38,11 @@ for group in "$@"; do
             packages="build-essential cmake ninja-build libeigen3-dev nlohmann-json3-dev libpng-dev \
 libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-dev libmd-dev python3 $npm"
             ;;
+        aarch64)
+            packages="$packages g++-aarch64-linux-gnu qemu-user-static libpng-dev:arm64 libjpeg62-turbo-dev:arm64 \
+libwebp-dev:arm64 libdeflate-dev:arm64 zlib1g-dev:arm64 libdraco-dev:arm64 libmd-dev:arm64"
+            foreign=arm64
+            ;;
         fresh) packages="debootstrap ccache" ;;
         engines | comfyui) packages="python3-venv" ;;
         blender)
@@ -45,7 +52,7 @@ libjpeg62-turbo-dev libwebp-dev libdeflate-dev zlib1g-dev libdraco-dev libcli11-
         windows) packages="$packages g++-mingw-w64-x86-64-posix wine64" ;;
         slurm) packages="$packages slurm-wlm munge" ;;
         *)
-            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, fresh, engines, slurm, blender, comfyui, ktx2, windows)" >&2
+            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, aarch64, fresh, engines, slurm, blender, comfyui, ktx2, windows)" >&2
             exit 2
             ;;
     esac
@@ -76,6 +83,7 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 command -v apt-get >/dev/null 2>&1 || fail "apt-get is not available on this system"
 echo "packages: installing$missing"
+[ -z "$foreign" ] || $as_root dpkg --add-architecture "$foreign"
 $as_root apt-get update -qq || fail "apt-get update failed; is the network reachable?"
 $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null ||
     fail "apt-get install failed"

@@ -4,7 +4,9 @@ import re
 import subprocess
 
 # Libraries that PEP 600 allows; every system with glibc has them.
-ALLOWED = {"ld-linux-x86-64.so.2", "libc.so.6", "libgcc_s.so.1", "libm.so.6"}
+ALLOWED = {"ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1", "libc.so.6", "libgcc_s.so.1", "libm.so.6"}
+# Processors in platform tags, by their names in headers of files.
+PROCESSORS = {"Advanced Micro Devices X86-64": "x86_64", "AArch64": "aarch64"}
 NEWEST_GLIBC = (2, 34)
 
 
@@ -15,6 +17,11 @@ class BinaryError(Exception):
 def needed(file):
     """Returns the names of the shared libraries that a file needs."""
     return set(re.findall(r"\(NEEDED\).*\[(.+)\]", _output("readelf", "-dW", file)))
+
+
+def processor(file):
+    """Returns the processor that a file runs on, as platform tags name it."""
+    return PROCESSORS[re.search(r"Machine: +(.+)", _output("readelf", "-hW", file))[1]]
 
 
 def glibc_versions(file):
@@ -48,7 +55,7 @@ def platform_tag(library, command):
     others = [name for name in exported(library) if not name.startswith("faqem_")]
     if others:
         raise BinaryError(f"{library} exports {', '.join(sorted(others)[:5])}")
-    return f"manylinux_{newest[0]}_{newest[1]}_x86_64"
+    return f"manylinux_{newest[0]}_{newest[1]}_{processor(library)}"
 
 
 def _output(*command):

@@ -3,7 +3,7 @@
 The wheel holds compiled files of a CMake build at the root of the repository, which setuptools cannot describe without
 as much code, and it must have the same bytes wherever it is built.
 
-Usage: faqem_backend.py wheel FOLDER                              libraries linked statically, for all systems
+Usage: faqem_backend.py wheel FOLDER [--preset PRESET]            libraries linked statically, for all systems
        faqem_backend.py wheel FOLDER --library SO --command FILE  with these files of another build, for this system
        faqem_backend.py sdist FOLDER
 """
@@ -22,7 +22,6 @@ import licences
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SOURCE = ROOT / "src/python"
-BUILD = ROOT / "build/wheel"
 
 
 def version():
@@ -37,12 +36,13 @@ def metadata():
     return fields + "\n" + (SOURCE / "README.md").read_text()
 
 
-def build_static():
-    """Builds the library and the command by the preset wheel. Returns their files, tag and licences."""
-    subprocess.run(["cmake", "--preset", "wheel"], cwd=ROOT, check=True)
-    subprocess.run(["cmake", "--build", "--preset", "wheel"], cwd=ROOT, check=True)
-    library, command = BUILD / "src/capi/libfaqem_c.so", BUILD / "bin/faqem"
-    return library, command, binaries.platform_tag(library, command), licences.bundled(BUILD)
+def build_static(preset="wheel"):
+    """Builds the library and the command by a preset. Returns their files, tag and licences."""
+    subprocess.run(["cmake", "--preset", preset], cwd=ROOT, check=True)
+    subprocess.run(["cmake", "--build", "--preset", preset], cwd=ROOT, check=True)
+    build = ROOT / "build" / preset
+    library, command = build / "src/capi/libfaqem_c.so", build / "bin/faqem"
+    return library, command, binaries.platform_tag(library, command), licences.bundled(build)
 
 
 def write_wheel(folder, library, command, platform, bundled):
@@ -116,6 +116,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("kind", choices=["wheel", "sdist"])
     parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--preset", default="wheel")
     parser.add_argument("--library", type=pathlib.Path)
     parser.add_argument("--command", type=pathlib.Path)
     given = parser.parse_args()
@@ -126,7 +127,7 @@ def main():
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
         print(write_wheel(given.folder, given.library, given.command, platform, {}))
     else:
-        print(write_wheel(given.folder, *build_static()))
+        print(write_wheel(given.folder, *build_static(given.preset)))
 
 
 if __name__ == "__main__":

@@ -7,12 +7,6 @@
 // NOLINTBEGIN(bugprone-reserved-identifier): the linker defines these names
 extern "C" {
 
-// The wheel runs with glibc 2.34, but hypot() of newer headers needs 2.35: its new version does not set errno. The old
-// one computes the same values.
-double faqem_first_hypot(double x, double y);
-__asm__(".symver faqem_first_hypot, hypot@GLIBC_2.2.5");
-double __wrap_hypot(double x, double y) { return faqem_first_hypot(x, y); }
-
 // std::random_device of the static libstdc++ uses this function of glibc 2.36. It has no way to report a failure.
 unsigned __wrap_arc4random() {
     unsigned value = 0;

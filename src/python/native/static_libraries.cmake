@@ -7,7 +7,7 @@ set(faqem_native ${CMAKE_CURRENT_LIST_DIR})
 include(${PROJECT_SOURCE_DIR}/cmake/faqem-ccache.cmake)
 
 # libgcc_s stays shared: the static one needs glibc 2.35. Every system has it, and the platform tag allows it.
-add_link_options(-static-libstdc++ -Wl,--wrap=hypot,--wrap=arc4random,--wrap=stderr,--undefined=__wrap_hypot -Wl,--strip-all)
+add_link_options(-static-libstdc++ -Wl,--wrap=arc4random,--wrap=stderr,--undefined=__wrap_arc4random -Wl,--strip-all)
 add_library(faqem_glibc STATIC ${faqem_native}/glibc.cpp)
 link_libraries(faqem_glibc)
 
@@ -23,6 +23,7 @@ if(NOT EXISTS ${faqem_meshoptimizer}/src/meshoptimizer.h)
 endif()
 file(GLOB faqem_meshoptimizer_files ${faqem_meshoptimizer}/src/*.cpp)
 add_library(faqem_meshoptimizer STATIC ${faqem_meshoptimizer_files})
+target_compile_options(faqem_meshoptimizer PRIVATE -ffp-contract=off)  # the same bytes on all processors
 set_target_properties(faqem_meshoptimizer PROPERTIES UNITY_BUILD OFF)
 target_include_directories(faqem_meshoptimizer SYSTEM PUBLIC ${faqem_meshoptimizer}/src)
 add_library(meshoptimizer::meshoptimizer ALIAS faqem_meshoptimizer)
