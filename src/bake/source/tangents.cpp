@@ -21,13 +21,17 @@ Vector3f to_vector3f(const Vec3f& v) { return {v[0], v[1], v[2]}; }
 
 bool is_not_zero(float x) { return std::abs(x) > std::numeric_limits<float>::min(); }
 
+// The order of the sum in Eigen's dot products depends on the processor.
+float dot(const Vector3f& a, const Vector3f& b) { return a.x() * b.x() + (a.y() * b.y() + a.z() * b.z()); }
+float length(const Vector3f& v) { return std::sqrt(dot(v, v)); }
+
 Vector3f unit(const Vector3f& v) {
-    const float length = v.norm();
-    return is_not_zero(length) && std::isfinite(length) ? Vector3f(v / length) : Vector3f::Zero();
+    const float norm = length(v);
+    return is_not_zero(norm) && std::isfinite(norm) ? Vector3f(v / norm) : Vector3f::Zero();
 }
 
 Vector3f project_and_normalize(const Vector3f& v, const Vector3f& normal) {
-    return unit(v - normal.dot(v) * normal);
+    return unit(v - dot(normal, v) * normal);
 }
 
 Vec4f any_tangent(const Vector3f& normal) {
@@ -106,10 +110,10 @@ private:
         face.is_orientation_preserving = area > 0;
         if (!is_not_zero(area)) return;
         const Vector3f along_u = e1 * v2 - e2 * v1, along_v = e2 * u1 - e1 * u2;
-        const float length = along_u.norm();
+        const float norm = length(along_u);
         face.along_u = (face.is_orientation_preserving ? 1.0f : -1.0f) * unit(along_u);
-        face.has_tangent = is_not_zero(length / std::abs(area)) &&
-                           is_not_zero(along_v.norm() / std::abs(area)) && std::isfinite(length);
+        face.has_tangent = is_not_zero(norm / std::abs(area)) &&
+                           is_not_zero(length(along_v) / std::abs(area)) && std::isfinite(norm);
     }
 
     // Pairs faces across edges. A face has at most one neighbour per edge: the first one with consistent
@@ -181,7 +185,7 @@ private:
         const Vector3f n = normal(c);
         const Vector3f a = project_and_normalize(position(previous(c)) - position(c), n);
         const Vector3f b = project_and_normalize(position(next(c)) - position(c), n);
-        const auto angle = static_cast<float>(std::acos(std::clamp(double(a.dot(b)), -1.0, 1.0)));
+        const auto angle = static_cast<float>(std::acos(std::clamp(double(dot(a, b)), -1.0, 1.0)));
         return angle * project_and_normalize(faces_[c / 3].along_u, n);
     }
 
