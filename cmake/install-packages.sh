@@ -58,6 +58,7 @@ libwebp-dev:arm64 libdeflate-dev:arm64 zlib1g-dev:arm64 libdraco-dev:arm64 libmd
     esac
 done
 
+# A package counts if it is installed for the architecture that is meant, or for all.
 missing=""
 native=$(dpkg --print-architecture 2>/dev/null || true)
 for package in $packages; do

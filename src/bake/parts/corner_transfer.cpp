@@ -22,6 +22,7 @@ constexpr std::size_t max_versions = 64;
 
 using Uv = std::array<double, 2>;
 
+// Of three numbers, as in length() of Point2: hypot() of two rounds differently on each system.
 double uv_distance(const Uv& a, const Uv& b) { return std::hypot(a[0] - b[0], a[1] - b[1], 0.0); }
 
 Uv uv_at(const Part& part, std::size_t set, const SurfacePoint& point) {

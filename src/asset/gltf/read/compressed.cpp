@@ -54,7 +54,7 @@ void decompress_views(SourceDocument& source, const std::string& file) {
 
 #ifdef FAQEM_WITH_MESHOPT
 
-/// The filter OCTAHEDRAL for vectors of integers T. The instructions by which meshoptimizer approximates reciprocal square
+/// The filter OCTAHEDRAL of EXT_meshopt_compression for vectors of integers T. The instructions by which meshoptimizer approximates reciprocal square
 /// roots have other results on other processors.
 template <class T>
 void decode_octahedral(std::vector<std::uint8_t>& bytes) {
