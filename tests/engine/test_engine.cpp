@@ -113,8 +113,8 @@ struct CostlierExact : Script {
     static constexpr bool has_exact_cost = true;
 
     std::map<Ends, double> real;
-    double exact_cost(const CollapseMesh&, const PairTable&, Index u, Index v, const Candidate& candidate) {
-        const auto at = real.find(ends(u, v));
+    double exact_cost(const CollapseMesh&, const PairTable& pairs, Index pair, const Candidate& candidate) {
+        const auto at = real.find(ends(pairs.first(pair), pairs.second(pair)));
         return at == real.end() ? candidate.cost : at->second;
     }
 };

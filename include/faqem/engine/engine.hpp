@@ -242,7 +242,7 @@ private:
                 legality_.check(mesh_, pairs_, u, v, pair, found->point, exceptions_.rules_for(pair, rules_)))
             return refuse(pair, found->cost, *refusal);
         if constexpr (Metric::has_exact_cost) {
-            found->cost = metric_.exact_cost(mesh_, pairs_, u, v, *found);
+            found->cost = metric_.exact_cost(mesh_, pairs_, pair, *found);
             if (!std::isfinite(found->cost)) return false;
             if (requeue_if_costlier(pair, found->cost)) return true;
             if (metric_.exceeds_limit(*found)) return false;

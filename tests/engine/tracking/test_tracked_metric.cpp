@@ -5,6 +5,7 @@
 #include "faqem/compare.hpp"
 #include "faqem/simplify.hpp"
 #include "support/catch.hpp"
+#include "support/meshes.hpp"
 #include "support/original.hpp"
 
 using namespace faqem;
@@ -32,7 +33,7 @@ struct TrackedBench {
     }
 
     double exact_cost(Index u, Index v, const Candidate& candidate) {
-        return metric.exact_cost(collapse_mesh, pairs, u, v, candidate);
+        return metric.exact_cost(collapse_mesh, pairs, test::pair_of(pairs, u, v), candidate);
     }
 
     test::OriginalOf original;
@@ -117,6 +118,28 @@ TEST_CASE("tracked metric: small errors in one direction add up") {
         last = cost;
         bench.collapse(end, next, there.point);
     }
+}
+
+TEST_CASE("tracked metric: costs are the same whether or not they were asked for before a collapse") {
+    const TriangleMesh mesh = test::shaken(test::icosphere(2), 0.05, 1);
+    TrackedBench asked(mesh), fresh(mesh);
+    const auto costs = [](TrackedBench& bench) {
+        std::vector<double> all;
+        for (Index pair = 0; pair < bench.pairs.size(); ++pair) {
+            if (!bench.pairs.is_alive(pair)) continue;
+            const Index u = bench.pairs.first(pair), v = bench.pairs.second(pair);
+            all.push_back(bench.exact_cost(u, v, {bench.collapse_mesh.position(u), 0}));
+        }
+        return all;
+    };
+    for (Index v = 0; v < 5; ++v) {
+        CHECK(costs(asked) == costs(asked));
+        Index neighbour = no_index;
+        asked.pairs.for_each_pair(v, [&](Neighbour n) { neighbour = n.vertex; });
+        for (TrackedBench* bench : {&asked, &fresh})
+            bench->collapse(v, neighbour, bench->collapse_mesh.position(neighbour));
+    }
+    CHECK(costs(asked) == costs(fresh));
 }
 
 TEST_CASE("tracked metric: without faces around the pair the cost is that of the planes") {

@@ -43,7 +43,7 @@ concept CollapseMetric = requires(M metric, const M& const_metric, const Collaps
     // Position and cost of a pair, both finite and the cost >= 0; or nothing if it must not be collapsed.
     { const_metric.evaluate(mesh, pairs, pair, allowed_position) } -> std::same_as<std::optional<Candidate>>;
     // Exact cost of a candidate returned by evaluate(); at least candidate.cost, or infinity: it is refused.
-    { metric.exact_cost(mesh, pairs, u, v, candidate) } -> std::same_as<double>;
+    { metric.exact_cost(mesh, pairs, pair, candidate) } -> std::same_as<double>;
     // Whether a candidate, for which exact_cost() was just called, must not be collapsed.
     { metric.exceeds_limit(candidate) } -> std::same_as<bool>;
     // Cost of contracting several vertices to candidate.point; at least candidate.cost, or infinity: it is refused.
@@ -65,8 +65,7 @@ concept CollapseMetric = requires(M metric, const M& const_metric, const Collaps
 struct MetricDefaults {
     static constexpr bool has_exact_cost = false;
     static void initialise(const CollapseMesh&, const PairTable&) {}
-    static double exact_cost(const CollapseMesh&, const PairTable&, Index, Index,
-                             const Candidate& candidate) {
+    static double exact_cost(const CollapseMesh&, const PairTable&, Index, const Candidate& candidate) {
         return candidate.cost;
     }
     static double contraction_cost(const CollapseMesh&, const Contraction&, const Candidate& candidate) {
@@ -90,9 +89,9 @@ public:
     explicit MetricWrapper(Inner inner) : inner_(std::move(inner)) {}
 
     void initialise(const CollapseMesh& mesh, const PairTable& pairs) { inner_.initialise(mesh, pairs); }
-    double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+    double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                       const Candidate& candidate) {
-        return inner_.exact_cost(mesh, pairs, u, v, candidate);
+        return inner_.exact_cost(mesh, pairs, pair, candidate);
     }
     bool exceeds_limit(const Candidate& candidate) { return inner_.exceeds_limit(candidate); }
     double contraction_cost(const CollapseMesh& mesh, const Contraction& contraction,

@@ -36,12 +36,12 @@ public:
         return found;
     }
 
-    double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+    double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                       const Candidate& candidate) {
         if constexpr (Inner::has_exact_cost) {
-            const double w = weight(u, v);
+            const double w = weight(pairs.first(pair), pairs.second(pair));
             const double cost =
-                w * inner_.exact_cost(mesh, pairs, u, v, {candidate.point, candidate.cost / w});
+                w * inner_.exact_cost(mesh, pairs, pair, {candidate.point, candidate.cost / w});
             return std::max(candidate.cost, cost);
         } else {
             return candidate.cost;

@@ -92,6 +92,16 @@ public:
         evaluate<PointBatch::size>(p.x, p.y, p.z, result);
     }
 
+    /// Whether the point of the triangle closest to p may be on the side opposite the first corner; true if the sides are
+    /// (nearly) parallel. O(1)
+    bool is_at_opposite_side(const Vector3& p) const {
+        const double a[3] = {p[0] - a_[0], p[1] - a_[1], p[2] - a_[2]};
+        const double along_ab = dot(ab_, a), along_ac = dot(ac_, a);
+        const double v = (ac2_ * along_ab - ab_ac_ * along_ac) * inv_det_;
+        const double w = (ab2_ * along_ac - ab_ac_ * along_ab) * inv_det_;
+        return !(v + w < 1) || (w < 0 && along_ab >= ab2_) || (v < 0 && along_ac >= ac2_);
+    }
+
 private:
     /// If the squared sine of the angle at a is at most this, only the sides are used.
     static constexpr double min_sine_squared = 1e-14;

@@ -89,7 +89,7 @@ public:
         memoryless_.initialise(mesh, pairs);
         boundary_bindings_.emplace(*original_, tracked_, mesh, pairs);
         bindings_.emplace(*original_, std::exchange(tracked_, {}), mesh);
-        start_tracking_if_near_target(mesh);
+        start_tracking_if_near_target(mesh, pairs);
     }
 
     /// Position and cost of the memoryless metric; the cost is a lower bound of exact_cost().
@@ -99,9 +99,15 @@ public:
     }
 
     /// Cost including the distances. O(bound vertices times valence) at worst, typically one distance per
-    /// bound vertex
-    double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index u, Index v,
+    /// bound vertex; O(1) if nothing around the pair has changed since the last call for it
+    double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                       const Candidate& candidate) {
+        const Index u = pairs.first(pair), v = pairs.second(pair);
+        // Bindings of boundaries are compared with those of edges beyond the neighbours, which may have changed.
+        const bool is_inside = pairs.boundary_degree(u) + pairs.boundary_degree(v) == 0;
+        const bool is_kept = is_tracking_ && !limit_.is_finite() && is_inside;
+        if (is_kept && known_[pair].collapses >= std::max(last_change_[u], last_change_[v]))
+            return candidate.cost + weight_ * known_[pair].farthest;
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const double most = limit_.distance * limit_.distance;
         const double boundary = boundary_bindings_->squared_distance(mesh, pairs, u, v, candidate.point);
@@ -123,6 +129,7 @@ public:
             const double share = limit_.untracked_share;
             if (candidate.cost > share * share * most * area) return infinity;
         }
+        if (is_kept) known_[pair] = {farthest, collapses_};
         return candidate.cost + weight_ * farthest;
     }
 
@@ -170,7 +177,9 @@ public:
                         std::span<const PairTable::Change> around) {
         memoryless_.after_collapse(mesh, pairs, survivor, around);
         boundary_bindings_->after_collapse(mesh, pairs, survivor, around);
-        if (!is_tracking_) return start_tracking_if_near_target(mesh);
+        if (!is_tracking_) return start_tracking_if_near_target(mesh, pairs);
+        last_change_[survivor] = ++collapses_;
+        for (const PairTable::Change& change : around) last_change_[change.neighbour.vertex] = collapses_;
         if (tracked_all_) mesh.for_each_face(survivor, [&](Index f, unsigned) { faces_.push_back(f); });
         if (faces_.empty()) return;
         faces_after_.clear();
@@ -197,11 +206,19 @@ public:
     }
 
 private:
-    void start_tracking_if_near_target(const CollapseMesh& mesh) {
+    // The farthest distance of a pair, squared, as of a number of collapses.
+    struct Known {
+        double farthest = 0;
+        std::uint32_t collapses = 0;
+    };
+
+    void start_tracking_if_near_target(const CollapseMesh& mesh, const PairTable& pairs) {
         const bool waits = limit_.is_finite() ? limit_.untracked_share > 0
                                               : mesh.face_count() / tracking_start_ratio > target_faces_;
         if (waits) return;
         is_tracking_ = true;
+        known_.resize(pairs.size());
+        last_change_.assign(mesh.vertex_slots(), collapses_);
         bindings_->bind_all(mesh, context_);
     }
 
@@ -262,7 +279,10 @@ private:
     TrackedVertices tracked_;
     std::size_t target_faces_;
     bool is_tracking_ = false;
-    bool tracked_all_ = true;  // around the pair that is being collapsed
+    std::uint32_t collapses_ = 1;             // since tracking began; 1 more, so that nothing is known before
+    std::vector<std::uint32_t> last_change_;  // per vertex: collapses_ when its faces last changed
+    std::vector<Known> known_;                // per pair, if last_change_ of its vertices is not later
+    bool tracked_all_ = true;                 // around the pair that is being collapsed
     double weight_;
     DistanceLimit limit_;
     std::vector<std::array<Vector3, 2>> opposite_;  // sides of the faces at the new vertex without it

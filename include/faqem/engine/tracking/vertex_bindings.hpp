@@ -55,10 +55,33 @@ public:
     void bind_all(const CollapseMesh& mesh, const RunContext& context = {}) {
         first_bound_.assign(mesh.face_slots(), no_index);
         next_bound_.assign(tracked_.original.size(), no_index);
-        for (Index i = 0; i < next_bound_.size(); ++i) {
-            context.count(4);  // searches about 24 faces
-            const Index current = current_vertex(tracked_.current[i]);
-            if (mesh.degree(current) > 0) bind(i, find_near_face(mesh, position(i), current));
+        // Until they are bound, the lists link the vertices that were merged into the same one.
+        std::vector<Index> first_merged(mesh.vertex_slots(), no_index);
+        for (Index i = static_cast<Index>(next_bound_.size()); i-- > 0;)
+            next_bound_[i] = std::exchange(first_merged[current_vertex(tracked_.current[i])], i);
+        std::vector<Index> merged, faces;
+        std::vector<TriangleDistance> distances;
+        for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+            if (first_merged[v] == no_index || mesh.degree(v) == 0) continue;
+            merged.clear(), faces.clear(), distances.clear();
+            PointBatches points;
+            for (Index i = first_merged[v]; i != no_index; i = next_bound_[i]) {
+                merged.push_back(i);
+                points.add(position(i));
+            }
+            mesh.for_each_face(v, [&](Index f, unsigned corner) {
+                const Triangle& t = mesh.triangle(f);
+                faces.push_back(f);
+                distances.emplace_back(mesh.position(v), mesh.position(t[(corner + 1) % 3]),
+                                       mesh.position(t[(corner + 2) % 3]));
+            });
+            context.count(merged.size());
+            for_each_nearest(points, distances, [&](std::size_t i, std::size_t k) {
+                const Vector3& p = position(merged[i]);
+                const bool may_be_outside = distances[k].is_at_opposite_side(p);
+                bind(merged[i],
+                     may_be_outside ? find_nearer_face(mesh, p, v, faces[k], distances[k](p)) : faces[k]);
+            });
         }
         collapse_target_ = tracked_.current = {};
     }
@@ -86,13 +109,13 @@ public:
     }
 
 private:
-    // Finds a face near p by descent: starts with the faces of `current` and continues with the neighbours
-    // of the nearest face while that reduces the distance. High-valence vertices are not visited on the
-    // way.
-    Index find_near_face(const CollapseMesh& mesh, const Vector3& p, Index current) {
-        Index best = no_index;
-        double nearest = std::numeric_limits<double>::infinity();
-        visited_.clear();
+    // Finds a face near p by descent: continues with the neighbours of the nearest face while that reduces the squared
+    // distance. High-valence vertices are not visited on the way.
+    // \param best     the nearest face of `searched`
+    // \param nearest  its squared distance
+    Index find_nearer_face(const CollapseMesh& mesh, const Vector3& p, Index searched, Index best,
+                           double nearest) {
+        visited_.assign(1, searched);
         const auto is_visited = [&](Index v) { return std::ranges::find(visited_, v) != visited_.end(); };
         const auto search_faces_of = [&](Index v) {
             if (is_visited(v)) return false;
@@ -103,12 +126,12 @@ private:
                 const TriangleDistance distance(mesh.position(t[0]), mesh.position(t[1]),
                                                 mesh.position(t[2]));
                 const double d = distance(p);
-                if (best == no_index || d < nearest) nearest = d, best = f;
+                if (d < nearest) nearest = d, best = f;
             });
             visited_.push_back(v);
             return best != before;
         };
-        for (bool nearer = search_faces_of(current); nearer && nearest > 0;) {
+        for (bool nearer = true; nearer && nearest > 0;) {
             nearer = false;
             const Triangle corners = mesh.triangle(best);
             for (const Index v : corners) nearer |= !mesh.is_high_valence(v) && search_faces_of(v);
