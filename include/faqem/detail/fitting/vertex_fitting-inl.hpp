@@ -18,7 +18,7 @@ FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
 /// Number of Gauss-Newton steps at the beginning and after each round of edge flips.
-inline constexpr int first_steps = 4, later_steps = 2;
+inline constexpr int first_steps = 3, later_steps = 2;
 /// Steps minimize the sum of d^2.5, which emphasizes large distances and thus decreases the maximum as well.
 inline constexpr double power = 0.5;
 /// Faces whose maximum distance has increased above this fraction of the initial maximum are reverted.

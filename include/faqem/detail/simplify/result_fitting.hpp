@@ -40,7 +40,7 @@ inline void fit_result(const RunState& state, const PreprocessedMesh& prepared, 
     std::vector<Triangle> triangles = mesh.triangles;
     const MeshRef simplified{now, mesh.triangles};
     // Edge flips would change the attributes of the corners.
-    const int flip_rounds = input.wedges.empty() ? 2 : 0;
+    const int flip_rounds = input.wedges.empty() ? 1 : 0;
     const FittingResult fitted = fit_vertices(state.initial_surface(), simplified, fixed, min_normal_cosine,
                                               flip_rounds, mesh.face_groups, context);
     for (std::size_t v = 0; v < now.size(); ++v) {
