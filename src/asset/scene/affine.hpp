@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "faqem/detail/base/portable_math.hpp"
 #include "faqem/mesh.hpp"
 
 namespace faqem::detail {
@@ -68,7 +69,7 @@ public:
         Vec3 q;
         for (std::size_t r = 0; r < 3; ++r)
             q[r] = sign_ * (cofactors_[r][0] * n[0] + cofactors_[r][1] * n[1] + cofactors_[r][2] * n[2]);
-        const double length = std::hypot(q[0], q[1], q[2]);
+        const double length = portable_length(q[0], q[1], q[2]);
         if (!(length > 0 && std::isfinite(length))) return {0, 0, 0};
         return {static_cast<float>(q[0] / length), static_cast<float>(q[1] / length),
                 static_cast<float>(q[2] / length)};

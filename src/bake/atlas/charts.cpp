@@ -9,6 +9,7 @@
 
 #include "bake/atlas/parametrization.hpp"
 #include "bake/atlas/segmentation.hpp"
+#include "faqem/detail/base/portable_math.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -188,7 +189,7 @@ private:
 
     double length(Index f, std::size_t c) const {
         const Vec3 &a = all_[f].corners[(c + 1) % 3], &b = all_[f].corners[(c + 2) % 3];
-        return all_[f].density * std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+        return all_[f].density * portable_length(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
     }
 
     void enqueue_candidates(Index chart, Neighbours partners) {

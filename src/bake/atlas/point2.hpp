@@ -7,6 +7,8 @@
 #include <cmath>
 #include <span>
 
+#include "faqem/detail/base/portable_math.hpp"
+
 namespace faqem::detail {
 
 /// A point or a vector in the plane.
@@ -34,9 +36,8 @@ constexpr double dot(const Point2& a, const Point2& b) { return a.x * b.x + a.y 
 /// Cross product: positive if b is counter-clockwise from a.
 constexpr double cross(const Point2& a, const Point2& b) { return a.x * b.y - a.y * b.x; }
 
-/// Euclidean length, without overflow or underflow of the squares. std::hypot of three numbers is code of the C++
-/// library; that of two is a function of the C library, whose rounding depends on its version and on the processor.
-inline double length(const Point2& a) { return std::hypot(a.x, a.y, 0.0); }
+/// Euclidean length, without overflow or underflow of the squares.
+inline double length(const Point2& a) { return portable_length(a.x, a.y, 0); }
 
 /// Square of the Euclidean length.
 constexpr double squared_length(const Point2& a) { return a.x * a.x + a.y * a.y; }

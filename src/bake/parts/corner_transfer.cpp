@@ -8,6 +8,7 @@
 
 #include "bake/parts/output_part.hpp"
 #include "bake/source/source_normals.hpp"
+#include "faqem/detail/base/portable_math.hpp"
 #include "faqem/detail/base/vector.hpp"
 #include "scene/material_groups.hpp"
 
@@ -22,8 +23,7 @@ constexpr std::size_t max_versions = 64;
 
 using Uv = std::array<double, 2>;
 
-// Of three numbers, as in length() of Point2: hypot() of two rounds differently on each system.
-double uv_distance(const Uv& a, const Uv& b) { return std::hypot(a[0] - b[0], a[1] - b[1], 0.0); }
+double uv_distance(const Uv& a, const Uv& b) { return portable_length(a[0] - b[0], a[1] - b[1], 0); }
 
 Uv uv_at(const Part& part, std::size_t set, const SurfacePoint& point) {
     return interpolated<double>(part.uvs[set], part, point);

@@ -1,8 +1,9 @@
 #pragma once
 /// \file
-/// Functions whose C library versions round differently on each system. These use operations that IEEE 754 rounds
+/// Functions whose versions in the C and C++ libraries round differently on each system. These use operations that IEEE 754 rounds
 /// exactly, so that results are the same bytes everywhere. Relative errors are below 2e-14.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,6 +32,14 @@ inline double portable_exp(double x) {
     double sum = 1;  // Taylor's series, |rest| < 0.35
     for (int k = 14; k > 0; --k) sum = 1 + rest / k * sum;
     return std::ldexp(sum, static_cast<int>(power));
+}
+
+/// Euclidean length, without overflow or underflow of the squares.
+inline double portable_length(double x, double y, double z) {
+    const double largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
+    if (largest == 0) return 0;
+    x /= largest, y /= largest, z /= largest;
+    return largest * std::sqrt(x * x + y * y + z * z);
 }
 
 /// Arc cosine, radians.

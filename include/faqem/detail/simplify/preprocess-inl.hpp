@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "faqem/detail/base/portable_math.hpp"
 #include "faqem/detail/options/option_table.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
@@ -184,7 +185,7 @@ inline void find_scale(double wanted_diagonal, PreprocessedMesh& out) {
         out.centre[i] = 0.5 * low[i] + 0.5 * high[i];
         quarter[i] = 0.25 * high[i] - 0.25 * low[i];
     }
-    const double quarter_diagonal = std::hypot(quarter[0], quarter[1], quarter[2]);
+    const double quarter_diagonal = portable_length(quarter[0], quarter[1], quarter[2]);
     const double scale = 0.25 * wanted_diagonal / quarter_diagonal;
     if (std::isfinite(scale) && scale > 0) out.scale = scale;
 }
