@@ -5,8 +5,23 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <type_traits>
+
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
+
+#ifndef EIGEN_VECTORIZE
+/// Sums of three doubles, as in dot products, in the order of processors whose vectors have two doubles.
+template <class Function, class Evaluator>
+requires std::is_same_v<typename Evaluator::Scalar, double>
+struct Eigen::internal::redux_novec_unroller<Function, Evaluator, 0, 3> {
+    template <int i>
+    using Value = redux_novec_unroller<Function, Evaluator, i, 1>;
+    static double run(const Evaluator& values, const Function& sum) {
+        return sum(sum(Value<0>::run(values, sum), Value<1>::run(values, sum)), Value<2>::run(values, sum));
+    }
+};
+#endif
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
