@@ -13,8 +13,8 @@
 namespace faqem::detail {
 namespace {
 
-// Smallest mean normal deviation, in degrees, for which a normal map is made from geometry. Below it the
-// visible difference does not justify the size of the image.
+// Smallest normal deviation, in degrees, for which a normal map is made from geometry. Below it the visible difference
+// does not justify the size of the image.
 constexpr double min_deviation = 5;
 
 struct Deviation {
@@ -31,7 +31,7 @@ Deviation face_deviation(const BakePart& part, Index face) {
         for (std::size_t i = 0; i < 3; ++i) own += w[i] * to_vector(normals[std::size_t{3} * face + i]);
         Vector3 other = interpolated_normal(*part.source, part.map->map(face, w));
         if (other.dot(face_normal) < 0) other = -other;
-        sum += std::atan2(own.cross(other).norm(), own.dot(other));
+        sum += (unit_or_zero(own) - other).squaredNorm();
     }
     const double area = area_vector(mesh.positions, mesh.triangles[face]).norm();
     return {std::isfinite(area) ? sum / 4 * area : 0, std::isfinite(area) ? area : 0};
@@ -49,7 +49,7 @@ double normal_deviation(std::span<const BakePart> parts, std::span<const PageFac
         all.sum += d.sum;
         all.area += d.area;
     }
-    return all.area > 0 ? all.sum / all.area * 180 / std::numbers::pi : 0;
+    return all.area > 0 ? std::sqrt(all.sum / all.area) * 180 / std::numbers::pi : 0;
 }
 
 bool wants_normal_map(NormalMap choice, const Asset& source, const MaterialGroup& group,
