@@ -47,6 +47,26 @@ TEST_CASE("closest point tracker: samples of flipped faces are replaced, others 
     CHECK((there.residual(2) - Vector3(0, 0, -0.25)).norm() < 1e-15);
 }
 
+TEST_CASE("closest point tracker: residuals that pass a vertex of a hundred faces are the shortest") {
+    // A cone whose rim goes up and down, and a small triangle that moves over its apex.
+    TriangleMesh cone = test::shaken(test::fan(100), 0.01, 3);
+    cone.positions[0] = {0, 0, 1};
+    std::vector<Vector3> at;
+    for (const Vec3& p : cone.positions) at.emplace_back(p[0], p[1], p[2]);
+    const ReferenceSurface original({at, cone.triangles});
+    const std::vector<Triangle> one = {{0, 1, 2}};
+    MeshToReferenceTracker there(original, one, {{0, {1, 0, 0}}, {0, {0, 0.5, 0.5}}});
+    for (const double x : {-0.3, -0.02, 0.0, 0.03, 0.4}) {
+        const std::vector<Vector3> moving = {{x, 0.01, 1.1}, {x + 0.1, 0.02, 0.9}, {x, 0.1, 1.0}};
+        there.update(moving, 1);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Vector3 p = there.sample(i).position(moving, one);
+            const double shortest = std::sqrt(original.tree.closest(engine::to_array(p)).distance_squared);
+            CHECK(there.residual(i).norm() == Approx(shortest));
+        }
+    }
+}
+
 TEST_CASE("closest point tracker: the normal deviation at an edge is the smallest one") {
     // A step: a wall below the edge x = 0 with normal +x, and a floor beyond the edge with normal +z.
     const std::vector<Vector3> step = {{0, 0, 0}, {0, 1, 0}, {0, 0, -1}, {1, 0, 0}};

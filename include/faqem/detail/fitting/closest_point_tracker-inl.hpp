@@ -16,6 +16,9 @@ inline constexpr std::size_t tracker_block_size = 1024;
 /// face needs to be considered: an equally close face would be coincident with it and have the same normal.
 inline constexpr double unambiguous_cosine = 0.5;
 
+/// Where a vertex has more faces than this, a global search is faster than visiting all of them.
+inline constexpr std::size_t max_walked_valence = 32;
+
 /// Barycentric coordinate below which a point counts as lying on the edge opposite to the corner.
 inline constexpr double edge_tolerance = 1e-9;
 /// Result of nearest_corner() for a point that is on no edge.
@@ -42,8 +45,9 @@ inline std::uint8_t nearest_corner(const Vec3& barycentric) {
 /// Local closest-point search. Starting at face `last`, repeatedly moves to the closest face of the one-ring
 /// of the corner that is nearest to the current closest point, while the distance decreases.
 /// \param corner  nearest_corner() of the previous closest point on `last`
+/// \param tree    if not null, that of the mesh, which is searched at vertices of high valence
 inline Bvh::Hit walk_to_closest(const VertexFaces& vertex_faces, const MeshRef& mesh, const Vector3& p,
-                                Index last, std::uint8_t corner) {
+                                Index last, std::uint8_t corner, const Bvh* tree = nullptr) {
     const auto closest_on = [&](Index face) {
         const Triangle& t = mesh.triangles[face];
         return closest_point_on_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
@@ -52,7 +56,9 @@ inline Bvh::Hit walk_to_closest(const VertexFaces& vertex_faces, const MeshRef& 
     if (corner == interior) corner = nearest_corner(to_array(best.barycentric));
     while (corner != interior) {
         const Index from = last;
-        for (const Index next : vertex_faces[mesh.triangles[from][corner]]) {
+        const auto around = vertex_faces[mesh.triangles[from][corner]];
+        if (tree && around.size() > max_walked_valence) return nearest(*tree, mesh, p, last);
+        for (const Index next : around) {
             if (next == from) continue;
             const ClosestPoint hit = closest_on(next);
             if (hit.distance_squared < improvement_ratio * best.distance_squared) best = hit, last = next;
@@ -105,9 +111,9 @@ FAQEM_INLINE void MeshToReferenceTracker::update(std::span<const Vector3> positi
                 search(i, i == begin ? no_index : residuals_[i - 1].face);
             } else {
                 const Vector3 p = samples_[i].position(positions_, triangles_);
-                set_residual(
-                    i, p,
-                    walk_to_closest(original_.vertex_faces, original_.mesh, p, last, residuals_[i].corner));
+                set_residual(i, p,
+                             walk_to_closest(original_.vertex_faces, original_.mesh, p, last,
+                                             residuals_[i].corner, &original_.tree));
             }
         }
     });
