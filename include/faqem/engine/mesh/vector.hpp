@@ -10,7 +10,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-#ifndef EIGEN_VECTORIZE
+#if !defined(EIGEN_VECTORIZE) && !EIGEN_VERSION_AT_LEAST(3, 4, 90)
 /// Sums of three doubles, as in dot products, in the order of processors whose vectors have two doubles.
 template <class Function, class Evaluator>
 requires std::is_same_v<typename Evaluator::Scalar, double>
