@@ -12,6 +12,7 @@
 #   comfyui what tests/run.sh --suite comfyui needs
 #   ktx2    what the option FAQEM_WITH_KTX2 and tests/run.sh --suite ktx2 need besides, without cargo
 #   windows what tests/run.sh --suite windows needs besides
+#   web     what src/web/build_package.sh and tests/run.sh --suite web need; Node 18 or newer
 #   fresh   what tests/run.sh --suite fresh needs, without the packages of the group build
 # Uses sudo only when not root.
 set -eu
@@ -50,9 +51,12 @@ libwebp-dev:arm64 libdeflate-dev:arm64 zlib1g-dev:arm64 libdraco-dev:arm64 libmd
             ;;
         ktx2) packages="$packages libzstd-dev python3-venv" ;;
         windows) packages="$packages g++-mingw-w64-x86-64-posix wine64" ;;
+        web)
+            packages="cmake ninja-build libeigen3-dev nlohmann-json3-dev emscripten nodejs $npm"
+            ;;
         slurm) packages="$packages slurm-wlm munge" ;;
         *)
-            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, aarch64, fresh, engines, slurm, blender, comfyui, ktx2, windows)" >&2
+            echo "cmake/install-packages.sh: there is no group '$group' (known: build, test, clang, tidy, docs, wheel, aarch64, fresh, engines, slurm, blender, comfyui, ktx2, windows, web)" >&2
             exit 2
             ;;
     esac

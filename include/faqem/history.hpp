@@ -58,7 +58,7 @@ struct CollapseHistory {
     /// Number of patches: collapses, then edge flips.
     std::size_t patch_count() const { return patch_begin.empty() ? 0 : patch_begin.size() - 1; }
     std::span<const Index> patch(std::size_t k) const {
-        return {patch_faces.data() + patch_begin[k], patch_begin[k + 1] - patch_begin[k]};
+        return std::span(patch_faces).subspan(patch_begin[k], patch_begin[k + 1] - patch_begin[k]);
     }
     /// Position of a simplified vertex. O(1)
     const Vec3& final_position(std::size_t vertex) const {

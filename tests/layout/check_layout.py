@@ -52,6 +52,7 @@ ORDER = [
     ["src/bake/onto"],
     ["src/result"],
     ["src/capi"],
+    ["src/web"],
     ["src/python/native"],
     ["src/cli/process"],
     ["src/cli/files"],
@@ -90,6 +91,7 @@ SMALL = {
     "src/cli/commands/completion_and_profiles",
     # What the wheel replaces in other libraries.
     "src/python/native/glibc",
+    "src/web/progress",                    # an import of WebAssembly
     "src/cli/report/embedded_files",       # the texts are generated at build time
 }
 

@@ -150,7 +150,8 @@ FAQEM_INLINE OptionValue parse_option_number(std::string_view text, OptionKind k
         result = std::from_chars(text.data(), end, number);
         value.number = static_cast<double>(number);
         if (kind == OptionKind::size && result.ec == std::errc{}) {
-            const double factor = bytes_per_unit({result.ptr, end});
+            const double factor =
+                bytes_per_unit(text.substr(static_cast<std::size_t>(result.ptr - text.data())));
             if (factor > 0) result.ptr = end;
             *value.number *= factor;
         }

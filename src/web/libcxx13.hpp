@@ -1,0 +1,167 @@
+/// \file
+/// What faqem uses of C++20 and the C++ library of emscripten 3.1.6 (libc++ 13) does not have. The toolchain of
+/// WebAssembly (cmake/web.cmake) includes it in each file. A newer library needs only the numbers at the end.
+
+// Not in the checks of CMake, which are older C++.
+#if __cplusplus > 201703L && !defined(FAQEM_LIBCXX13)
+#define FAQEM_LIBCXX13
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <compare>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace std {  // NOLINT(cert-dcl58-cpp): the names are those of the standard
+
+#if _LIBCPP_VERSION < 14000
+template <class To, class From>
+constexpr To bit_cast(const From& from) noexcept {
+    return __builtin_bit_cast(To, from);
+}
+
+template <class T, size_t size>
+constexpr auto operator<=>(const array<T, size>& a, const array<T, size>& b) -> decltype(a[0] <=> b[0]) {
+    for (size_t i = 0; i < size; ++i)
+        if (const auto order = a[i] <=> b[i]; order != 0) return order;
+    return strong_ordering::equal;
+}
+
+namespace ranges {
+
+/// A comparison of what a projection makes of two values.
+template <class Compare, class Projection>
+auto compare_by(Compare& compare, Projection& projection) {
+    return [&](const auto& a, const auto& b) {
+        return invoke(compare, invoke(projection, a), invoke(projection, b));
+    };
+}
+template <class Test, class Projection>
+auto test_by(Test& test, Projection& projection) {
+    return [&](const auto& value) { return static_cast<bool>(invoke(test, invoke(projection, value))); };
+}
+template <class Value, class Projection>
+auto equal_by(const Value& value, Projection& projection) {
+    return [&](const auto& other) { return invoke(projection, other) == value; };
+}
+
+#define FAQEM_WITH_COMPARISON(name)                                                            \
+    template <class Range, class Compare = less, class Projection = identity>                  \
+    constexpr auto name(Range&& range, Compare compare = {}, Projection projection = {}) {     \
+        return std::name(std::begin(range), std::end(range), compare_by(compare, projection)); \
+    }
+FAQEM_WITH_COMPARISON(sort)
+FAQEM_WITH_COMPARISON(stable_sort)
+FAQEM_WITH_COMPARISON(is_sorted)
+FAQEM_WITH_COMPARISON(min_element)
+FAQEM_WITH_COMPARISON(max_element)
+FAQEM_WITH_COMPARISON(minmax_element)
+#undef FAQEM_WITH_COMPARISON
+
+#define FAQEM_WITH_TEST(name)                                                            \
+    template <class Range, class Test, class Projection = identity>                      \
+    constexpr auto name(Range&& range, Test test, Projection projection = {}) {          \
+        return std::name(std::begin(range), std::end(range), test_by(test, projection)); \
+    }
+FAQEM_WITH_TEST(any_of)
+FAQEM_WITH_TEST(all_of)
+FAQEM_WITH_TEST(none_of)
+FAQEM_WITH_TEST(count_if)
+FAQEM_WITH_TEST(find_if)
+#undef FAQEM_WITH_TEST
+
+template <class Range, class Value, class Projection = identity>
+constexpr auto find(Range&& range, const Value& value, Projection projection = {}) {
+    return std::find_if(std::begin(range), std::end(range), equal_by(value, projection));
+}
+template <class Range, class Value>
+constexpr auto count(Range&& range, const Value& value) {
+    return std::count(std::begin(range), std::end(range), value);
+}
+template <class Range>
+constexpr auto min(const Range& range) {
+    return *std::min_element(std::begin(range), std::end(range));
+}
+template <class Range, class Value, class Compare = less, class Projection = identity>
+constexpr auto lower_bound(Range&& range, const Value& value, Compare compare = {},
+                           Projection projection = {}) {
+    return std::lower_bound(std::begin(range), std::end(range), value,
+                            [&](const auto& element, const Value& wanted) {
+                                return invoke(compare, invoke(projection, element), wanted);
+                            });
+}
+template <class Range, class Value>
+constexpr bool binary_search(Range&& range, const Value& value) {
+    return std::binary_search(std::begin(range), std::end(range), value);
+}
+template <class A, class B>
+constexpr auto mismatch(A&& a, B&& b) {
+    struct Result {
+        decltype(std::begin(a)) in1;
+        decltype(std::begin(b)) in2;
+    };
+    const auto [in1, in2] = std::mismatch(std::begin(a), std::end(a), std::begin(b), std::end(b));
+    return Result{in1, in2};
+}
+template <class Range, class Out>
+constexpr auto copy(Range&& range, Out out) {
+    return std::copy(std::begin(range), std::end(range), out);
+}
+template <class Range, class Out, class Function>
+constexpr auto transform(Range&& range, Out out, Function function) {
+    return std::transform(std::begin(range), std::end(range), out, function);
+}
+template <class Range, class Value>
+constexpr void fill(Range&& range, const Value& value) {
+    std::fill(std::begin(range), std::end(range), value);
+}
+template <class Range, class Value>
+constexpr void replace(Range&& range, const Value& old_value, const Value& new_value) {
+    std::replace(std::begin(range), std::end(range), old_value, new_value);
+}
+template <class A, class B, class Out>
+constexpr auto set_difference(A&& a, B&& b, Out out) {
+    return std::set_difference(std::begin(a), std::end(a), std::begin(b), std::end(b), out);
+}
+
+}  // namespace ranges
+
+inline to_chars_result to_chars(char* first, char* last, double value) {
+    std::array<char, 32> text{};
+    int size = 0;
+    for (int digits = 1; digits <= 17; ++digits) {
+        size = std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+        if (std::strtod(text.data(), nullptr) == value) break;
+    }
+    if (last - first < size) return {last, errc::value_too_large};
+    return {std::copy_n(text.data(), size, first), errc{}};
+}
+#endif
+
+#if _LIBCPP_VERSION < 200000
+/// The C library of emscripten has no locales, so strtod() reads a point.
+inline from_chars_result from_chars(const char* first, const char* last, double& value) {
+    const string text(first, last);
+    const size_t digit = text.starts_with('-') ? 1 : 0;
+    // These strtod() reads, and from_chars() does not: spaces, a plus sign, hexadecimal numbers.
+    if (digit == text.size() || std::string_view(" \t\n\v\f\r+-").find(text[digit]) != string::npos ||
+        text.find_first_of("xX") == digit + 1)
+        return {first, errc::invalid_argument};
+    char* end = nullptr;
+    const double read = std::strtod(text.c_str(), &end);
+    if (end == text.c_str()) return {first, errc::invalid_argument};
+    value = read;
+    return {first + (end - text.c_str()), errc{}};
+}
+#endif
+
+}  // namespace std
+
+#endif
