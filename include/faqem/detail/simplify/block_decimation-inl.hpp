@@ -22,7 +22,7 @@ using engine::CollapseMesh;
 
 // Part of the whole surface's share that a block keeps. Of the surplus of collapses the most expensive ones
 // are discarded, so that blocks with little detail give more collapses than blocks with much.
-inline constexpr double local_share = 0.8;
+inline constexpr double local_share = 0.88;
 
 // Blocks are not used if more than this part of the faces would remain: one engine would then have to process
 // most of the surface a second time.

@@ -27,7 +27,7 @@ std::size_t vertices_per_block(std::size_t vertices, std::size_t few = max_verti
 /// Factor on the share of faces that is kept inside the blocks. It is above 1 because the interior of the
 /// blocks should not become coarser than the final result: faces between blocks are still dense and are
 /// collapsed first afterwards.
-inline constexpr double spare_share = 1.15;
+inline constexpr double spare_share = 1.08;
 
 /// Loop options for the engine of one block.
 /// \param loop     options for the whole surface
