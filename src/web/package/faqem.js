@@ -85,7 +85,7 @@ class Faqem {
     #run({ progress, signal, faceGroups, vertexLocks, vertexWeights, cornerValues, cornerWidth, wasm, ...named }, work) {
         const c = this.#exports, allocated = [];
         const space = (bytes) => {
-            const address = c.malloc(Math.max(bytes, 8));
+            const address = c.malloc(Math.max(bytes, 8)) >>> 0;  // WebAssembly gives signed numbers
             if (!address) throw new FaqemError(`${bytes} bytes of memory are not available`, NO_MEMORY);
             allocated.push(address);
             return address;
@@ -139,7 +139,7 @@ class Faqem {
     #result(result, Positions) {
         const c = this.#exports;
         const copy = (Type, name, length) => {
-            const address = c[`faqem_result_${name}`](result);
+            const address = c[`faqem_result_${name}`](result) >>> 0;
             return new Type(c.memory.buffer, address, address ? length : 0).slice();
         };
         const vertices = c.faqem_result_vertex_count(result), faces = c.faqem_result_face_count(result);
@@ -161,7 +161,7 @@ class Faqem {
     }
 
     #text(address) {
-        const bytes = new Uint8Array(this.#exports.memory.buffer, address);
+        const bytes = new Uint8Array(this.#exports.memory.buffer, address >>> 0);
         return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
     }
 }
