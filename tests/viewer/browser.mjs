@@ -4,7 +4,7 @@ import { spawn } from 'node:child_process';
 
 const flags = [
   '--headless=new', '--remote-debugging-pipe', '--no-sandbox', '--no-first-run', '--disable-background-networking',
-  '--disable-component-update', '--disable-sync', '--disable-quic', '--host-resolver-rules=MAP * ~NOTFOUND',
+  '--disable-component-update', '--disable-sync', '--disable-quic', '--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1',
   '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', // software rendering, reproducible and without a GPU
 ];
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Builds the npm package, installs it into an empty folder and tries it in Node: the results are the bytes of the native
+# Builds the npm package, installs it into an empty folder and tries it in Node and Chromium: the results are the bytes of the native
 # library. Needs a build of the preset test.
 # Usage: tests/run.sh --suite web
 set -eu
@@ -26,3 +26,4 @@ echo "faqem.wasm: $size bytes gzipped"
 cp "$here"/*.mjs "$here"/types.mts .
 npx tsc --noEmit --strict --module nodenext --lib es2022,dom types.mts
 node --test-reporter=spec test_package.mjs "$work/cases"
+node test_browser.mjs chromium "$work/profile" "$work/cases" "$source/tests/viewer/browser.mjs"
