@@ -43,14 +43,6 @@ auto compare_by(Compare& compare, Projection& projection) {
         return invoke(compare, invoke(projection, a), invoke(projection, b));
     };
 }
-template <class Test, class Projection>
-auto test_by(Test& test, Projection& projection) {
-    return [&](const auto& value) { return static_cast<bool>(invoke(test, invoke(projection, value))); };
-}
-template <class Value, class Projection>
-auto equal_by(const Value& value, Projection& projection) {
-    return [&](const auto& other) { return invoke(projection, other) == value; };
-}
 
 #define FAQEM_WITH_COMPARISON(name)                                                            \
     template <class Range, class Compare = less, class Projection = identity>                  \
@@ -59,35 +51,20 @@ auto equal_by(const Value& value, Projection& projection) {
     }
 FAQEM_WITH_COMPARISON(sort)
 FAQEM_WITH_COMPARISON(stable_sort)
-FAQEM_WITH_COMPARISON(is_sorted)
-FAQEM_WITH_COMPARISON(min_element)
 FAQEM_WITH_COMPARISON(max_element)
-FAQEM_WITH_COMPARISON(minmax_element)
 #undef FAQEM_WITH_COMPARISON
 
-#define FAQEM_WITH_TEST(name)                                                            \
-    template <class Range, class Test, class Projection = identity>                      \
-    constexpr auto name(Range&& range, Test test, Projection projection = {}) {          \
-        return std::name(std::begin(range), std::end(range), test_by(test, projection)); \
-    }
-FAQEM_WITH_TEST(any_of)
-FAQEM_WITH_TEST(all_of)
-FAQEM_WITH_TEST(none_of)
-FAQEM_WITH_TEST(count_if)
-FAQEM_WITH_TEST(find_if)
-#undef FAQEM_WITH_TEST
-
-template <class Range, class Value, class Projection = identity>
-constexpr auto find(Range&& range, const Value& value, Projection projection = {}) {
-    return std::find_if(std::begin(range), std::end(range), equal_by(value, projection));
+template <class Range, class Test>
+constexpr bool any_of(Range&& range, Test test) {
+    return std::any_of(std::begin(range), std::end(range), test);
+}
+template <class Range, class Test>
+constexpr auto count_if(Range&& range, Test test) {
+    return std::count_if(std::begin(range), std::end(range), test);
 }
 template <class Range, class Value>
-constexpr auto count(Range&& range, const Value& value) {
-    return std::count(std::begin(range), std::end(range), value);
-}
-template <class Range>
-constexpr auto min(const Range& range) {
-    return *std::min_element(std::begin(range), std::end(range));
+constexpr auto find(Range&& range, const Value& value) {
+    return std::find(std::begin(range), std::end(range), value);
 }
 template <class Range, class Value, class Compare = less, class Projection = identity>
 constexpr auto lower_bound(Range&& range, const Value& value, Compare compare = {},
@@ -96,39 +73,6 @@ constexpr auto lower_bound(Range&& range, const Value& value, Compare compare = 
                             [&](const auto& element, const Value& wanted) {
                                 return invoke(compare, invoke(projection, element), wanted);
                             });
-}
-template <class Range, class Value>
-constexpr bool binary_search(Range&& range, const Value& value) {
-    return std::binary_search(std::begin(range), std::end(range), value);
-}
-template <class A, class B>
-constexpr auto mismatch(A&& a, B&& b) {
-    struct Result {
-        decltype(std::begin(a)) in1;
-        decltype(std::begin(b)) in2;
-    };
-    const auto [in1, in2] = std::mismatch(std::begin(a), std::end(a), std::begin(b), std::end(b));
-    return Result{in1, in2};
-}
-template <class Range, class Out>
-constexpr auto copy(Range&& range, Out out) {
-    return std::copy(std::begin(range), std::end(range), out);
-}
-template <class Range, class Out, class Function>
-constexpr auto transform(Range&& range, Out out, Function function) {
-    return std::transform(std::begin(range), std::end(range), out, function);
-}
-template <class Range, class Value>
-constexpr void fill(Range&& range, const Value& value) {
-    std::fill(std::begin(range), std::end(range), value);
-}
-template <class Range, class Value>
-constexpr void replace(Range&& range, const Value& old_value, const Value& new_value) {
-    std::replace(std::begin(range), std::end(range), old_value, new_value);
-}
-template <class A, class B, class Out>
-constexpr auto set_difference(A&& a, B&& b, Out out) {
-    return std::set_difference(std::begin(a), std::end(a), std::begin(b), std::end(b), out);
 }
 
 }  // namespace ranges

@@ -38,7 +38,7 @@ inline Bvh::Hit nearest(const Bvh& tree, const MeshRef& mesh, const Vector3& p, 
 
 /// The corner of a face that is nearest to a point on its boundary, or `interior` if the point is on no edge.
 inline std::uint8_t nearest_corner(const Vec3& barycentric) {
-    if (std::ranges::min(barycentric) > edge_tolerance) return interior;
+    if (std::min({barycentric[0], barycentric[1], barycentric[2]}) > edge_tolerance) return interior;
     return static_cast<std::uint8_t>(std::ranges::max_element(barycentric) - barycentric.begin());
 }
 

@@ -79,7 +79,8 @@ inline std::vector<std::uint8_t> check_collapses(const CollapseHistory& h) {
 
 inline void check_patches(const CollapseHistory& h) {
     if (h.patch_begin.size() <= h.collapses.size() || h.patch_begin.front() != 0 ||
-        h.patch_begin.back() != h.patch_faces.size() || !std::ranges::is_sorted(h.patch_begin))
+        h.patch_begin.back() != h.patch_faces.size() ||
+        !std::is_sorted(h.patch_begin.begin(), h.patch_begin.end()))
         detail::fail_history("patch_begin", "must increase from 0 to the number of patch faces");
     for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k)
         if (h.patch(k).size() != 2)

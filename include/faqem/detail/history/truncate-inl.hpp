@@ -22,7 +22,7 @@ inline std::string numbered(std::size_t level) { return "level " + std::to_strin
 // Whether the collapses and deletions of `part` are the first ones of `whole`, for the same original.
 inline bool is_prefix_of(const CollapseHistory& part, const CollapseHistory& whole) {
     const auto is_prefix = [](const auto& a, const auto& b) {
-        return std::ranges::mismatch(a, b).in1 == a.end();
+        return std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first == a.end();
     };
     return part.positions == whole.positions && part.triangles == whole.triangles &&
            part.face_groups == whole.face_groups && is_prefix(part.collapses, whole.collapses) &&
