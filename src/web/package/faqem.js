@@ -5,9 +5,10 @@ const NO_MEMORY = 11;
 const kebab = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
 
 export class FaqemError extends Error {
+    name = "FaqemError";
+
     constructor(message, status) {
         super(message);
-        this.name = "FaqemError";
         this.status = status;
     }
 }
@@ -106,8 +107,8 @@ class Faqem {
         };
         const mesh = (positions, triangles) => {
             if (positions.length % 3 || triangles.length % 3) throw new RangeError("positions and triangles: not three numbers each");
-            const isDouble = positions instanceof Float64Array, isShort = triangles instanceof Uint16Array;
             const vertices = positions.length / 3, faces = triangles.length / 3;
+            const isDouble = positions instanceof Float64Array, isShort = triangles instanceof Uint16Array;
             const places = copy(isDouble ? Float64Array : Float32Array, positions, "positions");
             const indices = copy(isShort ? Uint16Array : Uint32Array, triangles, "triangles");
             const fields = Uint32Array.of(
@@ -187,26 +188,22 @@ async function inWorker(method, values, { progress, signal, wasm, ...options } =
     const worker = globalThis.Worker
         ? new Worker(new URL("./worker.js", import.meta.url), { type: "module" })
         : new (await import(/* @vite-ignore */ /* webpackIgnore: true */ "node:worker_threads")).Worker(new URL("./worker.js", import.meta.url));
-    const abort = {};
+    const ended = new AbortController();
     try {
         return await new Promise((resolve, reject) => {
             const listen = (name, to) => (worker.on ? worker.on(name, (data) => to({ data, message: data.message })) : worker.addEventListener(name, to));
-            abort.listener = () => reject(signal.reason);
-            signal?.addEventListener("abort", abort.listener);
             signal?.throwIfAborted();
+            signal?.addEventListener("abort", () => reject(signal.reason), { signal: ended.signal });
             listen("error", ({ message }) => reject(new FaqemError(message)));
             listen("message", ({ data }) => {
-                if (data.progress) {
-                    if (progress?.(...data.progress) === false) reject(new DOMException("cancelled", "AbortError"));
-                } else if (data.error) {
-                    const { name, message, status } = data.error;
-                    reject(Object.assign(new FaqemError(message, status), { name }));
-                } else resolve(data.result);
+                if (data.error) reject(Object.assign(new FaqemError(data.error.message), data.error));
+                else if (data.result) resolve(data.result);
+                else if (progress(...data.progress) === false) reject(new DOMException("cancelled", "AbortError"));
             });
             worker.postMessage({ module, method, values, options, reports: Boolean(progress) });
         });
     } finally {
-        signal?.removeEventListener("abort", abort.listener);
+        ended.abort();
         worker.terminate();
     }
 }
