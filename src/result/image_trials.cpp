@@ -281,7 +281,6 @@ void ImageTrials::add_sample(SizeError& error, const PictureDifference& both, do
 
 // Interpolates between no difference, the samples, and beyond.
 PictureDifference ImageTrials::estimated_error(const SizeError& error, double difference) {
-    PictureDifference result = error.own;
     Sample before;
     for (const Sample& sample : error.samples) {
         if (!(difference <= sample.difference)) {
@@ -289,12 +288,10 @@ PictureDifference ImageTrials::estimated_error(const SizeError& error, double di
             continue;
         }
         const double share = (difference - before.difference) / (sample.difference - before.difference);
-        result += before.added * (1 - share);
-        result += sample.added * share;
-        return result;
+        return error.own + before.added * (1 - share) + sample.added * share;
     }
-    if (before.difference > 0) result += before.added * (difference / before.difference);
-    return result;
+    if (!(before.difference > 0)) return error.own;
+    return error.own + before.added * (difference / before.difference);
 }
 
 void ImageTrials::update_errors() {

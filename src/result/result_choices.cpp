@@ -60,8 +60,7 @@ public:
     // \param other  errors that do not depend on the images
     Allocation within(std::uint64_t bytes, const PictureDifference& other) const {
         Allocation result;
-        PictureDifference total = least_.error;
-        total += other;
+        PictureDifference total = least_.error + other;
         for (int round = 0; round < allocation_rounds; ++round) {
             result = chosen_by(bytes, {1 / (total.unlit + smallest_error), 1 / (total.lit + smallest_error)});
             result.error += other;
@@ -99,11 +98,8 @@ private:
                 next = k;
             }
             if (next == tried.size()) return;
-            steps_.push_back({image,
-                              next,
-                              tried[next].bytes - tried[at].bytes,
-                              {tried[at].error.unlit - tried[next].error.unlit,
-                               tried[at].error.lit - tried[next].error.lit}});
+            steps_.push_back(
+                {image, next, tried[next].bytes - tried[at].bytes, tried[at].error - tried[next].error});
             at = next;
         }
     }
@@ -137,8 +133,7 @@ private:
         const TriedImage &before = images_[image][result.chosen[image]], &after = images_[image][encoding];
         result.chosen[image] = encoding;
         result.bytes = result.bytes - before.bytes + after.bytes;
-        result.error.unlit += after.error.unlit - before.error.unlit;
-        result.error.lit += after.error.lit - before.error.lit;
+        result.error += after.error - before.error;
     }
 
     // Takes the encoding with the least error that fits, which is not on the hull.
@@ -186,8 +181,7 @@ PictureDifference error_of_faces(std::span<const TriedFaces> tried, std::uint64_
                 return 1 / static_cast<double>(std::max<std::uint64_t>(n, 1));
             };
             const double share = share_between(area(more.faces), area(fewer.faces), area(faces));
-            const auto between = [&](double a, double b) { return a + share * (b - a); };
-            return {between(more.error.unlit, fewer.error.unlit), between(more.error.lit, fewer.error.lit)};
+            return more.error + (fewer.error - more.error) * share;
         }
         const double share = share_between(log_of(more.faces), log_of(fewer.faces), log_of(faces));
         return {power_between(more.error.unlit, fewer.error.unlit, share),
@@ -224,9 +218,7 @@ std::vector<ResultChoice> result_choices(std::span<const TriedFaces> faces, cons
                 faces_within(faces, as_first_rounding(roundings, r, taken));
             if (!count) break;
             const auto error_with = [&](std::uint64_t n) {
-                PictureDifference error = error_of_faces(faces, n);
-                error += roundings[r].error;
-                return error;
+                return error_of_faces(faces, n) + roundings[r].error;
             };
             Allocation chosen = allocator.within(bytes - taken, error_with(*count));
             // Images that do not use all their bytes leave more for faces.

@@ -32,6 +32,11 @@ struct PictureDifference {
     }
 };
 
+inline PictureDifference operator+(PictureDifference a, const PictureDifference& b) { return a += b; }
+inline PictureDifference operator-(const PictureDifference& a, const PictureDifference& b) {
+    return {a.unlit - b.unlit, a.lit - b.lit};
+}
+
 /// A share of a difference.
 inline PictureDifference operator*(const PictureDifference& difference, double factor) {
     return {difference.unlit * factor, difference.lit * factor};
