@@ -74,10 +74,6 @@ std::vector<Texture> textures(const Asset& model, std::span<const PendingImage> 
     return result;
 }
 
-bool has_any(const std::vector<Texture>& all) {
-    return std::any_of(all.begin(), all.end(), [](const Texture& texture) { return bool(texture); });
-}
-
 }  // namespace
 
 std::vector<render::Frame> pictures(const render::Scene& scene, const std::vector<render::Camera>& cameras,
@@ -172,7 +168,8 @@ ImageErrorMeter::ImageErrorMeter(const Asset& model, std::span<const PendingImag
     scene_.normal_maps = std::move(normals);
     cameras_ = render::cameras_around(scene_, "", picture_views);
     unlit_ = pictures(scene_, cameras_, render::Shading::unlit, threads_);
-    if (has_any(scene_.normal_maps)) lit_ = pictures(scene_, cameras_, render::Shading::lit, threads_);
+    if (std::ranges::any_of(scene_.normal_maps, [](const Texture& map) { return bool(map); }))
+        lit_ = pictures(scene_, cameras_, render::Shading::lit, threads_);
 
     std::vector<std::uint64_t> pixels(model.materials.size() + 1, 0);  // by material
     for (const render::Frame& frame : unlit_) {

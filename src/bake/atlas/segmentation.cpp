@@ -57,7 +57,7 @@ public:
         }
     }
 
-    void run(const engine::RunContext& context) {
+    std::vector<std::vector<Index>> run(const engine::RunContext& context) {
         while (!queue_.empty()) {
             const Merge m = queue_.top();
             queue_.pop();
@@ -65,9 +65,6 @@ public:
             if (a.is_merged || b.is_merged || a.version != m.version_a || b.version != m.version_b) continue;
             context.count(merge(m.a, m.b));
         }
-    }
-
-    std::vector<std::vector<Index>> regions() {
         std::vector<Index> number(regions_.size(), no_index);
         std::vector<std::vector<Index>> result;
         for (Index f = 0; f < regions_.size(); ++f) {
@@ -200,9 +197,7 @@ std::vector<std::size_t> breadth_first(std::span<const PageTriangle> all, std::s
 
 std::vector<std::vector<Index>> cluster_faces(std::span<const PageTriangle> faces,
                                               const engine::RunContext& context) {
-    RegionClustering clustering(faces);
-    clustering.run(context);
-    return clustering.regions();
+    return RegionClustering(faces).run(context);
 }
 
 std::vector<std::vector<Index>> connected_subsets(std::span<const PageTriangle> all,

@@ -6,7 +6,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "asset/finest_level.hpp"
 #include "asset/image/image.hpp"

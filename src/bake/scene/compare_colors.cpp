@@ -12,6 +12,7 @@
 #include "bake/texture/picture_difference.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/random_sampling.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem {
 namespace {
@@ -39,10 +40,8 @@ struct Model {
         if (part().normals.empty()) return;
         for (std::size_t i = 0; i < face_normals.size(); ++i) {
             Vector3 sum = Vector3::Zero();
-            for (const Index v : part().triangles[surface.faces[i]]) {
-                const Vec3f& n = part().normals[v];
-                sum += Vector3(n[0], n[1], n[2]);
-            }
+            for (const Index v : part().triangles[surface.faces[i]])
+                sum += detail::to_vector(part().normals[v]);
             if (sum.dot(face_normals[i]) < 0) face_normals[i] = -face_normals[i];
         }
     }

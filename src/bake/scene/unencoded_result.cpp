@@ -88,13 +88,9 @@ void encode_images(UnencodedResult& result, const Options& options, const RunCon
 bool remove_new_normal_maps(UnencodedResult& result) {
     Asset& asset = result.asset.asset;
     std::vector<std::uint8_t> removed(asset.images.size(), 0);
-    bool has_any = false;
-    for (const PendingImage& pending : result.pending) {
-        if (!pending.is_new_map) continue;
-        removed[pending.image] = 1;
-        has_any = true;
-    }
-    if (!has_any) return false;
+    for (const PendingImage& pending : result.pending)
+        if (pending.is_new_map) removed[pending.image] = 1;
+    if (std::ranges::find(removed, 1) == removed.end()) return false;
     remove_images(result, removed);
     for (Part& part : asset.parts)
         if (!needs_tangents(asset, part)) part.tangents.clear();
