@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include "asset/image/srgb.hpp"
@@ -220,10 +219,7 @@ private:
         const SurfacePoint point = part.map->map(seen.face, seen.barycentric);
         const Vector3 winding = oriented_face_normal(part, seen.face);
         const SeenSurface at(baked_.meshes[seen.mesh], seen, winding, placements_[seen.mesh], camera);
-        Vector3 own_normal = Vector3::Zero();
-        for (std::size_t k = 0; k < 3; ++k)
-            own_normal +=
-                seen.barycentric[k] * to_vector(part.normals.normals[std::size_t{3} * seen.face + k]);
+        const Vector3 own_normal = blended_normal(part, seen.face, seen.barycentric);
         SizedShades result;
         for (std::size_t s = 0; s < result.size(); ++s) {
             const double spacing = at.pixel(s) + scenes_.page_texels[p];

@@ -24,10 +24,8 @@ Vector3 point_on(const TriangleMesh& mesh, Index face, const Vec3& w) {
 
 // The shading normal of a mesh without its normal map; zero on a degenerate face.
 Vector3 normal_at(const BakePart& part, Index face, const Vec3& w) {
-    Vector3 sum = Vector3::Zero();
-    for (std::size_t i = 0; i < 3; ++i)
-        sum += w[i] * to_vector(part.normals.normals[std::size_t{3} * face + i]);
-    const Vector3 of_face = oriented_face_normal(part, face), normal = unit_or_zero(sum);
+    const Vector3 of_face = oriented_face_normal(part, face),
+                  normal = unit_or_zero(blended_normal(part, face, w));
     return of_face.isZero(0) || normal.isZero(0) ? of_face : normal;
 }
 
@@ -59,10 +57,6 @@ OntoMap::OntoMap(const Asset& source, const BakePart& target, FacePairs pairs, d
     }
 }
 
-Vector3 OntoMap::corner(Index face, std::size_t i) const {
-    return to_eigen(source_.positions[source_.triangles[face][i]]);
-}
-
 Bvh::Hit OntoMap::closest_facing(Index face, const Vector3& p, const Vector3& normal, bool from_behind,
                                  const SurfacePoint* near) const {
     const auto faces_point = [&](Index f) {
@@ -73,8 +67,8 @@ Bvh::Hit OntoMap::closest_facing(Index face, const Vector3& p, const Vector3& no
     };
     Bvh::Hit known;
     if (near && faces_point(near->face)) {
-        const ClosestPoint at =
-            closest_point_on_triangle(p, corner(near->face, 0), corner(near->face, 1), corner(near->face, 2));
+        const auto [a, b, c] = corners_of(source_.positions, source_.triangles[near->face]);
+        const ClosestPoint at = closest_point_on_triangle(p, a, b, c);
         if (at.distance_squared <= max_distance_squared_)
             known = {near->face, to_array(at.barycentric), to_array(at.point), at.distance_squared};
     }

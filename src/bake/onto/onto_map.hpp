@@ -36,7 +36,6 @@ public:
     double largest_distance() const { return largest_distance_; }
 
 private:
-    Vector3 corner(Index face, std::size_t i) const;
     Bvh::Hit closest_facing(Index face, const Vector3& p, const Vector3& normal, bool from_behind,
                             const SurfacePoint* near) const;
 

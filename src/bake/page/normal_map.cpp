@@ -24,14 +24,11 @@ struct Deviation {
 Deviation face_deviation(const BakePart& part, Index face) {
     const TriangleMesh& mesh = part.simplified->mesh;
     const Vector3 face_normal = oriented_face_normal(part, face);
-    const std::vector<Vec3f>& normals = part.normals.normals;
     double sum = 0;
     for (const Vec3& w : quarter_points) {
-        Vector3 own = Vector3::Zero();
-        for (std::size_t i = 0; i < 3; ++i) own += w[i] * to_vector(normals[std::size_t{3} * face + i]);
         Vector3 other = interpolated_normal(*part.source, part.map->map(face, w));
         if (other.dot(face_normal) < 0) other = -other;
-        sum += (unit_or_zero(own) - other).squaredNorm();
+        sum += (unit_or_zero(blended_normal(part, face, w)) - other).squaredNorm();
     }
     const double area = area_vector(mesh.positions, mesh.triangles[face]).norm();
     return {std::isfinite(area) ? sum / 4 * area : 0, std::isfinite(area) ? area : 0};

@@ -277,9 +277,7 @@ Vec3 TexelProjector::own_weights(const TexelSample& at) const {
 Vector3 TexelProjector::to_tangent_space(const TexelSample& at, const Vector3& normal) const {
     const TangentFrame here = blend_frames(frames_, own_weights(at));
     if (at.cache_index == 0) return here.from_mesh(normal);
-    Vector3 there = Vector3::Zero();
-    for (std::size_t i = 0; i < 3; ++i)
-        there += at.weights[i] * to_vector(part_.normals.normals[std::size_t{3} * at.face + i]);
+    const Vector3 there = blended_normal(part_, at.face, at.weights);
     return here.from_mesh(Eigen::Quaterniond::FromTwoVectors(there, here.normal) * normal);
 }
 

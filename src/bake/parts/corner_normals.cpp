@@ -152,6 +152,13 @@ Vector3 oriented_face_normal(const BakePart& part, std::size_t face) {
     return part.normals.has_reversed_winding[face] ? Vector3(-face_normal) : face_normal;
 }
 
+Vector3 blended_normal(const BakePart& part, Index face, const Vec3& weights) {
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += weights[i] * to_vector(part.normals.normals[std::size_t{3} * face + i]);
+    return sum;
+}
+
 bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corner, std::size_t other,
                std::size_t other_corner) {
     const auto cluster = [&](std::size_t f, std::size_t c) { return normals.clusters[3 * f + c % 3]; };

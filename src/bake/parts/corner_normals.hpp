@@ -14,6 +14,10 @@ namespace faqem::detail {
 /// set. Zero if the face is degenerate. Complexity: O(1).
 Vector3 oriented_face_normal(const BakePart& part, std::size_t face);
 
+/// The mean of the normals at the corners of a simplified face, by barycentric weights; not of unit length.
+/// Complexity: O(1).
+Vector3 blended_normal(const BakePart& part, Index face, const Vec3& weights);
+
 /// Whether the edge between two faces of consistent winding is a crease: the normals of both its vertices are
 /// split along it.
 /// \param corner        corner of `face` opposite the edge
