@@ -100,28 +100,28 @@ void faqem_asset_destroy(faqem_asset* asset) { delete asset; }
 size_t faqem_asset_part_count(const faqem_asset* asset) { return asset ? asset->asset.parts.size() : 0; }
 
 const char* faqem_asset_part_name(const faqem_asset* asset, size_t part) {
-    const Part* p = capi::find_part(asset, part);
+    const Part* p = capi::find(asset, &Asset::parts, part);
     return p ? p->name.c_str() : nullptr;
 }
 
 size_t faqem_asset_vertex_count(const faqem_asset* asset, size_t part) {
-    const Part* p = capi::find_part(asset, part);
+    const Part* p = capi::find(asset, &Asset::parts, part);
     return p ? p->positions.size() : 0;
 }
 
 size_t faqem_asset_face_count(const faqem_asset* asset, size_t part) {
-    const Part* p = capi::find_part(asset, part);
+    const Part* p = capi::find(asset, &Asset::parts, part);
     return p ? p->triangles.size() : 0;
 }
 
 const double* faqem_asset_positions(const faqem_asset* asset, size_t part) {
-    return faqem_asset_vertex_count(asset, part) > 0 ? capi::find_part(asset, part)->positions.front().data()
-                                                     : nullptr;
+    const Part* p = capi::find(asset, &Asset::parts, part);
+    return p && !p->positions.empty() ? p->positions.front().data() : nullptr;
 }
 
 const uint32_t* faqem_asset_triangles(const faqem_asset* asset, size_t part) {
-    return faqem_asset_face_count(asset, part) > 0 ? capi::find_part(asset, part)->triangles.front().data()
-                                                   : nullptr;
+    const Part* p = capi::find(asset, &Asset::parts, part);
+    return p && !p->triangles.empty() ? p->triangles.front().data() : nullptr;
 }
 
 size_t faqem_asset_warning_count(const faqem_asset* asset) {

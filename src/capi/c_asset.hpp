@@ -68,9 +68,10 @@ struct faqem_asset {
 
 namespace faqem::capi {
 
-/// Returns a part; null if `asset` is null or has no such part.
-inline const Part* find_part(const faqem_asset* asset, std::size_t part) {
-    return asset && part < asset->asset.parts.size() ? &asset->asset.parts[part] : nullptr;
+/// Returns an element, for example a part; null if `asset` is null or has no such element.
+template <class Element>
+const Element* find(const faqem_asset* asset, std::vector<Element> Asset::*all, std::size_t index) {
+    return asset && index < (asset->asset.*all).size() ? &(asset->asset.*all)[index] : nullptr;
 }
 
 /// Converts to the C++ enumeration.

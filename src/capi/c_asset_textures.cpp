@@ -15,19 +15,6 @@ using namespace faqem;
 
 static_assert(no_index == UINT32_MAX);
 
-const std::vector<Vec2f>* find_uvs(const faqem_asset* asset, std::size_t part, std::size_t set) {
-    const Part* p = capi::find_part(asset, part);
-    return p && set < p->uvs.size() && !p->uvs[set].empty() ? &p->uvs[set] : nullptr;
-}
-
-const Material* find_material(const faqem_asset* asset, std::size_t material) {
-    return asset && material < asset->asset.materials.size() ? &asset->asset.materials[material] : nullptr;
-}
-
-const Image* find_image(const faqem_asset* asset, std::size_t image) {
-    return asset && image < asset->asset.images.size() ? &asset->asset.images[image] : nullptr;
-}
-
 // The values of faqem_texture are those of CoreTexture.
 const TextureRef* find_texture(const Material& material, faqem_texture texture) {
     const auto number = static_cast<std::size_t>(texture);
@@ -43,17 +30,17 @@ static_assert(detail::core_slots[FAQEM_TEXTURE_BASE_COLOR].texture == &Material:
 }  // namespace
 
 size_t faqem_asset_uv_set_count(const faqem_asset* asset, size_t part) {
-    const Part* p = capi::find_part(asset, part);
+    const Part* p = capi::find(asset, &Asset::parts, part);
     return p ? p->uvs.size() : 0;
 }
 
 const float* faqem_asset_uvs(const faqem_asset* asset, size_t part, size_t set) {
-    const std::vector<Vec2f>* uvs = find_uvs(asset, part, set);
-    return uvs ? uvs->front().data() : nullptr;
+    const Part* p = capi::find(asset, &Asset::parts, part);
+    return p && set < p->uvs.size() && !p->uvs[set].empty() ? p->uvs[set].front().data() : nullptr;
 }
 
 const uint32_t* faqem_asset_face_materials(const faqem_asset* asset, size_t part) {
-    const Part* p = capi::find_part(asset, part);
+    const Part* p = capi::find(asset, &Asset::parts, part);
     return p && !p->face_material.empty() ? p->face_material.data() : nullptr;
 }
 
@@ -62,15 +49,15 @@ size_t faqem_asset_material_count(const faqem_asset* asset) {
 }
 
 const char* faqem_asset_material_name(const faqem_asset* asset, size_t material) {
-    const Material* found = find_material(asset, material);
+    const Material* found = capi::find(asset, &Asset::materials, material);
     return found ? found->name.c_str() : nullptr;
 }
 
 uint32_t faqem_asset_material_image(const faqem_asset* asset, size_t material, faqem_texture texture,
                                     uint32_t* uv_set) {
-    const Material* found = find_material(asset, material);
+    const Material* found = capi::find(asset, &Asset::materials, material);
     const TextureRef* used = found ? find_texture(*found, texture) : nullptr;
-    if (!used || !find_image(asset, used->image)) return no_index;
+    if (!used || !capi::find(asset, &Asset::images, used->image)) return no_index;
     if (uv_set) *uv_set = used->uv_set;
     return used->image;
 }
@@ -78,17 +65,17 @@ uint32_t faqem_asset_material_image(const faqem_asset* asset, size_t material, f
 size_t faqem_asset_image_count(const faqem_asset* asset) { return asset ? asset->asset.images.size() : 0; }
 
 const char* faqem_asset_image_name(const faqem_asset* asset, size_t image) {
-    const Image* found = find_image(asset, image);
+    const Image* found = capi::find(asset, &Asset::images, image);
     return found ? found->name.c_str() : nullptr;
 }
 
 const char* faqem_asset_image_mime_type(const faqem_asset* asset, size_t image) {
-    const Image* found = find_image(asset, image);
+    const Image* found = capi::find(asset, &Asset::images, image);
     return found ? found->mime_type.c_str() : nullptr;
 }
 
 const uint8_t* faqem_asset_image_bytes(const faqem_asset* asset, size_t image, size_t* size) {
-    const Image* found = find_image(asset, image);
+    const Image* found = capi::find(asset, &Asset::images, image);
     if (size) *size = found ? found->encoded.size() : 0;
     return found && !found->encoded.empty() ? found->encoded.data() : nullptr;
 }
@@ -96,7 +83,7 @@ const uint8_t* faqem_asset_image_bytes(const faqem_asset* asset, size_t image, s
 faqem_status faqem_asset_decode_image(const faqem_asset* asset, size_t image, faqem_pixels** pixels,
                                       faqem_error* error) {
     return capi::catch_exceptions(error, {{asset, "asset"}, {pixels, "pixels"}}, [&] {
-        const Image* found = find_image(asset, image);
+        const Image* found = capi::find(asset, &Asset::images, image);
         if (!found)
             throw OptionError("image: " + std::to_string(image) + " is not one of the " +
                               std::to_string(asset->asset.images.size()) + " images");
