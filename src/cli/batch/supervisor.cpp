@@ -92,14 +92,14 @@ struct Supervisor {
         Slot& slot = slots[i];
         slot.alone = alone;
         if (alone)
-            wait_for_all_memory(i);
+            wait_for_memory(i, all_memory);
         else
             tell_model(slot);
     }
 
-    void wait_for_all_memory(std::size_t i) {
+    void wait_for_memory(std::size_t i, std::uint64_t bytes) {
         memory.release(i);
-        memory.request(i, all_memory);
+        memory.request(i, bytes);
         slots[i].is_waiting = true;
     }
 
@@ -172,10 +172,8 @@ struct Supervisor {
             on_death(i);
         } else if (message->contains("memory")) {
             announce(slot);
-            memory.release(i);
             // After a signal no model begins: the process sees it and needs no memory.
-            memory.request(i, is_interrupted() ? 0 : message->at("memory").get<std::uint64_t>());
-            slot.is_waiting = true;
+            wait_for_memory(i, is_interrupted() ? 0 : message->at("memory").get<std::uint64_t>());
         } else if (message->contains("retry")) {
             retry_alone(i, message->at("overwrite"));
         } else {
@@ -189,7 +187,7 @@ struct Supervisor {
         slot.worker.reset();
         slot.alone = true;
         slot.overwrite = overwrite;
-        wait_for_all_memory(i);
+        wait_for_memory(i, all_memory);
     }
 
     void on_death(std::size_t i) {

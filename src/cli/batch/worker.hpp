@@ -40,8 +40,6 @@ public:
     explicit Worker(const std::function<void(Channel&)>& work);
     /// Kills the process and removes nothing that it has written.
     ~Worker();
-    Worker(const Worker&) = delete;
-    Worker& operator=(const Worker&) = delete;
 
     Channel& channel() { return *channel_; }
     /// Makes is_interrupted() true in the process.

@@ -145,11 +145,6 @@ int run_models(const BatchArguments& arguments, const std::string& out) {
     }
 }
 
-int print_missing(const BatchArguments& arguments, const std::string& out) {
-    std::cout << array_options(incomplete_shards(out), arguments.max_array);
-    return exit_ok;
-}
-
 /// Writes batch.jsonl and batch.html to the directory.
 int merge(const std::string& out) {
     std::string lines;
@@ -171,7 +166,10 @@ int run(const BatchArguments& arguments) {
                                    : "two directories are needed: DIR and OUTDIR");
     if (arguments.list.empty() && (arguments.new_run || arguments.shard != "0/1"))
         throw OptionError("--shard and --new-run need --list");
-    if (arguments.missing) return print_missing(arguments, out_of_list);
+    if (arguments.missing) {
+        std::cout << array_options(incomplete_shards(out_of_list), arguments.max_array);
+        return exit_ok;
+    }
     if (arguments.merge) return merge(out_of_list);
     return run_models(arguments, arguments.list.empty() ? arguments.out : out_of_list);
 }

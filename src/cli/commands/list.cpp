@@ -31,9 +31,7 @@ bool is_list(const fs::path& file) { return file.extension() == ".jsonl" || file
 /// Appends the models of a folder, of another list, or a model.
 void add_models(const fs::path& source, std::vector<ListedModel>& models) {
     const auto add_file = [&](const fs::path& file, const std::string& id) {
-        ListedModel& model = models.emplace_back();
-        model.id = id;
-        model.input = file;
+        models.push_back({.id = id, .input = file});
     };
     if (fs::is_directory(source)) {
         std::size_t others = 0;

@@ -242,20 +242,16 @@ struct LodWriter {
             level.vertices += part.positions.size();
         }
         if (outputs.is_file) {
-            one_file_levels.push_back({std::move(asset), coverage(error)});
+            const ViewSettings& view = arguments.view_settings;
+            const double screen_error = view.pixel_error / view.screen_height;
+            one_file_levels.push_back(
+                {std::move(asset), detail::level_coverage(source, size, error, screen_error)});
             return {};
         }
         detail::EncodedModel model = detail::encode_model(asset, file);
         detail::write_model(model, file.parent_path(), arguments.overwrite);
         level.bytes = model.bytes();
         return std::move(model.losses);
-    }
-
-    /// Screen coverage below which the level is shown, for each part at its largest scale in the scene.
-    std::vector<double> coverage(double error) const {
-        const ViewSettings& view_settings = arguments.view_settings;
-        return detail::level_coverage(source, size, error,
-                                      view_settings.pixel_error / view_settings.screen_height);
     }
 };
 

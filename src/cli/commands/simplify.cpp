@@ -36,8 +36,6 @@ namespace faqem::cli {
 
 namespace {
 
-using detail::Stopwatch;
-
 /// The parsed command line.
 struct SimplifyCommandArguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
@@ -162,7 +160,7 @@ int run(SimplifyCommandArguments arguments) {
     arguments.overwrite = check_outputs(
         {arguments.out, arguments.report, arguments.history, arguments.correspondence}, arguments.force);
     install_signal_handlers();
-    const Stopwatch watch;
+    const detail::Stopwatch watch;
     SimplifiedAsset simplified;
     double diagonal = 0;
     {
