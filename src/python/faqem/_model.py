@@ -265,11 +265,8 @@ def bake_truncated(
     count = checked_integer(faces, "faces", 53)
     if not isinstance(history, History):
         raise TypeError(f"history: a History is expected, not {type(history).__name__}")
-
-    def run() -> SimplifiedModel:
-        return SimplifiedModel(create(library.faqem_asset_bake_truncated, source, history._handle, count, chosen.object))
-
-    return chosen.run(run)
+    return chosen.run(lambda: SimplifiedModel(
+        create(library.faqem_asset_bake_truncated, source, history._handle, count, chosen.object)))
 
 
 @names_keywords

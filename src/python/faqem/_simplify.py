@@ -133,9 +133,6 @@ def simplify_arrays(points: ArrayLike, triangles: ArrayLike, **options: Any) -> 
     """See simplify()."""
     arrays = mesh_arrays(points, triangles, options, "points")
     chosen = Options(["triangles", *array_keywords], **options)
-
-    def run() -> Simplified:
-        made = create(library.faqem_simplify, arrays.pointer, chosen.object)
-        return Simplified(made, arrays.kind, has_history=bool(options.get("history")))
-
-    return chosen.run(run)
+    has_history = bool(options.get("history"))
+    return chosen.run(lambda: Simplified(
+        create(library.faqem_simplify, arrays.pointer, chosen.object), arrays.kind, has_history=has_history))
