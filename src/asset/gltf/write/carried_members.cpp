@@ -13,6 +13,7 @@
 
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/write/writer.hpp"
+#include "asset/scene/affine.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -65,9 +66,7 @@ std::optional<VertexNumbers> unchanged_vertices(const GltfWriter& writer, const 
     for (std::size_t c = 0; c < corners.size(); ++c) {
         const Index old_vertex = corners[c], new_vertex = data.corners[c];
         if (to[old_vertex] == no_index && from[new_vertex] == no_index) {
-            for (std::size_t k = 0; k < 3; ++k)
-                if (static_cast<float>(positions[old_vertex][k]) != data.positions[new_vertex][k])
-                    return std::nullopt;
+            if (converted<float>(positions[old_vertex]) != data.positions[new_vertex]) return std::nullopt;
             to[old_vertex] = new_vertex;
             from[new_vertex] = old_vertex;
         }
@@ -199,9 +198,8 @@ bool keep_feature_ids(GltfWriter& writer, const Part& part, const std::optional<
     }
     if (valid.empty()) return false;
     if (valid.size() < all.size())
-        writer.warnings.push_back(
-            "mesh '" + part.name +
-            "': feature ids that the new vertices or texture coordinates do not have were left out");
+        warn_mesh(writer, part.name,
+                  "feature ids that the new vertices or texture coordinates do not have were left out");
     extensions[features_name]["featureIds"] = std::move(valid);
     return true;
 }

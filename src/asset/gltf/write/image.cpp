@@ -52,8 +52,7 @@ void set_image(GltfWriter& writer, Json& texture, Index image) {
         if (extensions.empty()) texture.erase("extensions");
     }
     const std::string& type = writer.asset.images[image].mime_type;
-    const auto extension = std::find_if(std::begin(image_extensions), std::end(image_extensions),
-                                        [&](const ImageExtension& own) { return type == own.media_type; });
+    const auto extension = std::ranges::find(image_extensions, type, &ImageExtension::media_type);
     (extension == std::end(image_extensions) ? texture : texture["extensions"][extension->name])["source"] =
         write_asset_image(writer, image);
 }

@@ -12,6 +12,7 @@
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/write/mesh_grid.hpp"
 #include "asset/gltf/write/writer.hpp"
+#include "asset/scene/affine.hpp"
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
 
@@ -63,8 +64,7 @@ Index add_bounded_integers(GltfWriter& writer, const std::vector<Value>& values,
                            NumberType type) {
     std::vector<std::array<T, 3>> integers;
     integers.reserve(values.size());
-    for (const Value& v : values)
-        integers.push_back({static_cast<T>(v[0]), static_cast<T>(v[1]), static_cast<T>(v[2])});
+    for (const Value& v : values) integers.push_back(converted<T>(v));
     Json description = accessor_description(type, "VEC3", integers.size());
     if (grid.normalized) description["normalized"] = true;
     add_vector_bounds(description, integers);
@@ -132,9 +132,8 @@ Index add_joints(GltfWriter& writer, const std::vector<std::array<std::uint16_t,
     });
     if (!fits_u8)
         return add_vertices(writer, accessor_description(NumberType::u16, "VEC4", joints.size()), joints);
-    std::vector<std::array<std::uint8_t, 4>> bytes(joints.size());
-    for (std::size_t i = 0; i < joints.size(); ++i)
-        for (std::size_t c = 0; c < 4; ++c) bytes[i][c] = static_cast<std::uint8_t>(joints[i][c]);
+    std::vector<std::array<std::uint8_t, 4>> bytes;
+    for (const auto& four : joints) bytes.push_back(converted<std::uint8_t>(four));
     return add_vertices(writer, accessor_description(NumberType::u8, "VEC4", bytes.size()), bytes);
 }
 
@@ -149,7 +148,7 @@ Index add_displacements(GltfWriter& writer, const std::vector<Vec3f>& values, bo
 
 /// Writes displacements in steps of a grid, as integers if their type has a sign and all are in its range.
 Index add_displacement_steps(GltfWriter& writer, const std::vector<Vec3f>& values, const MeshGrid& grid) {
-    std::vector<std::array<double, 3>> steps;
+    std::vector<Vec3> steps;
     double largest = 0;
     for (const Vec3f& v : values) {
         steps.push_back({grid.steps(v[0]), grid.steps(v[1]), grid.steps(v[2])});
@@ -159,9 +158,8 @@ Index add_displacement_steps(GltfWriter& writer, const std::vector<Vec3f>& value
     if (fits && largest > 0) return add_bounded_integers<std::int16_t>(writer, steps, grid, NumberType::i16);
     std::vector<Vec3f> floats;
     const double unit = grid.normalized ? grid.spacing : 1;
-    for (const auto& step : steps)
-        floats.push_back({static_cast<float>(step[0] * unit), static_cast<float>(step[1] * unit),
-                          static_cast<float>(step[2] * unit)});
+    for (const Vec3& step : steps)
+        floats.push_back(converted<float>(Vec3{step[0] * unit, step[1] * unit, step[2] * unit}));
     return add_displacements(writer, floats, true);
 }
 

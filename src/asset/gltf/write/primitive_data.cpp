@@ -9,6 +9,7 @@
 #include "asset/gltf/write/writer.hpp"
 #include "asset/scene/affine.hpp"
 #include "asset/scene/part_arrays.hpp"
+#include "asset/scene/repair.hpp"
 #include "faqem/error.hpp"
 
 #ifdef FAQEM_WITH_MESHOPT
@@ -55,10 +56,8 @@ void order_for_gpu([[maybe_unused]] std::vector<Index>& vertices,
 void gather_positions(const Part& part, const Vec3& origin, PrimitiveData& data) {
     data.positions.reserve(data.vertices.size());
     for (const Index v : data.vertices) {
-        const Vec3& p = part.positions[v];
-        Vec3f q;
-        for (std::size_t i = 0; i < 3; ++i) q[i] = static_cast<float>(p[i] - origin[i]);
-        if (!std::isfinite(q[0]) || !std::isfinite(q[1]) || !std::isfinite(q[2]))
+        const Vec3f q = converted<float>(minus(part.positions[v], origin));
+        if (!is_finite(q))
             throw WriteError("part '" + part.name + "', vertex " + std::to_string(v) +
                              ": the position is too large for glTF, which stores floats");
         data.positions.push_back(q);
@@ -79,10 +78,7 @@ std::vector<Vec3> face_normal_sums(const PrimitiveData& data) {
     std::vector<Vec3> sums(data.vertices.size(), Vec3{});
     for (std::size_t c = 0; c + 2 < data.corners.size(); c += 3) {
         std::array<Vec3, 3> p;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3f& q = data.positions[data.corners[c + k]];
-            p[k] = {q[0], q[1], q[2]};
-        }
+        for (std::size_t k = 0; k < 3; ++k) p[k] = converted<double>(data.positions[data.corners[c + k]]);
         const Vec3 n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t i = 0; i < 3; ++i) sums[data.corners[c + k]][i] += n[i];
