@@ -252,12 +252,6 @@ void remove_materials(const Marks& removed_sources, Asset& asset) {
     asset.images = used_images(asset.materials, asset.images);
 }
 
-void erase_material_levels(SourceDocument& source, std::vector<Material>& materials) {
-    for (Json& material : elements(source.document, "materials")) erase_levels(material);
-    for (std::vector<Material>* all : {&source.materials, &materials})
-        for (Material& material : *all) std::erase(material.extensions, lod_name);
-}
-
 }  // namespace
 
 std::optional<FinestLevel> finest_level(const Asset& asset) {
@@ -280,7 +274,9 @@ std::optional<FinestLevel> finest_level(const Asset& asset) {
     for (std::size_t m = 0; m < still_used.size(); ++m)
         if (still_used[m]) materials_left_out[m] = 0;
     remove_materials(materials_left_out, result.asset);
-    erase_material_levels(*source, result.asset.materials);
+    for (Json& material : elements(source->document, "materials")) erase_levels(material);
+    for (std::vector<Material>* all : {&source->materials, &result.asset.materials})
+        for (Material& material : *all) std::erase(material.extensions, lod_name);
     result.asset.source = source;
     if (of_nodes.levels > 0) result.warning = of_nodes.message("node");
     if (of_materials.levels > 0)

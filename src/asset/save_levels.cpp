@@ -59,13 +59,6 @@ void append_level(Asset& to, Asset&& level) {
 }
 
 /// Makes a part of each object of a level.
-void divide_into_objects(SavedLevel& level) {
-    std::optional<detail::DividedAsset> divided = detail::divided_into_objects(level.asset);
-    if (!divided) return;
-    level.asset = std::move(divided->asset);
-    level.coverage = detail::gather(level.coverage, divided->part);
-}
-
 /// Values of MSFT_screencoverage for one part, one per level: the coverage below which the next level is
 /// used, non-increasing and at most 1. The last value is 0.
 std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size_t part) {
@@ -90,7 +83,11 @@ std::vector<std::string> save_levels(std::vector<SavedLevel> levels, const fs::p
                                    detail::listed_extensions(detail::FormatUse::write_levels));
     check_levels(levels);
     for (SavedLevel& level : levels) detail::keep_finest_level(level.asset);
-    for (SavedLevel& level : levels) divide_into_objects(level);
+    for (SavedLevel& level : levels)
+        if (std::optional<detail::DividedAsset> divided = detail::divided_into_objects(level.asset)) {
+            level.asset = std::move(divided->asset);
+            level.coverage = detail::gather(level.coverage, divided->part);
+        }
     check_levels(levels);
     const std::size_t parts = levels[0].asset.parts.size();
     detail::LeveledAsset leveled;

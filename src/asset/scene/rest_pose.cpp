@@ -48,11 +48,6 @@ std::optional<Matrix4> blended_matrix(const std::vector<Matrix4>& matrices,
     return blended;
 }
 
-void reverse_mirrored_faces(const std::vector<std::uint8_t>& is_mirrored, std::vector<Triangle>& triangles) {
-    for (Triangle& t : triangles)
-        if (is_mirrored[t[0]] + is_mirrored[t[1]] + is_mirrored[t[2]] >= 2) std::swap(t[1], t[2]);
-}
-
 }  // namespace
 
 Part posed_part(const Part& part, const PosedInstance& instance) {
@@ -81,7 +76,8 @@ Part posed_part(const Part& part, const PosedInstance& instance) {
         is_mirrored[v] = normals.is_mirrored();
         if (!posed.normals.empty()) posed.normals[v] = normals(posed.normals[v]);
     }
-    reverse_mirrored_faces(is_mirrored, posed.triangles);
+    for (Triangle& t : posed.triangles)
+        if (is_mirrored[t[0]] + is_mirrored[t[1]] + is_mirrored[t[2]] >= 2) std::swap(t[1], t[2]);
     return posed;
 }
 

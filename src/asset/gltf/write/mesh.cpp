@@ -59,12 +59,6 @@ void write_used_materials(GltfWriter& writer) {
         if (used[i]) write_material(writer, i);
 }
 
-/// Removes weights and names of morph targets that do not match the number of targets.
-void update_morph_targets(Json& mesh, std::uint64_t targets) {
-    if (array_size(mesh, "weights") != targets) mesh.erase("weights");
-    if (targets == 0) erase_from(mesh, "extras", "targetNames");
-}
-
 /// The grid of a mesh. Points and lines, which are copied, have no other positions than those of the source.
 MeshGrid grid_of(GltfWriter& writer, const Json& source, const std::vector<const Part*>& parts) {
     // Draco stores rounded positions as floats.
@@ -103,7 +97,8 @@ Index write_mesh(GltfWriter& writer, const Json& source, const std::vector<const
         warn_mesh(writer, name, "has no primitives left and was left out");
         return no_index;
     }
-    update_morph_targets(mesh, targets);
+    if (array_size(mesh, "weights") != targets) mesh.erase("weights");
+    if (targets == 0) erase_from(mesh, "extras", "targetNames");
     for (const std::string extension : vertex_extensions)
         if (member(mesh, "extensions").contains(extension) && fitting.contains(extension) &&
             primitives.size() == 1)

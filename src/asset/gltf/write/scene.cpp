@@ -24,18 +24,14 @@ bool is_skinned(const Json& mesh) {
     });
 }
 
-void remap_instancing(GltfWriter& writer, Json& node) {
-    if (!member(node, "extensions", instancing_name).contains("attributes")) return;
-    for (Json& accessor : node["extensions"][instancing_name]["attributes"])
-        accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
-}
-
 void update_node(GltfWriter& writer, Json& node) {
     const Index source_mesh = index_member(node, "mesh");
     // The instances of a node without a mesh are removed, so that their accessors are not written.
     if (source_mesh == no_index || writer.mesh_map[source_mesh] == no_index)
         erase_extension(node, instancing_name);
-    if (!any_needs_transform(writer)) remap_instancing(writer, node);
+    if (!any_needs_transform(writer) && member(node, "extensions", instancing_name).contains("attributes"))
+        for (Json& accessor : node["extensions"][instancing_name]["attributes"])
+            accessor = copy_accessor(writer, accessor.get<Index>(), AccessorUse::other);
     if (source_mesh == no_index) return;
     const Index mesh = writer.mesh_map[source_mesh];
     if (mesh == no_index) {
