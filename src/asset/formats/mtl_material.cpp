@@ -15,22 +15,18 @@ namespace {
 /// tiles and bark are one or two hundredths of their width.
 constexpr double bump_depth = 1.0 / 64;
 
-/// A texture without its image.
-TextureRef placement(const MtlTexture& texture) {
+TextureRef placed(const MtlTexture& texture, Index image) {
     // MTL defines v' = o + s * v with v pointing up. With v = 1 - w this becomes w' = (1 - s - o) + s * w.
-    return {.wrap_u = texture.wrap,
+    return {.image = image,
+            .wrap_u = texture.wrap,
             .wrap_v = texture.wrap,
             .offset = {texture.offset[0], 1 - texture.scale[1] - texture.offset[1]},
             .scale = texture.scale};
 }
 
-TextureRef placed(const MtlTexture& texture, Index image) {
-    TextureRef ref = placement(texture);
-    ref.image = image;
-    return ref;
+bool has_same_placement(const MtlTexture& a, const MtlTexture& b) {
+    return placed(a, no_index) == placed(b, no_index);
 }
-
-bool has_same_placement(const MtlTexture& a, const MtlTexture& b) { return placement(a) == placement(b); }
 
 /// Key of a derived image for the value of a texture.
 std::string value_key(const ReferencedImage* image, const MtlTexture& texture) {

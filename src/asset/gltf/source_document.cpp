@@ -152,19 +152,17 @@ bool is_dynamic(const Asset& asset) {
 }
 
 std::vector<Index> variant_materials(const Asset& asset, const Part& part) {
-    std::vector<Index> result;
+    std::set<Index> result;
     for (const Json& primitive : primitives_of(asset, part)) {
         const Json& variants = member(primitive, "extensions", "KHR_materials_variants");
         for (const Json& mapping : member(variants, "mappings")) {
             const Index wanted = index_member(mapping, "material");
             for (Index m = 0; m < asset.materials.size(); ++m)
                 if (wanted != no_index && asset.materials[m].source == wanted && !asset.materials[m].rebaked)
-                    result.push_back(m);
+                    result.insert(m);
         }
     }
-    std::ranges::sort(result);
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
+    return {result.begin(), result.end()};
 }
 
 std::vector<std::uint8_t> materials_with_moving_textures(const Asset& asset) {
