@@ -116,9 +116,7 @@ Vector4f base_color(const RenderTarget& target, const ScreenTriangle& face, cons
                                           target.scene.color_textures, w))
         color = color.cwiseProduct(*texel);
     if (!face.part->colors.empty()) {
-        const auto of = [&](const Corner& c) -> Vector4f {
-            return Vector4f(face.part->colors[c.vertex].data());
-        };
+        const auto of = [&](const Corner& c) { return Vector4f(face.part->colors[c.vertex].data()); };
         const Vector3f u = w.cast<float>();
         color = color.cwiseProduct(u[0] * of(face.corners[0]) + u[1] * of(face.corners[1]) +
                                    u[2] * of(face.corners[2]));
@@ -315,15 +313,10 @@ Frame render(const Scene& scene, const Camera& camera, std::uint32_t size, Shadi
              Backs backs) {
     const std::uint32_t fine = size * samples_per_axis;
     const std::size_t samples = std::size_t{fine} * fine;
-    RenderTarget target{scene,
-                        camera,
-                        shading,
-                        edges,
-                        backs,
-                        fine,
-                        std::vector<float>(samples, 0),
-                        std::vector<Vector4f>(samples, Vector4f::Zero()),
-                        std::vector<Index>(samples, no_index)};
+    RenderTarget target{scene, camera, shading, edges, backs, fine, {}, {}, {}};
+    target.inverse_depth.assign(samples, 0);
+    target.color.assign(samples, Vector4f::Zero());
+    target.materials.assign(samples, no_index);
     draw_scene(target);
     return downsample(target.color, target.materials, size);
 }
