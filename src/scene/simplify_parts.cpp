@@ -71,12 +71,8 @@ struct PartInput {
         if (own.topology.weld != Weld::none)
             welded = welded_by_motion(part, motion_rounding(source, part), settings(own).weld_distance);
         if (!welded.empty()) own.topology.weld = Weld::none;
-        view = {part.positions,
-                welded.empty() ? part.triangles : welded,
-                groups,
-                attributes.width ? &attributes : nullptr,
-                {},
-                weights};
+        view = {part.positions, welded.empty() ? part.triangles : welded, groups, nullptr, {}, weights};
+        if (attributes.width) view.attributes = &attributes;
     }
     PartInput(const PartInput&) = delete;
 };

@@ -53,9 +53,8 @@ enum class OccludingSides { none, front, both };
 OccludingSides occluding_sides(const Asset& scene, Index material) {
     if (material == no_index) return OccludingSides::front;
     const Material& m = scene.materials[material];
-    const auto& all = m.extensions;
     if (m.alpha_mode != AlphaMode::opaque ||
-        std::ranges::find(all, "KHR_materials_transmission") != all.end())
+        std::ranges::count(m.extensions, "KHR_materials_transmission") > 0)
         return OccludingSides::none;
     return m.double_sided ? OccludingSides::both : OccludingSides::front;
 }
