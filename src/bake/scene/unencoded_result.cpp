@@ -97,19 +97,13 @@ bool remove_new_normal_maps(UnencodedResult& result) {
     return true;
 }
 
-bool limit_image_sides(UnencodedResult& result, std::uint32_t side) {
-    bool is_halved = false;
-    for (PendingImage& pending : result.pending) {
-        const auto exceeds = [&] {
-            const Pixels& at = pending.pixels;
-            return pending.may_shrink && std::max(at.width, at.height) > side && can_be_halved(at);
-        };
-        while (exceeds()) {
-            halve(pending);
-            is_halved = true;
-        }
-    }
-    return is_halved;
+void limit_image_sides(UnencodedResult& result, std::uint32_t side) {
+    const auto exceeds = [&](const PendingImage& pending) {
+        const Pixels& at = pending.pixels;
+        return pending.may_shrink && std::max(at.width, at.height) > side && can_be_halved(at);
+    };
+    for (PendingImage& pending : result.pending)
+        while (exceeds(pending)) halve(pending);
 }
 
 void remove_unused_materials(UnencodedResult& result) {

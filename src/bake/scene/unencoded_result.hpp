@@ -31,9 +31,8 @@ void encode_images(UnencodedResult& result, const Options& options, const RunCon
 
 /// Halves pending images that have a side of more than `side` texels, as long as their sides are even. Images that are
 /// shown without filter keep their resolution.
-/// \return whether an image was halved
 /// Complexity: O(texels).
-bool limit_image_sides(UnencodedResult& result, std::uint32_t side);
+void limit_image_sides(UnencodedResult& result, std::uint32_t side);
 
 /// Removes the materials that neither a face nor a variant of a part has, and the images that no material has.
 /// Complexity: O(faces + variants * materials + images).
