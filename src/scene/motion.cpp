@@ -57,8 +57,7 @@ struct Pose {
 
     Pose(const Part& part, const MeshView& rest, const MorphTarget& target)
         : positions(part.positions), mesh(rest) {
-        for (std::size_t v = 0; v < positions.size(); ++v)
-            for (std::size_t k = 0; k < 3; ++k) positions[v][k] += target.positions[v][k];
+        for (std::size_t v = 0; v < positions.size(); ++v) add_scaled(positions[v], 1, target.positions[v]);
         mesh.positions = positions;
     }
     Pose(const Pose&) = delete;
@@ -156,16 +155,14 @@ std::vector<Vec3> bent_positions(const Part& part, const MeshView& mesh, const O
     double weight = 1;
     for (const auto& [t, curve] : shaping) {
         for (std::size_t v = 0; v < shifts.size(); ++v)
-            for (std::size_t k = 0; k < 3; ++k)
-                shifts[v][k] += weight * part.morph_targets[t].positions[v][k];
+            add_scaled(shifts[v], weight, part.morph_targets[t].positions[v]);
         weight *= 0.9;  // so that targets which are opposite to each other do not cancel out
     }
     const double largest = largest_component(shifts);
     const double unit = bend * rest.diagonal / largest;
     if (!(largest > 0) || !std::isfinite(unit)) return {};
     std::vector<Vec3> positions = part.positions;
-    for (std::size_t v = 0; v < positions.size(); ++v)
-        for (std::size_t k = 0; k < 3; ++k) positions[v][k] += unit * shifts[v][k];
+    for (std::size_t v = 0; v < positions.size(); ++v) add_scaled(positions[v], unit, shifts[v]);
     return positions;
 }
 

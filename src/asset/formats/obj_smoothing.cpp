@@ -11,10 +11,6 @@
 namespace faqem::detail {
 namespace {
 
-void add_scaled(Vec3& to, double factor, const Vec3& v) {
-    for (std::size_t k = 0; k < 3; ++k) to[k] += factor * v[k];
-}
-
 /// The vector with length 1; zero if its length is zero or not finite.
 Vec3 direction(const Vec3& v) {
     const double length = std::sqrt(dot(v, v));

@@ -117,4 +117,10 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// Adds a multiple of a vector.
+template <class T>
+void add_scaled(Vec3& to, double factor, const std::array<T, 3>& v) {
+    for (std::size_t k = 0; k < 3; ++k) to[k] += factor * v[k];
+}
+
 }  // namespace faqem::detail
