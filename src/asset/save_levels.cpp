@@ -58,7 +58,6 @@ void append_level(Asset& to, Asset&& level) {
     }
 }
 
-/// Makes a part of each object of a level.
 /// Values of MSFT_screencoverage for one part, one per level: the coverage below which the next level is
 /// used, non-increasing and at most 1. The last value is 0.
 std::vector<double> coverage_of(const std::vector<SavedLevel>& levels, std::size_t part) {
