@@ -11,7 +11,7 @@
 #include "faqem/mesh.hpp"
 
 #if !defined(EIGEN_VECTORIZE) && !EIGEN_VERSION_AT_LEAST(3, 4, 90)
-/// Sums of three doubles, as in dot products, in the order of processors whose vectors have two doubles.
+/** \cond */  // Sums of three doubles in the order of processors whose vectors have two doubles; for dot products.
 template <class Function, class Evaluator>
 requires std::is_same_v<typename Evaluator::Scalar, double>
 struct Eigen::internal::redux_novec_unroller<Function, Evaluator, 0, 3> {
@@ -21,7 +21,7 @@ struct Eigen::internal::redux_novec_unroller<Function, Evaluator, 0, 3> {
         return sum(sum(Value<0>::run(values, sum), Value<1>::run(values, sum)), Value<2>::run(values, sum));
     }
 };
-#endif
+#endif  /// \endcond
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
