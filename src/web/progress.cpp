@@ -1,5 +1,5 @@
 /// \file
-/// The door from WebAssembly to the progress callback of JavaScript.
+/// Passes the progress of a run from WebAssembly to a callback in JavaScript.
 
 #include "faqem/faqem.h"
 

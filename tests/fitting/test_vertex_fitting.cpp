@@ -16,8 +16,8 @@ TriangleMesh fitted(const TriangleMesh& original, const TriangleMesh& simplified
     const std::vector<Vector3> from = test::vectors(original), to = test::vectors(simplified);
     TriangleMesh result = simplified;
     const std::vector<Vector3> moved =
-        detail::fit_vertices({from, original.triangles}, {to, simplified.triangles}, fixed, 0.3, 0, {},
-                             threads)
+        detail::fit_vertices({from, original.triangles}, {to, simplified.triangles}, fixed, 0.3,
+                             detail::EdgeFlips::off, {}, threads)
             .positions;
     for (std::size_t v = 0; v < moved.size(); ++v) result.positions[v] = engine::to_array(moved[v]);
     return result;

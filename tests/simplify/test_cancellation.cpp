@@ -79,7 +79,7 @@ TEST_CASE("steps that may take long check for cancellation several times") {
         CHECK(callback_calls(
                   [&](const RunContext& context) {
                       detail::fit_vertices({original, mesh.triangles}, {positions, coarse.triangles}, fixed,
-                                           0.3, 2, {}, context);
+                                           0.3, detail::EdgeFlips::on, {}, context);
                   },
                   threads) >= 100);
     }

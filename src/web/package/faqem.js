@@ -1,7 +1,7 @@
 // Simplification of triangle meshes by faqem in WebAssembly. faqem.d.ts describes the interface.
 
 const phases = ["load", "weld", "simplify", "map", "bake", "save"];
-const NO_MEMORY = 11;
+const CANCELLED = 8, NO_MEMORY = 11;  // of faqem_status
 const kebab = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
 
 export class FaqemError extends Error {
@@ -102,7 +102,7 @@ class Faqem {
         const error = space(2048);
         const call = (name, ...values) => {
             const status = c[name](...values, error);
-            if (status === 8) throw signal?.aborted ? signal.reason : new DOMException("cancelled", "AbortError");
+            if (status === CANCELLED) throw signal?.aborted ? signal.reason : new DOMException("cancelled", "AbortError");
             if (status !== 0) throw new FaqemError(this.#text(error + 4), status);
         };
         const mesh = (positions, triangles) => {

@@ -17,7 +17,7 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-/// Number of Gauss-Newton steps at the beginning and after each round of edge flips.
+/// Number of Gauss-Newton steps at the beginning and after edge flips.
 inline constexpr int first_steps = 3, later_steps = 2;
 /// Steps minimize the sum of d^2.5, which emphasizes large distances and thus decreases the maximum as well.
 inline constexpr double power = 0.5;
@@ -52,7 +52,7 @@ inline std::vector<std::uint8_t> boundary_vertices(std::span<const Triangle> tri
     return is_boundary;
 }
 
-/// Implementation of fit_vertices() and fit_vertices_and_flip_edges().
+/// Implementation of fit_vertices().
 class VertexFitting {
 public:
     VertexFitting(const MeshRef& original, const MeshRef& simplified, std::span<const std::uint8_t> fixed,
@@ -282,15 +282,14 @@ private:
 
 FAQEM_INLINE FittingResult fit_vertices(const MeshRef& original, const MeshRef& simplified,
                                         std::span<const std::uint8_t> fixed, double min_normal_cosine,
-                                        int flip_rounds, std::span<const Index> groups,
+                                        EdgeFlips flips, std::span<const Index> groups,
                                         const RunContext& context) {
     VertexFitting fitting(original, simplified, fixed, min_normal_cosine, context);
     FittingResult result;
     fitting.fit_all_vertices(first_steps);
-    for (int round = 0; round < flip_rounds; ++round) {
+    if (flips == EdgeFlips::on) {
         fitting.reduce_max_distance();
-        const std::vector<EdgeFlip> flips = fitting.flip_edges(groups);
-        result.flips.insert(result.flips.end(), flips.begin(), flips.end());
+        result.flips = fitting.flip_edges(groups);
         fitting.fit_all_vertices(later_steps);
     }
     fitting.reduce_max_distance();

@@ -12,6 +12,9 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
+/// Whether fit_vertices() may flip edges. Without flips the connectivity is kept.
+enum class EdgeFlips { off, on };
+
 /// Result of fit_vertices().
 struct FittingResult {
     std::vector<Vector3> positions;  ///< of all vertices of the simplified mesh
@@ -34,14 +37,13 @@ struct FittingResult {
 /// \param fixed              one per vertex of `simplified`; nonzero: the vertex does not move. Boundary
 ///                           vertices do not move either.
 /// \param min_normal_cosine  minimum cosine between the initial and the new normal of a face, in [-1, 1]
-/// \param flip_rounds        how often edges are flipped; 0: the connectivity is kept. Two rounds take about as
-///                           long as the steps before.
+/// \param flips              whether edges are flipped once
 /// \param groups             one per triangle of `simplified`, or empty; edges between groups are not flipped
 /// \param context            the result does not depend on the number of threads
 /// O(points log faces) per step, with ten points per face of `simplified` (at least 5000, at most 2,000,000)
 /// and twice as many on the original
 FittingResult fit_vertices(const MeshRef& original, const MeshRef& simplified,
-                           std::span<const std::uint8_t> fixed, double min_normal_cosine, int flip_rounds,
+                           std::span<const std::uint8_t> fixed, double min_normal_cosine, EdgeFlips flips,
                            std::span<const Index> groups, const RunContext& context);
 
 }  // namespace detail

@@ -40,9 +40,9 @@ inline void fit_result(const RunState& state, const PreprocessedMesh& prepared, 
     std::vector<Triangle> triangles = mesh.triangles;
     const MeshRef simplified{now, mesh.triangles};
     // Edge flips would change the attributes of the corners.
-    const int flip_rounds = input.wedges.empty() ? 1 : 0;
+    const EdgeFlips flips = input.wedges.empty() ? EdgeFlips::on : EdgeFlips::off;
     const FittingResult fitted = fit_vertices(state.initial_surface(), simplified, fixed, min_normal_cosine,
-                                              flip_rounds, mesh.face_groups, context);
+                                              flips, mesh.face_groups, context);
     for (std::size_t v = 0; v < now.size(); ++v) {
         if (fitted.positions[v] == now[v]) continue;
         moved[v] = prepared.to_model(fitted.positions[v]);

@@ -103,7 +103,7 @@ public:
     double exact_cost(const CollapseMesh& mesh, const PairTable& pairs, Index pair,
                       const Candidate& candidate) {
         const Index u = pairs.first(pair), v = pairs.second(pair);
-        // Bindings of boundaries are compared with those of edges beyond the neighbours, which may have changed.
+        // A distance of boundaries may depend on edges beyond the neighbours, whose changes are not recorded.
         const bool is_inside = pairs.boundary_degree(u) + pairs.boundary_degree(v) == 0;
         const bool is_kept = is_tracking_ && !limit_.is_finite() && is_inside;
         if (is_kept && known_[pair].collapses >= std::max(last_change_[u], last_change_[v]))
