@@ -1,6 +1,5 @@
 // Compiles include/faqem/detail/rounds and the rest of include/faqem/detail/simplify: the runs and reports.
 #include "faqem/detail/rounds/rounds-inl.hpp"
-#include "faqem/detail/simplify/block_decimation-inl.hpp"
 #include "faqem/detail/simplify/budget_by_cost-inl.hpp"
 #include "faqem/detail/simplify/build_result-inl.hpp"
 #include "faqem/detail/simplify/compaction-inl.hpp"

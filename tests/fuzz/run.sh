@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 seconds=${1:?usage: tests/fuzz/run.sh SECONDS [TARGET...]}
 shift
 build=build/fuzz
-[ $# -gt 0 ] || set -- bake blocks glb gltf history image mtl obj off ply simplify stl
+[ $# -gt 0 ] || set -- bake glb gltf history image mtl obj off ply rounds simplify stl
 "$build/tests/fuzz/fuzz_seeds" "$build/seeds"
 scratch=$(mktemp -d /dev/shm/faqem-fuzz-XXXXXX)  # in memory, because the targets write and read files
 trap 'rm -rf "$scratch"' EXIT

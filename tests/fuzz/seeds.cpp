@@ -340,7 +340,7 @@ void image_seeds() {
 /// Random inputs for the targets that accept any bytes; the first byte selects the preset.
 void drawn_seeds() {
     std::mt19937 random(1);
-    for (const std::string target : {"simplify", "blocks", "bake"})
+    for (const std::string target : {"simplify", "rounds", "bake"})
         for (char number = 0; number < 24; ++number) {
             std::string bytes(1, number);
             while (bytes.size() < 400) bytes.push_back(static_cast<char>(random() % 224));

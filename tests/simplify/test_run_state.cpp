@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "faqem/options.hpp"
+#include "support/applied_steps.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
@@ -53,13 +54,12 @@ TEST_CASE("run state: vertex maps and locks stay correct after two rounds of col
             }
             return no_index;
         };
-        std::vector<BlockStep> steps;
+        std::vector<RoundStep> steps;
         for (const double y : {0.0, 1.0}) {
             const Index survivor = at(to, y);
             steps.push_back({survivor, at(from, y), state.mesh().positions[survivor]});
         }
-        state.advance_to(
-            apply_steps({state.mesh().positions, state.mesh().triangles, state.locked(), 10}, steps));
+        state.advance_to(test::applied(state.mesh().positions, state.mesh().triangles, steps));
     };
     join(1, 0);
     CHECK(state.mesh().triangles.size() == 6);

@@ -1,6 +1,6 @@
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
-#include "faqem/engine/queue/sweep_queue.hpp"
+#include "faqem/engine/queue/bucket_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
 #include "step_counts/silence.hpp"
 #include "support/catch.hpp"
@@ -38,14 +38,14 @@ TEST_CASE("cancellation is checked often while an engine runs") {
     const TriangleMesh mesh = test::shaken(test::icosphere(5), 0.005, 1);
     const std::size_t faces = mesh.triangles.size();
     Watch memoryless, accumulated;
-    const std::uint64_t sweep = silence_of_engine<SweepQueue>(mesh, 200, memoryless, MemorylessMetric());
-    CHECK(for_a_million_faces(sweep, faces) < most_steps);
+    const std::uint64_t buckets = silence_of_engine<BucketQueue>(mesh, 200, memoryless, MemorylessMetric());
+    CHECK(for_a_million_faces(buckets, faces) < most_steps);
     const std::uint64_t heap = silence_of_engine<HeapQueue>(mesh, 200, accumulated, AccumulatedMetric({}));
     CHECK(for_a_million_faces(heap, faces) < most_steps);
     const test::OriginalOf original(mesh);
     for (const std::size_t target : {std::size_t{2000}, std::size_t{40}}) {
         Watch watch;
-        const std::uint64_t tracked = silence_of_engine<SweepQueue>(
+        const std::uint64_t tracked = silence_of_engine<BucketQueue>(
             mesh, target, watch,
             TrackedMetric({}, original.surface, original.tracked, target, 0.1, nullptr, watch.context()));
         CHECK(for_a_million_faces(tracked, faces) < most_steps);
@@ -72,7 +72,7 @@ TEST_CASE("the mesh is consistent after a cancellation within a collapse") {
         loop.target_faces = 100;
         int calls = 0;
         loop.progress = [&](double) { return ++calls == stop ? Continue::cancel : Continue::yes; };
-        const LoopResult result = Engine<MemorylessMetric, SweepQueue, NoRecorder>(
+        const LoopResult result = Engine<MemorylessMetric, BucketQueue, NoRecorder>(
                                       collapse_mesh, pairs, wedges, free, metric, nothing)
                                       .run(loop);
         if (result.stop != StopReason::cancelled) break;

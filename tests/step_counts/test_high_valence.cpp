@@ -2,7 +2,7 @@
 
 #include "faqem/engine/engine.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
-#include "faqem/engine/queue/sweep_queue.hpp"
+#include "faqem/engine/queue/bucket_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
 #include "step_counts/steps.hpp"
 #include "support/catch.hpp"
@@ -76,7 +76,7 @@ LoopResult run(CollapseMesh& collapse_mesh, Metric metric) {
     Wedges wedges;
     std::vector<std::uint8_t> free(collapse_mesh.vertex_slots(), 0);
     NoRecorder nothing;
-    return Engine<Metric, SweepQueue, NoRecorder>(collapse_mesh, pairs, wedges, free, metric, nothing)
+    return Engine<Metric, BucketQueue, NoRecorder>(collapse_mesh, pairs, wedges, free, metric, nothing)
         .run(loop);
 }
 

@@ -80,7 +80,7 @@ public:
     /// O(n log n) in the number of pairs, for bounded valence and HeapQueue.
     LoopResult run(const LoopOptions& options) {
         rules_ = options.rules;
-        contraction_.keep_closed(options.closed, options.first_context_vertex != no_index);
+        contraction_.keep_closed(options.closed);
         if (!curves_ || curves_->empty()) rules_.groups = GroupBoundaries::free;  // there is nothing to keep
         distance_weight_ = options.distance_weight;
         progress_.start(options, mesh_.face_count());
@@ -88,10 +88,9 @@ public:
         context_.emplace(1, ask, options.deadline);
         return run_cancellable([&] {
             degenerate_ = DegenerateFaces(mesh_);
-            if (distance_weight_ > 0) boundary_loops_.emplace(mesh_, pairs_, options.first_context_vertex);
+            if (distance_weight_ > 0) boundary_loops_.emplace(mesh_, pairs_);
             context_->check_now();
             queue_.reserve(pairs_.size());
-            queue_.set_target(progress_.target_share_of(pairs_.size()));
             metric_.initialise(mesh_, pairs_);
             evaluate_all_pairs();
             face_count_at_last_pass_ = mesh_.face_count();
@@ -206,14 +205,6 @@ private:
         }
     }
 
-    // Evaluates the pair, or marks its cost as stale so that it is evaluated when it is popped.
-    void reevaluate(Index pair) {
-        if constexpr (!Queue::is_exact) {
-            if (queue_.mark_stale(pair) && !exceptions_.any(pair)) return;
-        }
-        evaluate(pair);
-    }
-
     // Whether the pair has a high-valence vertex and is not collapsed yet: its tests visit all faces of the vertex, again
     // and again. Other collapses reduce the valence; before the ladder all pairs are evaluated without this rule.
     bool is_deferred(Index pair) const {
@@ -284,7 +275,6 @@ private:
     bool refuse(Index pair, double cost, Refusal reason) {
         count_refusal(reason);
         if (!RuleExceptions::is_liftable(rules_, reason)) return false;
-        if (!contraction_.may_lift(reason, pairs_.first(pair), pairs_.second(pair))) return false;
         lift_rule(pair, cost, reason);
         return true;
     }
@@ -312,13 +302,6 @@ private:
 
     // If the queue has a pair to pop before one of this cost, requeues this pair at it and returns true.
     bool requeue_if_costlier(Index pair, double cost) {
-        if constexpr (!Queue::is_exact) {
-            // Testing a pair at a high-valence vertex is expensive. The order of such a queue is approximate: the cost
-            // is raised by its factor to avoid testing the pair too early.
-            const bool touches_high_valence =
-                mesh_.is_high_valence(pairs_.first(pair)) || mesh_.is_high_valence(pairs_.second(pair));
-            if (touches_high_valence) cost *= queue_.approximation_factor();
-        }
         if (!queue_.has_cheaper(cost)) return false;
         queue_.set(pair, cost);
         return true;
@@ -344,7 +327,7 @@ private:
         if (boundary_loops_) boundary_loops_->after_collapse(mesh_, pairs_, survivor);
         metric_.after_collapse(mesh_, pairs_, survivor, changes_);
         for (const PairTable::Change& change : changes_)
-            if (change.neighbour.pair != no_index) reevaluate(change.neighbour.pair);
+            if (change.neighbour.pair != no_index) evaluate(change.neighbour.pair);
         for (const PairTable::Change& change : changes_) {
             const Reevaluation reevaluation = metric_.reevaluation(change);
             if (reevaluation == Reevaluation::none) continue;
@@ -395,7 +378,7 @@ private:
     bool delete_duplicate_faces(const LoopOptions& options) {
         if (keeps_groups()) return false;
         const bool any = remove_duplicate_faces(mesh_, pairs_, options.target_faces, recorder_);
-        if (any && boundary_loops_) boundary_loops_.emplace(mesh_, pairs_, no_index);  // new boundary edges
+        if (any && boundary_loops_) boundary_loops_.emplace(mesh_, pairs_);  // new boundary edges
         return any;
     }
 

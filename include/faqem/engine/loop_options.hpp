@@ -30,10 +30,6 @@ struct LoopOptions {
     std::size_t target_faces = 4;  ///< the loop stops at this face count or below
     Rules rules = {};              ///< legality rules at the start; the ladder relaxes them
     Ladder ladder = Ladder::on;
-    /// Vertices with this index or a larger one are context: they complete the faces of other vertices, and
-    /// not all of their own faces are in the mesh. They and their neighbours must be locked. no_index:
-    /// none.
-    Index first_context_vertex = no_index;
     /// Empty, or one per vertex: nonzero if its component is closed (see closed_vertices() of detail), and stays so:
     /// no edge gets more than two faces, and no two faces get the same corners. Referenced by run() only.
     std::span<const std::uint8_t> closed = {};

@@ -24,12 +24,6 @@ public:
     }
 
     std::size_t target_faces() const { return target_; }
-    /// What is left of `count` elements if their number decreases like that of the faces.
-    std::size_t target_share_of(std::size_t count) const {
-        const double share =
-            static_cast<double>(target_) / static_cast<double>(std::max<std::size_t>(first_, 1));
-        return static_cast<std::size_t>(share * static_cast<double>(count));
-    }
 
     /// Calls LoopOptions::progress, if it is set.
     /// \param faces  current face count

@@ -38,7 +38,7 @@ TriangleMesh hourglass() {
 
 Contraction contraction_on(const CollapseMesh& mesh) {
     Contraction contraction(mesh.vertex_slots());
-    contraction.keep_closed(std::vector<std::uint8_t>(mesh.vertex_slots(), 1), false);
+    contraction.keep_closed(std::vector<std::uint8_t>(mesh.vertex_slots(), 1));
     return contraction;
 }
 

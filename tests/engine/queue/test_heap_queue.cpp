@@ -10,7 +10,7 @@
 using namespace faqem;
 using namespace faqem::engine;
 
-static_assert(CollapseQueue<HeapQueue> && HeapQueue::is_exact);
+static_assert(CollapseQueue<HeapQueue>);
 
 TEST_CASE("heap queue: equal costs are popped by index") {
     HeapQueue queue;

@@ -73,7 +73,7 @@ TEST_CASE("distance: batches of points agree with single points") {
             farthest = std::max(farthest, nearest);
             nearest_to_centre = std::min(nearest_to_centre, (p - centre).squaredNorm());
         }
-        CHECK(farthest_squared(points, triangles, 0) == farthest);
+        CHECK(farthest_squared(points, triangles, 0.0) == farthest);
         CHECK(farthest_squared(points, triangles, 0.01) == std::max(0.01, farthest));
         const auto [squared, at] = points.nearest(centre);
         CHECK(squared == Approx(nearest_to_centre));

@@ -8,10 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "faqem/detail/rounds/kernels.hpp"
 #include "faqem/detail/rounds/round_mesh.hpp"
+#include "faqem/engine/tracking/distance.hpp"
 #include "faqem/export.hpp"
 #include "faqem/option_types.hpp"
 #include "faqem/report.hpp"
@@ -29,7 +31,7 @@ struct EdgeKey {
 /// Collapses edges of one cell, cheapest first.
 class CellCollapser {
 public:
-    CellCollapser(Mesh& mesh, std::uint32_t cell, float limit, Recording patches, BlockSteps& out)
+    CellCollapser(Mesh& mesh, std::uint32_t cell, float limit, Recording patches, RoundSteps& out)
         : mesh_(mesh), cell_(cell), limit_(limit), patches_(patches), out_(out) {}
 
     void run(std::span<const Corner> candidates, std::size_t most) {
@@ -155,7 +157,55 @@ private:
         compute_planes(star_, size_, x);
         if (turns(star_, size_, least_cosine)) return refuse(key, Refusal::flip);
         if (folds_inside(star_, size_) || folds_outside()) return refuse(key, Refusal::fold);
+        if (mesh_.original) {
+            const float cost = batch_.cost[0] + mesh_.distance_weight * squared_distance(f, g, u, x);
+            if (!(cost <= candidate.key)) {
+                key = cost;
+                if (!(cost <= limit_)) return;
+                if (bucket_of(cost) > bucket_) return push({c, cost});
+            }
+        }
         collapse(f, g, k, m, u, v, first, x, shared_f, shared_g);
+    }
+
+    // The largest squared distance after the collapse to x that engine::TrackedMetric would find.
+    float squared_distance(Index f, Index g, Index u, const float (&x)[3]) {
+        bound_.clear(), points_.clear(), after_.clear();
+        gather_bound(f, u), gather_bound(g, u);
+        const Vector to = {x[0], x[1], x[2]};
+        for (int i = 0; i < size_; ++i) {
+            gather_bound(corner_[i] >> 2, u);
+            after_.emplace_back(to, Vector{star_.ring[0][i], star_.ring[1][i], star_.ring[2][i]},
+                                Vector{star_.ring[0][i + 1], star_.ring[1][i + 1], star_.ring[2][i + 1]});
+        }
+        const auto [nearest, at] = points_.nearest(to);
+        if (at == no_index) return 0;
+        engine::Vector3 p = engine::to_eigen(mesh_.vertices[u].p);
+        for (int j = 0; j < 3; ++j) p[j] += static_cast<double>(x[j]) * mesh_.unit;
+        const double square = mesh_.unit * mesh_.unit;
+        const double to_original =
+            mesh_.original->squared_distance_to_ring(bound_[at], p, static_cast<double>(nearest) * square);
+        return engine::farthest_squared(points_, after_, static_cast<float>(to_original / square));
+    }
+
+    // Appends the original vertices bound to face f, and their positions relative to vertex u.
+    void gather_bound(Index f, Index u) {
+        for (Index i = mesh_.first_bound[f]; i != no_index; i = mesh_.next_bound[i]) {
+            const engine::Vector3& p = mesh_.original->position(i);
+            const auto& from = mesh_.vertices[u].p;
+            bound_.push_back(i);
+            points_.add({static_cast<float>((p[0] - from[0]) * mesh_.scale),
+                         static_cast<float>((p[1] - from[1]) * mesh_.scale),
+                         static_cast<float>((p[2] - from[2]) * mesh_.scale)});
+        }
+    }
+
+    // Binds the original vertices found by squared_distance() to the faces after the collapse.
+    void rebind() {
+        for (int i = 0; i < size_; ++i) mesh_.first_bound[corner_[i] >> 2] = no_index;
+        engine::for_each_nearest(points_, after_, [&](std::size_t i, std::size_t k) {
+            mesh_.next_bound[bound_[i]] = std::exchange(mesh_.first_bound[corner_[k] >> 2], bound_[i]);
+        });
     }
 
     bool is_inside(Index v) const { return mesh_.vertices[v].cell == cell_; }
@@ -199,6 +249,7 @@ private:
 
     void collapse(Index f, Index g, unsigned k, unsigned m, Index u, Index v, int first, const float (&x)[3],
                   const Planes& shared_f, const Planes& shared_g) {
+        if (mesh_.original) rebind();
         Vertex& at = mesh_.vertices[u];
         const auto t = mesh_.difference(u, v);
         const auto old = at.p;
@@ -284,12 +335,17 @@ private:
     std::uint32_t cell_;
     float limit_;
     Recording patches_;
-    BlockSteps& out_;
+    RoundSteps& out_;
     int size_ = 0;               // faces around the pair that remain
     Corner corner_[Star::room];  // their corners at the pair
     Index ring_[Star::room];     // see Star
     Star star_ = {};
     EdgeBatch batch_ = {};
+    // Original vertices bound to the faces around the pair, and the faces after the collapse, relative to the first
+    // vertex of the pair.
+    std::vector<Index> bound_;
+    engine::BasicPointBatches<float> points_;
+    std::vector<engine::BasicTriangleDistance<float>> after_;
 };
 
 }  // namespace rounds

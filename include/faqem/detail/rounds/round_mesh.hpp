@@ -58,6 +58,11 @@ struct Mesh {
     std::size_t alive = 0;  ///< number of faces
     std::size_t unfit = 0;  ///< number of vertices that cannot move though the input does not lock them
     double area = 0;        ///< in engine units
+    /// Null, or the surface whose vertices are bound to faces: then first_bound has one entry per face, next_bound one per
+    /// vertex of `original`, which are linked lists.
+    const engine::OriginalSurface* original = nullptr;
+    std::vector<Index> first_bound, next_bound;
+    float distance_weight = 0;  ///< of a squared distance in the units of single precision
     /// Factors from engine units to those of single precision, in which edges are about 1 long, and back. Powers of two.
     double scale = 1, unit = 1;
 
@@ -321,30 +326,38 @@ inline void compact(Mesh& mesh, const RunContext& context) {
         const Face moved = mesh.faces[f];
         if (moved.v[0] == no_index) continue;
         for (unsigned k = 0; k < 3; ++k) mesh.keys[3 * moved.place + k] = mesh.keys[3 * f + k];
+        if (mesh.original) mesh.first_bound[moved.place] = mesh.first_bound[f];
         mesh.faces[moved.place] = moved;
     }
     mesh.vertices.resize(vertices);
     mesh.faces.resize(faces);
     mesh.keys.resize(std::size_t{3} * faces);
+    if (mesh.original) mesh.first_bound.resize(faces);
 }
 
-/// The surface of a mesh without unused elements.
+/// For each vertex slot of the input, the vertex of a compact mesh that it was merged into, or no_index. O(slots)
 /// \param slots  number of vertex slots of the input
-inline CompactedMesh surface_of(const Mesh& mesh, std::size_t slots) {
-    CompactedMesh out;
-    out.vertex_map.assign(slots, no_index);
-    for (Index v = 0; v < mesh.vertices.size(); ++v) {
-        const Vertex& at = mesh.vertices[v];
-        out.vertex_map[at.slot] = v;
-        out.vertices.push_back(at.slot);
-        out.source_slots.push_back(at.source);
-        out.positions.push_back(engine::to_eigen(at.p));
-    }
+inline std::vector<Index> merged_vertices(const Mesh& mesh, std::size_t slots) {
+    std::vector<Index> now(slots, no_index);
+    for (Index v = 0; v < mesh.vertices.size(); ++v) now[mesh.vertices[v].slot] = v;
     for (Index v = 0; v < mesh.merged_into.size(); ++v) {
         // Each vertex on the way to a known one becomes known, so that long chains are walked once.
         Index known = v;
-        while (out.vertex_map[known] == no_index) known = mesh.merged_into[known];
-        for (Index at = v; at != known; at = mesh.merged_into[at]) out.vertex_map[at] = out.vertex_map[known];
+        while (now[known] == no_index) known = mesh.merged_into[known];
+        for (Index at = v; at != known; at = mesh.merged_into[at]) now[at] = now[known];
+    }
+    return now;
+}
+
+/// The surface of a compact mesh.
+/// \param slots  number of vertex slots of the input
+inline CompactedMesh surface_of(const Mesh& mesh, std::size_t slots) {
+    CompactedMesh out;
+    out.vertex_map = merged_vertices(mesh, slots);
+    for (const Vertex& at : mesh.vertices) {
+        out.vertices.push_back(at.slot);
+        out.source_slots.push_back(at.source);
+        out.positions.push_back(engine::to_eigen(at.p));
     }
     for (const Face& f : mesh.faces) {
         out.faces.push_back(f.slot);

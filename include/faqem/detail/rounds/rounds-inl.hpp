@@ -11,6 +11,7 @@
 #include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/rounds/cell.hpp"
 #include "faqem/detail/rounds/round_mesh.hpp"
+#include "faqem/detail/rounds/tracking.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -95,7 +96,7 @@ inline Buckets<Corner> candidates(const Mesh& mesh, std::size_t cells, float lim
     });
 }
 
-inline void append(const BlockSteps& from, BlockSteps& to) {
+inline void append(const RoundSteps& from, RoundSteps& to) {
     to.collapses += from.collapses;
     to.steps.insert(to.steps.end(), from.steps.begin(), from.steps.end());
     for (std::size_t i = 0; i < refusal_kinds; ++i) to.refusals[i] += from.refusals[i];
@@ -107,11 +108,11 @@ inline void append(const BlockSteps& from, BlockSteps& to) {
 
 FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t least,
                                                              Recording patches, const RunContext& context,
-                                                             BlockSteps& result) {
+                                                             RoundSteps& result) {
     using namespace rounds;
     const std::size_t slots = input.positions.size(), faces = input.triangles.size();
     const std::size_t most_left = faces - faces / 4;
-    if (slots < min_vertices_of_rounds || least > most_left) return {};
+    if (least >= most_left) return {};  // also without faces
     const RunContext untimed = context.untimed();
     std::optional<Mesh> made = load(input, most_left / faces_per_unfit, untimed);
     if (!made) return {};
@@ -119,38 +120,51 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
     least = std::max(least, faces_per_unfit * mesh.unfit);
     if (input.merges == Recording::on) mesh.merged_into.assign(slots, no_index);
     if (patches == Recording::on) result.steps.reserve((faces - least) / 2);
-    unsigned idle = 0;
-    for (std::uint64_t round = 1; round <= most_rounds && idle < most_idle_rounds; ++round) {
-        const std::size_t need = mesh.alive - least;
-        if (need < least / 64 || context.is_late()) break;
-        if (2 * mesh.alive < mesh.faces.size()) compact(mesh, untimed);
-        const float limit = threshold(mesh, need);
-        const std::size_t cells = assign_cells(mesh, mesh.area, round, untimed);
-        const Buckets<Corner> sorted = candidates(mesh, cells, limit, untimed);
-        std::vector<std::uint32_t> used;
-        for (std::uint32_t cell = 0; cell < cells; ++cell)
-            if (!sorted[cell].empty()) used.push_back(cell);
-        if (used.empty()) break;
-        std::vector<BlockSteps> steps(used.size());
-        const double quota = 0.5 * static_cast<double>(need) / static_cast<double>(sorted.items().size());
-        context.show(Phase::simplify, 1 - static_cast<double>(need) / static_cast<double>(faces - least));
-        parallel_blocks(used.size(), 1, untimed, [&](std::size_t i, std::size_t) {
-            if (context.is_late()) return;
-            const std::span<const Corner> edges = sorted[used[i]];
-            const auto most = static_cast<std::size_t>(quota * static_cast<double>(edges.size()));
-            engine::vectorised(
-                [&] { CellCollapser(mesh, used[i], limit, patches, steps[i]).run(edges, most); });
-        });
-        const std::size_t before = mesh.alive;
-        for (BlockSteps& cell : steps) {
-            mesh.alive -= 2 * cell.collapses;
-            append(cell, result);
+    const auto reduce = [&](std::size_t to) {
+        unsigned idle = 0;
+        for (std::uint64_t round = 1; round <= most_rounds && idle < most_idle_rounds; ++round) {
+            const std::size_t need = mesh.alive - std::min(mesh.alive, to);
+            if (need < to / 64 || context.is_late()) break;
+            if (2 * mesh.alive < mesh.faces.size()) compact(mesh, untimed);
+            const float limit = threshold(mesh, need);
+            const std::size_t cells = assign_cells(mesh, mesh.area, round, untimed);
+            const Buckets<Corner> sorted = candidates(mesh, cells, limit, untimed);
+            std::vector<std::uint32_t> used;
+            for (std::uint32_t cell = 0; cell < cells; ++cell)
+                if (!sorted[cell].empty()) used.push_back(cell);
+            if (used.empty()) break;
+            std::vector<RoundSteps> steps(used.size());
+            const double quota = 0.5 * static_cast<double>(need) / static_cast<double>(sorted.items().size());
+            context.show(Phase::simplify,
+                         static_cast<double>(faces - mesh.alive) / static_cast<double>(faces - least));
+            parallel_blocks(used.size(), 1, untimed, [&](std::size_t i, std::size_t) {
+                if (context.is_late()) return;
+                const std::span<const Corner> edges = sorted[used[i]];
+                const auto most = static_cast<std::size_t>(quota * static_cast<double>(edges.size()));
+                engine::vectorised(
+                    [&] { CellCollapser(mesh, used[i], limit, patches, steps[i]).run(edges, most); });
+            });
+            const std::size_t before = mesh.alive;
+            for (RoundSteps& cell : steps) {
+                mesh.alive -= 2 * cell.collapses;
+                append(cell, result);
+            }
+            idle = 16 * (before - mesh.alive) < need ? idle + 1 : 0;
         }
-        idle = 16 * (before - mesh.alive) < need ? idle + 1 : 0;
+    };
+    const std::size_t start = input.tracking ? input.tracking->start : 0;
+    reduce(std::max(least, start));
+    // Where much of the surface cannot move, so many faces are left that the engine begins without tracking, too.
+    if (start > 0 && mesh.alive <= start + start / 4) {
+        compact(mesh, untimed);
+        bind_all(mesh, *input.tracking, slots, untimed);
+        reduce(least);
     }
     compact(mesh, untimed);
     release(mesh.keys);
-    return surface_of(mesh, slots);
+    CompactedMesh left = surface_of(mesh, slots);
+    if (mesh.alive <= start) left.bound_faces = bound_faces(mesh);
+    return left;
 }
 
 }  // namespace detail

@@ -39,9 +39,7 @@ FAQEM_INLINE CompactedMesh compacted(std::vector<Index> faces, std::vector<Trian
         for (Index& v : t) v = number[v];
     out.vertex_map.reserve(number.size());
     for (Index v = 0; v < number.size(); ++v) {
-        const Index root = trace.root(v);
-        out.vertex_map.push_back(number[root]);
-        out.isolated_slots += root == v && number[v] == no_index;
+        out.vertex_map.push_back(number[trace.root(v)]);
     }
     return out;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "faqem/detail/base/vector.hpp"
-#include "faqem/detail/rounds/block_steps.hpp"
+#include "faqem/detail/rounds/round_steps.hpp"
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/export.hpp"
 

@@ -20,17 +20,14 @@
 #include "faqem/engine/metric/bordered.hpp"
 #include "faqem/engine/metric/memoryless.hpp"
 #include "faqem/engine/metric/weighted.hpp"
+#include "faqem/engine/queue/bucket_queue.hpp"
 #include "faqem/engine/queue/heap_queue.hpp"
-#include "faqem/engine/queue/sweep_queue.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
 #include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
-
-// Up to this number of pairs the queue returns the exact minimum.
-inline constexpr std::size_t max_exact_pairs = 1 << 17;
 
 using engine::CollapseMesh;
 using engine::RunContext;
@@ -74,8 +71,8 @@ inline std::vector<double> vertex_importance(const MeshView& mesh, const Preproc
 // Runs an engine to the target of `loop`. While should_continue(result) returns true, after which `loop` may
 // hold a lower target, continues to that target.
 inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs, const Settings& settings,
-                                     RunRecorder& recorder, const engine::LoopOptions& loop,
-                                     const RunState& state, const RunContext& context,
+                                     RunRecorder& recorder, const engine::LoopOptions& loop, RunState& state,
+                                     const RunContext& context,
                                      const std::function<bool(const engine::LoopResult&)>& should_continue,
                                      const engine::DistanceLimit& limit) {
     engine::FeatureCurves* curves = work.curves.empty() ? nullptr : &work.curves;
@@ -93,7 +90,7 @@ inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs
     const auto bordered = [&](auto metric) {
         return weighted(engine::BorderedMetric(std::move(metric), state.borders().flats, work.borders,
                                                loop.distance_weight),
-                        engine::SweepQueue(max_exact_pairs));
+                        engine::BucketQueue());
     };
     switch (settings.quadric_policy) {
         case Settings::QuadricPolicy::memory: {
@@ -106,8 +103,8 @@ inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs
         case Settings::QuadricPolicy::tracked:
             break;
     }
-    return bordered(engine::TrackedMetric({}, *state.original(), engine::TrackedVertices(state.vertex_map()),
-                                          loop.target_faces, loop.distance_weight, curves, context, limit));
+    return bordered(engine::TrackedMetric({}, *state.original(), state.tracked_vertices(), loop.target_faces,
+                                          loop.distance_weight, curves, context, limit));
 }
 
 }  // namespace detail

@@ -9,7 +9,6 @@
 
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
-#include "faqem/detail/simplify/block_decimation.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
 #include "faqem/detail/simplify/engine_run.hpp"
@@ -51,7 +50,7 @@ public:
                                                   const FindFarFaces& far) {
         targets_ = {&min_target_faces, 1};
         settings_.quadric_policy = Settings::QuadricPolicy::tracked;
-        if (mesh_.triangles.empty() || (untracked_share > 0 && !supports_blocks())) return std::nullopt;
+        if (mesh_.triangles.empty() || (untracked_share > 0 && !may_change_engine())) return std::nullopt;
         far_ = &far;
         start();
         loop_.ladder = engine::Ladder::off;
@@ -159,7 +158,7 @@ private:
         if (settings_.quadric_policy != Settings::QuadricPolicy::memory &&
             options_.topology.virtual_edges != VirtualEdges::on)
             state_.find_planar_borders();
-        if (!supports_rounds() || settings_.fit_vertices) state_.release_links();
+        if (!supports_rounds()) state_.release_links();
         untimed_.check_now();
         area_ = state_.area();
         loop_.rules = {settings_.link, settings_.min_normal_cosine, min_pair_length_,
@@ -167,7 +166,7 @@ private:
         loop_.rules.groups = options_.topology.group_boundaries;
         loop_.tiny_component_diagonal = 0.02 * settings_.diagonal;
         loop_.progress = [this](double done) {
-            context_.show(Phase::simplify, progress_at(done_in_blocks_ + (1 - done_in_blocks_) * done));
+            context_.show(Phase::simplify, progress_at(done_in_rounds_ + (1 - done_in_rounds_) * done));
             return context_.ask();
         };
     }
@@ -179,7 +178,7 @@ private:
         const std::size_t faces = limit_.is_finite() ? state_.mesh().triangles.size() : loop_.target_faces;
         if (settings_.quadric_policy != Settings::QuadricPolicy::memory)
             loop_.distance_weight = area_ / static_cast<double>(faces);
-        done_in_blocks_ = 0;
+        done_in_rounds_ = 0;
     }
 
     // The share of a target is proportional to the number of faces removed for it.
@@ -215,59 +214,22 @@ private:
                mesh_.vertex_weights.empty() && options_.topology.virtual_edges != VirtualEdges::on;
     }
 
-    // Nor with preserved groups.
-    bool supports_blocks() const { return supports_rounds() && !has_curves(); }
+    // Whether engines may follow each other: attributes, preserved groups and weights belong to one.
+    bool may_change_engine() const { return supports_rounds() && !has_curves(); }
 
-    // Simplifies in blocks as far as possible and compacts the rest. \return false if cancelled
-    bool simplify_in_blocks_first() {
-        if (!supports_rounds()) return true;
-        if (!state_.original()) return reduce_in_blocks(loop_.target_faces, nullptr);
-        const engine::OriginalSurface& original = *state_.original();
-        const std::size_t far = engine::TrackedMetric::tracking_start_ratio * loop_.target_faces;
-        const BlockTracking borders{original, state_.vertex_map(), Watched::borders};
-        if (!reduce_in_blocks(far, original.boundary_edges().empty() ? nullptr : &borders)) return false;
-        // Blocks track all faces at once, the engine waits until there are as few.
-        if (has_just_used_rounds_ && state_.mesh().triangles.size() > far + far / 4) return true;
-        const BlockTracking all{original, state_.vertex_map()};
-        return reduce_in_blocks(loop_.target_faces, &all);
-    }
-
-    bool reduce_in_blocks(std::size_t least, const BlockTracking* tracking, bool allows_rounds = true) {
+    void simplify_in_rounds_first() {
         const std::size_t faces = state_.mesh().triangles.size();
-        if (faces <= least || context_.is_late()) return true;
-        const double share = (1 - done_in_blocks_) * static_cast<double>(faces - least) /
-                             static_cast<double>(faces - loop_.target_faces);
-        // Later, smaller surfaces are split as well: tracking in parallel saves more time than faces between blocks cost.
-        const std::size_t few = has_used_blocks_ ? max_vertices_per_block / 4 : max_vertices_per_block;
-        const ReorderedMesh& now = state_.mesh();
-        const RunContext step = context_.step(Phase::simplify, progress_at(done_in_blocks_),
-                                              progress_at(done_in_blocks_ + share));
-        BlockSteps found;
-        std::optional<CompactedMesh> left;
-        // Where vertices are fitted, rounds would save little of the time, with Hausdorff distances 4% larger.
-        if (allows_rounds && !settings_.fit_vertices && (!tracking || tracking->watched == Watched::borders))
-            left = state_.simplify_in_rounds(least, groups(), options_.history, step, found);
-        has_just_used_rounds_ = left.has_value();
-        if (!left && !supports_blocks()) return true;
-        if (!left) {
-            const BlockInput input{now.positions,   now.triangles,
-                                   state_.locked(), vertices_per_block(now.positions.size(), few),
-                                   closed(),        &state_.borders()};
-            found = simplify_in_blocks(input, loop_, least, tracking, options_.history, step);
-            if (found.is_cancelled || found.steps.empty()) return !found.is_cancelled;
-            left = apply_steps(input, found.steps);
-        }
-        has_used_blocks_ = true;
-        done_in_blocks_ += share;
+        if (!supports_rounds() || faces <= loop_.target_faces || context_.is_late()) return;
+        const RunContext step = context_.step(Phase::simplify, progress_at(0), progress_at(share_of_rounds));
+        RoundSteps found;
+        std::optional<CompactedMesh> left = state_.simplify_in_rounds(
+            loop_.target_faces, loop_.distance_weight, groups(), options_.history, step, found);
+        if (!left) return;
+        done_in_rounds_ = share_of_rounds;
         totals_.collapses += found.collapses;
         for (std::size_t i = 0; i < refusal_kinds; ++i) totals_.refusals[i] += found.refusals[i];
-        for (std::size_t i = 0; i < rung_kinds; ++i) totals_.rungs[i] += found.rungs[i];
-        totals_.components_collapsed += left->isolated_slots;  // blocks do not delete components
         if (history_) record_steps(found, *left, loop_.target_faces, *history_);
         state_.advance_to(std::move(*left));
-        // Rounds end early where much of the surface cannot move. Blocks go on if much is left.
-        const bool is_enough = state_.mesh().triangles.size() <= 2 * std::max(least, max_vertices_per_block);
-        return !has_just_used_rounds_ || is_enough || reduce_in_blocks(least, tracking, false);
     }
 
     engine::LoopResult collapse(EngineInput& work, RunRecorder& recorder,
@@ -309,27 +271,21 @@ private:
         work.importance = vertex_importance(mesh_, prepared_, state_.mesh());
     }
 
-    // If the mesh may be split into blocks, each target has its own engine, which uses the right distance weight from the
-    // start. Otherwise one engine continues from target to target, since its state cannot be transferred.
+    // If engines may follow each other, each target has its own, which uses the right distance weight from the start.
+    // Otherwise one engine continues from target to target, since its state cannot be transferred.
     void collapse_to_targets() {
         while (results_.size() < targets_.size()) {
             set_target();
-            const bool is_cancelled = !simplify_in_blocks_first();
+            simplify_in_rounds_first();
             state_.release_links();
             EngineInput work(state_.mesh());
             RunRecorder recorder(work.collapse_mesh.vertex_slots(), history_ ? &*history_ : nullptr);
-            engine::LoopResult loop_result;
-            if (is_cancelled) {
-                loop_result.stop = StopReason::cancelled;
-                add_result(work, recorder.trace(), loop_result);
-            } else {
-                loop_result = collapse(work, recorder, [&](const engine::LoopResult& so_far) {
-                    add_result(work, recorder.trace(), so_far);
-                    if (supports_blocks() || is_done()) return false;
-                    set_target();
-                    return true;
-                });
-            }
+            const auto loop_result = collapse(work, recorder, [&](const engine::LoopResult& so_far) {
+                add_result(work, recorder.trace(), so_far);
+                if (may_change_engine() || is_done()) return false;
+                set_target();
+                return true;
+            });
             if (is_done()) return;
             advance(work, recorder, loop_result);
         }
@@ -405,10 +361,10 @@ private:
     engine::DistanceLimit limit_;
     const FindFarFaces* far_ = nullptr;  // not null: the result must have no such faces
     std::span<const std::uint64_t> targets_;
-    bool has_used_blocks_ = false, has_just_used_rounds_ = false;
-    double done_in_blocks_ = 0;  // share of the work for the current target that was done in blocks
-    Stopwatch stopwatch_;        // since the last target
-    Report totals_;              // sums of blocks and of engines that have finished
+    static constexpr double share_of_rounds = 0.7;  // of the progress towards a target
+    double done_in_rounds_ = 0;                     // share_of_rounds after rounds
+    Stopwatch stopwatch_;                           // since the last target
+    Report totals_;                                 // sums of rounds and of engines that have finished
     std::vector<SimplifyResult> results_;
 };
 

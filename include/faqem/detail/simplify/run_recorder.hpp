@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "faqem/detail/rounds/block_steps.hpp"
+#include "faqem/detail/rounds/round_steps.hpp"
 #include "faqem/detail/simplify/budget_by_cost.hpp"
 #include "faqem/detail/simplify/compaction.hpp"
 #include "faqem/detail/simplify/undoable_steps.hpp"
@@ -58,11 +58,11 @@ private:
     double cost_ = 0;
 };
 
-/// Adds the collapses of all blocks or rounds to a history. Reserves memory for those that remain as well: growing the arrays
+/// Adds the collapses of all rounds to a history. Reserves memory for those that remain as well: growing the arrays
 /// later would need twice as much. O(steps and their patches)
 /// \param left    the surface after the steps
 /// \param target  number of faces that later collapses leave
-inline void record_steps(const BlockSteps& found, const CompactedMesh& left, std::size_t target,
+inline void record_steps(const RoundSteps& found, const CompactedMesh& left, std::size_t target,
                          engine::HistoryRecorder& history) {
     const std::size_t to_go = left.triangles.size() - target;
     const auto steps = static_cast<double>(std::max<std::size_t>(found.steps.size(), 1));

@@ -2,6 +2,7 @@
 
 #include "faqem/detail/rounds/rounds.hpp"
 #include "faqem/detail/simplify/run_state.hpp"
+#include "faqem/engine/tracking/tracked_metric.hpp"
 #include "faqem/export.hpp"
 
 #include <algorithm>
@@ -37,20 +38,21 @@ FAQEM_INLINE void RunState::find_planar_borders() {
                          : search.find(engine::find_boundary_edges(mesh_.triangles, mesh_.positions.size()));
 }
 
-FAQEM_INLINE std::optional<CompactedMesh> RunState::simplify_in_rounds(std::size_t least,
-                                                                       std::span<const Index> groups,
-                                                                       Recording patches,
-                                                                       const engine::RunContext& context,
-                                                                       BlockSteps& found) {
+FAQEM_INLINE std::optional<CompactedMesh> RunState::simplify_in_rounds(
+    std::size_t target, double distance_weight, std::span<const Index> groups, Recording patches,
+    const engine::RunContext& context, RoundSteps& found) {
+    if (mesh_.positions.size() < min_vertices_of_rounds) return {};
     if (!original_)
         return detail::simplify_in_rounds(
-            {mesh_.positions, mesh_.triangles, links_, locked_, groups, &borders_}, faces_after_rounds(least),
-            patches, context, found);
+            {mesh_.positions, mesh_.triangles, links_, locked_, groups, &borders_},
+            faces_after_rounds(target, target / 4), patches, context, found);
     std::vector<engine::Vector3> positions = mesh_.positions;
     std::vector<Triangle> triangles = mesh_.triangles;
+    const RoundTracking tracking{&*original_, vertex_map_,
+                                 engine::TrackedMetric::tracking_start_ratio * target, distance_weight};
     return detail::simplify_in_rounds(
-        {positions, triangles, links_, locked_, groups, &borders_, Recording::on},
-        std::max(least, min_faces_after_rounds), patches, context, found);
+        {positions, triangles, links_, locked_, groups, &borders_, Recording::on, &tracking},
+        faces_after_rounds(target, target / 20), patches, context, found);
 }
 
 FAQEM_INLINE void RunState::advance_to(CompactedMesh&& compacted) {
@@ -64,6 +66,7 @@ FAQEM_INLINE void RunState::advance_to(CompactedMesh&& compacted) {
     }
     source_vertices_ = gather(source_vertices(), compacted.source_slots);
     vertex_map_ = gather(compacted.vertex_map, vertex_map_);
+    bound_faces_ = std::move(compacted.bound_faces);
     locked_ = gather(locked_, compacted.vertices);
     closed_ = gather(closed_, compacted.vertices);
     ReorderedMesh less{gather(mesh_.vertex, compacted.vertices), gather(mesh_.face, compacted.faces),

@@ -10,7 +10,8 @@
 
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
 #include "faqem/detail/rounds/links.hpp"
-#include "faqem/detail/simplify/block_decimation.hpp"
+#include "faqem/detail/rounds/rounds.hpp"
+#include "faqem/detail/simplify/compaction.hpp"
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "faqem/engine/constraints/planar_borders.hpp"
 #include "faqem/engine/tracking/original_surface.hpp"
@@ -49,12 +50,14 @@ public:
     /// Sets borders(). \pre advance_to() has not been called. O(faces)
     void find_planar_borders();
 
-    /// Simplifies the current surface in rounds, to faces_after_rounds(least), or to `least` if a distance is tracked,
-    /// whose start needs no spare faces. The parameters and the result are those of detail::simplify_in_rounds().
+    /// Simplifies the current surface in rounds, to a twentieth more faces than the target if the distance from the original is
+    /// tracked, else a quarter. Further parameters and the result are those of detail::simplify_in_rounds(); none below
+    /// min_vertices_of_rounds.
+    /// \param distance_weight  see RoundTracking
     /// \post advance_to() follows if there is a result, since the arrays of the current surface may be released
-    std::optional<CompactedMesh> simplify_in_rounds(std::size_t least, std::span<const Index> groups,
-                                                    Recording patches, const engine::RunContext& context,
-                                                    BlockSteps& found);
+    std::optional<CompactedMesh> simplify_in_rounds(std::size_t target, double distance_weight,
+                                                    std::span<const Index> groups, Recording patches,
+                                                    const engine::RunContext& context, RoundSteps& found);
 
     /// Replaces the current surface by a simplified one.
     /// \param compacted  made from mesh(); moved from
@@ -80,6 +83,12 @@ public:
     /// One per vertex of original(): the slot that it was merged into, or no_index if that vertex was
     /// removed. Empty unless track_original() was called.
     const std::vector<Index>& vertex_map() const { return vertex_map_; }
+    /// All vertices of original() for an engine that tracks them. \pre track_original() was called
+    engine::TrackedVertices tracked_vertices() {
+        engine::TrackedVertices tracked(vertex_map_);
+        tracked.faces = std::move(bound_faces_);
+        return tracked;
+    }
     /// The surface whose distance is tracked; null unless track_original() was called.
     const engine::OriginalSurface* original() const { return original_ ? &*original_ : nullptr; }
     /// The surface before the first advance_to(). References this object. \pre keep_initial_surface() was
@@ -97,6 +106,7 @@ private:
     bool keeps_initial_surface_ = false;
     std::optional<engine::OriginalSurface> original_;
     std::vector<Index> vertex_map_, source_vertices_;  // the latter is empty before the first advance_to()
+    std::vector<Index> bound_faces_;                   // as CompactedMesh has them
     std::vector<std::uint8_t> locked_, closed_;
     engine::PlanarBorders borders_;
 };

@@ -26,15 +26,12 @@ namespace engine {
 class BoundaryLoops {
 public:
     /// Finds the boundary loops. O(vertices + n log n) for n boundary vertices
-    /// \param first_context_vertex  vertices from this index on, and edges between them, are ignored;
-    ///     no_index: none
-    BoundaryLoops(const CollapseMesh& mesh, const PairTable& pairs, Index first_context_vertex = no_index) {
+    BoundaryLoops(const CollapseMesh& mesh, const PairTable& pairs) {
         for (Index v = 0; v < mesh.vertex_slots(); ++v) {
             if (mesh.degree(v) > 0) box_.extend(mesh.position(v));
-            if (pairs.boundary_degree(v) > 0 && v < first_context_vertex)
-                points_.push_back({mesh.position(v), v});
+            if (pairs.boundary_degree(v) > 0) points_.push_back({mesh.position(v), v});
         }
-        find_boundaries(mesh.vertex_slots(), pairs, first_context_vertex);
+        find_boundaries(mesh.vertex_slots(), pairs);
         build_kd_tree(0, points_.size(), 0);
     }
 
@@ -112,13 +109,10 @@ private:
         double reach = 0;             ///< largest distance to this loop from loops that have vanished
     };
 
-    void find_boundaries(std::size_t vertices, const PairTable& pairs, Index first_context_vertex) {
+    void find_boundaries(std::size_t vertices, const PairTable& pairs) {
         boundary_of_vertex_.assign(vertices, no_index);
         if (points_.empty()) return;
-        const auto smaller_end = [&](Index pair) { return std::min(pairs.first(pair), pairs.second(pair)); };
-        const auto is_open = [&](Index pair) {
-            return pairs.face_count(pair) == 1 && smaller_end(pair) < first_context_vertex;
-        };
+        const auto is_open = [&](Index pair) { return pairs.face_count(pair) == 1; };
         UnionFind joined(vertices);
         for (Index pair = 0; pair < pairs.size(); ++pair)
             if (is_open(pair)) joined.unite(pairs.first(pair), pairs.second(pair));
@@ -127,7 +121,7 @@ private:
             boundary_of_vertex_[v] = boundary_of_vertex_[joined.find(v)];
         }
         for (Index pair = 0; pair < pairs.size(); ++pair)
-            if (is_open(pair)) ++boundaries_[boundary_of_vertex_[smaller_end(pair)]].edges;
+            if (is_open(pair)) ++boundaries_[boundary_of_vertex_[pairs.first(pair)]].edges;
     }
 
     Index add_boundary() {

@@ -50,15 +50,7 @@ public:
     explicit Contraction(std::size_t vertices) : is_inside_(vertices, 0) {}
 
     /// \param closed   see LoopOptions::closed
-    /// \param is_part  whether the mesh is only a part of the surface: nothing is contracted, since faces are unknown
-    void keep_closed(std::span<const std::uint8_t> closed, bool is_part) {
-        closed_.assign(closed.begin(), closed.end());
-        is_part_ = is_part;
-    }
-    /// Whether a rule may be lifted for a pair.
-    bool may_lift(Refusal rule, Index u, Index v) const {
-        return rule != Refusal::link || !is_part_ || !is_closed(u, v);
-    }
+    void keep_closed(std::span<const std::uint8_t> closed) { closed_.assign(closed.begin(), closed.end()); }
     /// To be called for each collapse.
     void after_collapse(Index survivor, Index removed) {
         if (!closed_.empty()) closed_[survivor] |= closed_[removed];
@@ -84,7 +76,7 @@ public:
     /// \param locked      one per vertex slot; vertices with a nonzero entry must not vanish
     std::optional<Refusal> refusal(const CollapseMesh& mesh, std::size_t degenerate,
                                    std::span<const std::uint8_t> locked) const {
-        if (is_part_ || vertices_.size() > max_vertices) return Refusal::link;
+        if (vertices_.size() > max_vertices) return Refusal::link;
         if (vanishing_.size() + degenerate >= mesh.face_count()) return Refusal::last_faces;
         const auto is_locked = [&](Index v) { return locked[v] != 0; };
         if (remaining_.empty() && std::ranges::any_of(vertices_, is_locked)) return Refusal::locked;
@@ -265,7 +257,6 @@ private:
     std::vector<Index> vertices_, vanishing_;
     std::vector<std::uint8_t> is_inside_;  // per vertex slot
     std::vector<std::uint8_t> closed_;     // empty, or per vertex slot
-    bool is_part_ = false;
     std::vector<RemainingFace> remaining_, flaps_;
     std::vector<Index> corners_, ends_;  // outside corners of all faces, and of remaining_, sorted
 };

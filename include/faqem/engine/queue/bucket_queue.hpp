@@ -15,7 +15,7 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// A cost as the queues store it: a multiple of 2^64. Costs are fourth powers of lengths. With a diagonal of
+/// A cost as the queue stores it: a multiple of 2^64. Costs are fourth powers of lengths. With a diagonal of
 /// 1, those of a surface with edges of 1e-11 would be zero in single precision.
 inline float scaled_cost(double cost) {
     constexpr double scale = 0x1p64, max_cost = std::numeric_limits<float>::max();
@@ -25,7 +25,7 @@ inline float scaled_cost(double cost) {
 /// A queue of buckets for metrics whose costs are estimates; several times as fast as the heap. Costs in
 /// the same bucket differ by at most 1/64 of a power of two and are popped in the order of insertion. All
 /// functions take amortised O(1).
-class BucketQueue : public QueueDefaults {
+class BucketQueue {
 public:
     BucketQueue() : buckets_(bucket_count) {}
 
@@ -40,11 +40,8 @@ public:
     bool contains(Index pair) const { return bucket_of_[pair] != no_bucket; }
     bool has_cheaper(double cost) const { return lowest_ < bucket_for(scaled_cost(cost)); }
 
-    void set(Index pair, double cost) { set_scaled(pair, scaled_cost(cost)); }
-
-    /// As set(), with a result of scaled_cost().
-    void set_scaled(Index pair, float cost) {
-        const std::uint16_t bucket = bucket_for(cost);
+    void set(Index pair, double cost) {
+        const std::uint16_t bucket = bucket_for(scaled_cost(cost));
         if (bucket_of_[pair] == bucket) return;
         size_ += bucket_of_[pair] == no_bucket;
         bucket_of_[pair] = bucket;

@@ -14,7 +14,7 @@ namespace engine {
 
 /// A four-ary heap that stores the position of each pair. Equal costs are popped by index. set(), erase()
 /// and pop() take O(log n), the other functions O(1). 20 bytes per pair.
-class HeapQueue : public QueueDefaults {
+class HeapQueue {
 public:
     void reserve(std::size_t pairs) {
         heap_index_.assign(pairs, no_index);

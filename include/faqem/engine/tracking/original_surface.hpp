@@ -21,6 +21,8 @@ namespace engine {
 /// arrays have the same length.
 struct TrackedVertices {
     std::vector<Index> original, current;
+    /// Empty, or for each vertex of the original surface a face of the current mesh near it, or no_index.
+    std::vector<Index> faces = {};
 
     /// Tracks all vertices that have a target. O(vertices)
     /// \param vertex_map  for each original vertex, the vertex of the current mesh it was merged into, or

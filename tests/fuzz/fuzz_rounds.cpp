@@ -1,10 +1,10 @@
-// Block decimation as in simplify(), first with the memoryless metric and then with distance tracking, but
-// with small blocks: a mesh that is large enough for the real block size would take seconds per input.
+// Rounds as in simplify(), without and with distance tracking, on surfaces that are smaller than those for which
+// simplify() uses them.
 
 #include <map>
 #include <utility>
 
-#include "faqem/detail/simplify/block_decimation.hpp"
+#include "faqem/detail/rounds/rounds.hpp"
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/run_state.hpp"
 #include "faqem/options.hpp"
@@ -32,15 +32,6 @@ TriangleMesh surface_of(fuzz::Input& in) {
     if (const std::uint8_t amount = in.byte() % 8)
         mesh = test::shaken(std::move(mesh), 0.01 * amount, amount);
     return in.flag() ? mesh : test::both(std::move(mesh), fuzz::mesh_of(in));
-}
-
-engine::LoopOptions loop_of(fuzz::Input& in, const RunState& state) {
-    constexpr LinkCondition links[] = {LinkCondition::by_size, LinkCondition::on, LinkCondition::off};
-    engine::LoopOptions loop;
-    const std::uint8_t bits = in.byte();
-    loop.rules = {links[bits % 3], bits & 4 ? 0.3 : -1, 1e-8, bits & 8 ? -0.9 : -1};
-    if (bits & 16) loop.distance_weight = state.area() / (1 + in.byte());
-    return loop;
 }
 
 /// True if every edge has two faces and the faces around each vertex form one closed fan.
@@ -73,22 +64,15 @@ int euler(std::span<const Triangle> triangles) {
 }
 
 /// Applies the steps one by one to a CollapseMesh and compares the result.
-void expect_steps(const BlockInput& input, const BlockSteps& found, const CompactedMesh& compacted) {
-    CollapseMesh collapse_mesh({input.positions.begin(), input.positions.end()},
-                               {input.triangles.begin(), input.triangles.end()});
-    std::vector<std::uint8_t> is_fixed(input.locked.begin(), input.locked.end());
-    for (const Triangle& t : input.triangles) {
-        if (!input.is_between_blocks(t)) continue;
-        for (const Index v : t) is_fixed[v] = 1;
-    }
+void expect_steps(const RoundInput& input, const RoundSteps& found, const CompactedMesh& left) {
+    CollapseMesh collapse_mesh(input.positions, input.triangles);
     expect(found.patch_begin.size() == found.steps.size(), "a patch for every step");
     for (std::size_t i = 0; i < found.steps.size(); ++i) {
         const auto& [survivor, gone, to] = found.steps[i];
         expect(survivor < input.positions.size() && gone < input.positions.size(), "slots in range");
         expect(collapse_mesh.degree(survivor) > 0 && collapse_mesh.degree(gone) > 0,
                "vertices that have not been removed");
-        expect(!is_fixed[gone], "locked vertices and vertices between blocks are not removed");
-        expect(!is_fixed[survivor] || to == collapse_mesh.position(survivor), "locked vertices do not move");
+        expect(!input.locked[survivor] && !input.locked[gone], "locked vertices stay");
         expect(std::isfinite(to.squaredNorm()), "finite positions");
         std::vector<Index> patch;
         collapse_mesh.for_each_face_around(survivor, gone, [&](Index f, unsigned) { patch.push_back(f); });
@@ -103,64 +87,76 @@ void expect_steps(const BlockInput& input, const BlockSteps& found, const Compac
         expect(patch == recorded, "the patch of a step has the faces around its vertices");
         collapse_mesh.collapse(survivor, gone, to);
     }
-    expect(compacted.triangles.size() == collapse_mesh.face_count(), "the same number of faces");
-    expect(compacted.positions.size() == compacted.vertices.size() &&
-               compacted.source_slots.size() == compacted.vertices.size() &&
-               compacted.vertex_map.size() == input.positions.size() &&
-               compacted.faces.size() == compacted.triangles.size(),
+    expect(left.triangles.size() == collapse_mesh.face_count(), "the same number of faces");
+    expect(left.positions.size() == left.vertices.size() &&
+               left.source_slots.size() == left.vertices.size() &&
+               left.vertex_map.size() == input.positions.size() && left.faces.size() == left.triangles.size(),
            "arrays of matching sizes");
-    for (std::size_t f = 0; f < compacted.faces.size(); ++f) {
-        expect(collapse_mesh.is_alive(compacted.faces[f]), "faces that have not been removed");
+    for (std::size_t f = 0; f < left.faces.size(); ++f) {
+        expect(collapse_mesh.is_alive(left.faces[f]), "faces that have not been removed");
         for (std::size_t k = 0; k < 3; ++k) {
-            const Index v = compacted.triangles[f][k];
-            expect(v < compacted.vertices.size(), "vertices in range");
-            expect(compacted.vertices[v] == collapse_mesh.triangle(compacted.faces[f])[k],
-                   "the same corners");
-            expect(compacted.positions[v] == collapse_mesh.position(compacted.vertices[v]),
-                   "the same positions");
+            const Index v = left.triangles[f][k];
+            expect(v < left.vertices.size(), "vertices in range");
+            expect(left.vertices[v] == collapse_mesh.triangle(left.faces[f])[k], "the same corners");
+            expect(left.positions[v] == collapse_mesh.position(left.vertices[v]), "the same positions");
         }
     }
-    for (const Index v : compacted.vertex_map)
-        expect(v == no_index || v < compacted.vertices.size(), "vertex map in range");
+    for (const Index v : left.vertex_map)
+        expect(v == no_index || v < left.vertices.size(), "vertex map in range");
 }
 
-bool same_steps(const BlockSteps& a, const BlockSteps& b) {
+bool same_steps(const RoundSteps& a, const RoundSteps& b) {
     return std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(),
-                      [](const BlockStep& x, const BlockStep& y) {
+                      [](const RoundStep& x, const RoundStep& y) {
                           return x.survivor == y.survivor && x.gone == y.gone && x.to == y.to;
                       }) &&
-           a.patch_faces == b.patch_faces && a.patch_begin == b.patch_begin && a.refusals == b.refusals &&
-           a.rungs == b.rungs;
+           a.patch_faces == b.patch_faces && a.patch_begin == b.patch_begin && a.refusals == b.refusals;
 }
 
-/// One round of block decimation as in simplify(), with checks.
-void reduce_in_blocks(RunState& state, const engine::LoopOptions& loop, std::size_t per_block,
-                      std::size_t least, const BlockTracking* tracking) {
-    const BlockInput input{state.mesh().positions, state.mesh().triangles, state.locked(), per_block};
-    const auto steps = [&](std::uint32_t threads) {
-        return simplify_in_blocks(input, loop, least, tracking, Recording::on, threads);
+/// Rounds on one thread and on more, with checks.
+void reduce_in_rounds(RunState& state, std::size_t least, const RoundTracking* tracking) {
+    const auto reduce = [&](std::uint32_t threads, auto&& check) {
+        std::vector<engine::Vector3> positions = state.mesh().positions;
+        std::vector<Triangle> triangles = state.mesh().triangles;
+        std::vector<Links> links;
+        RoundSteps found;
+        std::optional<CompactedMesh> left = simplify_in_rounds(
+            {positions, triangles, links, state.locked(), {}, nullptr, Recording::on, tracking}, least,
+            Recording::on, threads, found);
+        if (left) check(found, *left);
+        return left;
     };
-    const BlockSteps found = steps(1);
-    for (const std::uint32_t threads : {2u, 3u})
-        expect(same_steps(found, steps(threads)), "the same steps with any number of threads");
-    CompactedMesh compacted = apply_steps(input, found.steps);
-    expect_steps(input, found, compacted);
-    expect(found.steps.empty() || compacted.triangles.size() >= least,
-           "at least the requested number of faces");
-    if (loop.rules.link == LinkCondition::on && is_closed_manifold(input.triangles)) {
-        expect(is_closed_manifold(compacted.triangles), "a closed manifold stays one");
-        expect(euler(compacted.triangles) == euler(input.triangles), "the same topology");
+    RoundSteps one;
+    std::optional<CompactedMesh> left = reduce(1, [&](RoundSteps& found, const CompactedMesh& found_left) {
+        one = std::move(found);
+        std::vector<engine::Vector3> positions = state.mesh().positions;
+        std::vector<Triangle> triangles = state.mesh().triangles;
+        std::vector<Links> links;
+        expect_steps({positions, triangles, links, state.locked()}, one, found_left);
+    });
+    if (!left) return;
+    for (const std::uint32_t threads : {2u, 3u}) {
+        reduce(threads, [&](const RoundSteps& found, const CompactedMesh& found_left) {
+            expect(same_steps(one, found) && left->bound_faces == found_left.bound_faces,
+                   "the same steps with any number of threads");
+        });
     }
-    state.advance_to(std::move(compacted));
+    expect(left->triangles.size() >= least, "at least the requested number of faces");
+    for (const Index f : left->bound_faces)
+        expect(f == no_index || f < left->triangles.size(), "faces in range");
+    if (is_closed_manifold(state.mesh().triangles)) {
+        expect(is_closed_manifold(left->triangles), "a closed manifold stays one");
+        expect(euler(left->triangles) == euler(state.mesh().triangles), "the same topology");
+    }
+    state.advance_to(std::move(*left));
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::Input in(fuzz::Bytes(data, size));
-    // In smaller blocks all vertices would be between blocks.
-    const std::size_t per_block = 40u + in.byte() % 160;
     const double share = (1 + in.byte()) / 512.0;
+    const double weight = in.byte() / 16.0;
     const std::uint8_t bits = in.byte();
     const TriangleMesh mesh = surface_of(in);
     try {
@@ -170,13 +166,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             for (std::uint8_t& l : locked) l = in.byte() < 32;
         RunState state(prepared, locked, bits & 2 ? Boundary::locked : Boundary::free);
         state.track_original();
-        const engine::LoopOptions loop = loop_of(in, state);
-        const auto least = [&] {
-            return static_cast<std::size_t>(share * static_cast<double>(state.mesh().triangles.size()));
+        const auto least = [&](double of) {
+            return static_cast<std::size_t>(of * static_cast<double>(state.mesh().triangles.size()));
         };
-        if (!(bits & 4)) reduce_in_blocks(state, loop, per_block, least(), nullptr);
-        const BlockTracking tracking{*state.original(), state.vertex_map()};
-        reduce_in_blocks(state, loop, per_block, least(), &tracking);
+        if (!(bits & 4)) reduce_in_rounds(state, least(std::sqrt(share)), nullptr);
+        const RoundTracking tracking{state.original(), state.vertex_map(), least(bits & 8 ? 1 : 0.5), weight};
+        reduce_in_rounds(state, least(share), &tracking);
     } catch (const InputError&) {
     }
     return 0;
