@@ -125,12 +125,6 @@ inline constexpr double tie_tolerance = 1e-9;
 /// Number of the tracker of the original's vertices in for_each_tracker().
 inline constexpr std::size_t reference_vertex_tracker = 3;
 
-/// Number of triangles without no_index corners.
-inline std::size_t face_count(std::span<const Triangle> triangles) {
-    return static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(),
-                                                  [](const Triangle& t) { return t[0] != no_index; }));
-}
-
 /// Updates a tracker. Residuals longer than a fraction of the longest are searched globally; 1: none.
 template <class Tracker>
 void move(Tracker& tracker, std::span<const Vector3> positions, double searched_share,

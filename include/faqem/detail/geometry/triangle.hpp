@@ -106,6 +106,12 @@ inline ClosestPoint closest_point_on_triangle(const Vector3& p, const Vector3& a
     return inside.distance_squared < edge.distance_squared ? inside : edge;
 }
 
+/// Number of triangles without no_index corners.
+inline std::size_t face_count(std::span<const Triangle> triangles) {
+    return static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(),
+                                                  [](const Triangle& t) { return t[0] != no_index; }));
+}
+
 /// Is the triangle too flat to have a normal: height at most 1e-12 of its longest edge?
 inline bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     // Halved, then scaled to about 1: no difference and no square leaves the range of a double.

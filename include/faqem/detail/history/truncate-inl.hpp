@@ -108,8 +108,7 @@ inline bool is_within_contraction(const CollapseHistory& h, std::size_t k,
 inline HistoryLength length_at_face_count(const CollapseHistory& h, std::uint64_t faces) {
     const Index made = static_cast<Index>(h.positions.size());
     std::vector<Triangle> corners = h.triangles;
-    std::size_t left = static_cast<std::size_t>(
-        std::count_if(corners.begin(), corners.end(), [](const Triangle& t) { return t[0] != no_index; }));
+    std::size_t left = face_count(corners);
     const auto remove = [&](Index f) {
         if (corners[f][0] == no_index) return;
         corners[f][0] = no_index;
@@ -219,9 +218,7 @@ FAQEM_INLINE std::vector<CollapseHistory> truncate_to_faces(std::span<const Chai
     detail::check_same_count(parts);
     // Face count of a part. Level 0 is the original, level i + 1 is level i of the history.
     const auto faces_of = [](const ChainHistory& part, std::size_t level) -> std::uint64_t {
-        if (level > 0) return detail::faces_at_level(part, level - 1);
-        return static_cast<std::uint64_t>(
-            std::ranges::count_if(part.last.triangles, [](const Triangle& t) { return t[0] != no_index; }));
+        return level > 0 ? detail::faces_at_level(part, level - 1) : detail::face_count(part.last.triangles);
     };
     const auto faces_of_all = [&](std::size_t level) {
         std::uint64_t sum = 0;
