@@ -10,7 +10,6 @@
 #include <array>
 #include <bit>
 #include <charconv>
-#include <compare>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -25,13 +24,6 @@ namespace std {  // NOLINT(cert-dcl58-cpp): the names are those of the standard
 template <class To, class From>
 constexpr To bit_cast(const From& from) noexcept {
     return __builtin_bit_cast(To, from);
-}
-
-template <class T, size_t size>
-constexpr auto operator<=>(const array<T, size>& a, const array<T, size>& b) -> decltype(a[0] <=> b[0]) {
-    for (size_t i = 0; i < size; ++i)
-        if (const auto order = a[i] <=> b[i]; order != 0) return order;
-    return strong_ordering::equal;
 }
 
 namespace ranges {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <compare>
+#include <utility>
 #include <vector>
 
 #include "faqem/compare.hpp"
@@ -17,22 +17,18 @@ namespace detail {
 
 /// For each vertex, the smallest index of a vertex at the same position (-0 equals 0).
 inline std::vector<Index> weld_equal(const MeshView& mesh) {
-    struct Key {
-        std::array<std::uint64_t, 3> bits;  // bit patterns, because NaN breaks the ordering of doubles
-        Index vertex;
-        auto operator<=>(const Key&) const = default;
-    };
-    std::vector<Key> keys(mesh.positions.size());
+    // Bit patterns of the coordinates, because NaN breaks the ordering of doubles, and the vertex.
+    std::vector<std::pair<std::array<std::uint64_t, 3>, Index>> keys(mesh.positions.size());
     for (std::size_t v = 0; v < keys.size(); ++v) {
         const Vec3 p = mesh.positions[v];
-        for (std::size_t k = 0; k < 3; ++k) keys[v].bits[k] = std::bit_cast<std::uint64_t>(p[k] + 0.0);
-        keys[v].vertex = static_cast<Index>(v);
+        for (std::size_t k = 0; k < 3; ++k) keys[v].first[k] = std::bit_cast<std::uint64_t>(p[k] + 0.0);
+        keys[v].second = static_cast<Index>(v);
     }
     std::sort(keys.begin(), keys.end());
     std::vector<Index> first(keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        const bool same = i > 0 && keys[i].bits == keys[i - 1].bits;
-        first[keys[i].vertex] = same ? first[keys[i - 1].vertex] : keys[i].vertex;
+        const bool same = i > 0 && keys[i].first == keys[i - 1].first;
+        first[keys[i].second] = same ? first[keys[i - 1].second] : keys[i].second;
     }
     return first;
 }
