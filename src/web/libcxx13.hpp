@@ -12,11 +12,8 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <iterator>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace std {  // NOLINT(cert-dcl58-cpp): the names are those of the standard
 
@@ -28,43 +25,9 @@ constexpr To bit_cast(const From& from) noexcept {
 
 namespace ranges {
 
-/// A comparison of what a projection makes of two values.
-template <class Compare, class Projection>
-auto compare_by(Compare& compare, Projection& projection) {
-    return [&](const auto& a, const auto& b) {
-        return invoke(compare, invoke(projection, a), invoke(projection, b));
-    };
-}
-
-#define FAQEM_WITH_COMPARISON(name)                                                            \
-    template <class Range, class Compare = less, class Projection = identity>                  \
-    constexpr auto name(Range&& range, Compare compare = {}, Projection projection = {}) {     \
-        return std::name(std::begin(range), std::end(range), compare_by(compare, projection)); \
-    }
-FAQEM_WITH_COMPARISON(sort)
-FAQEM_WITH_COMPARISON(stable_sort)
-FAQEM_WITH_COMPARISON(max_element)
-#undef FAQEM_WITH_COMPARISON
-
-template <class Range, class Test>
-constexpr bool any_of(Range&& range, Test test) {
-    return std::any_of(std::begin(range), std::end(range), test);
-}
-template <class Range, class Test>
-constexpr auto count_if(Range&& range, Test test) {
-    return std::count_if(std::begin(range), std::end(range), test);
-}
 template <class Range, class Value>
 constexpr auto find(Range&& range, const Value& value) {
     return std::find(std::begin(range), std::end(range), value);
-}
-template <class Range, class Value, class Compare = less, class Projection = identity>
-constexpr auto lower_bound(Range&& range, const Value& value, Compare compare = {},
-                           Projection projection = {}) {
-    return std::lower_bound(std::begin(range), std::end(range), value,
-                            [&](const auto& element, const Value& wanted) {
-                                return invoke(compare, invoke(projection, element), wanted);
-                            });
 }
 
 }  // namespace ranges

@@ -37,9 +37,10 @@ inline Bvh::Hit nearest(const Bvh& tree, const MeshRef& mesh, const Vector3& p, 
 }
 
 /// The corner of a face that is nearest to a point on its boundary, or `interior` if the point is on no edge.
-inline std::uint8_t nearest_corner(const Vec3& barycentric) {
-    if (std::min({barycentric[0], barycentric[1], barycentric[2]}) > edge_tolerance) return interior;
-    return static_cast<std::uint8_t>(std::ranges::max_element(barycentric) - barycentric.begin());
+/// \param weights  its barycentric coordinates
+inline std::uint8_t nearest_corner(const Vec3& weights) {
+    if (std::min({weights[0], weights[1], weights[2]}) > edge_tolerance) return interior;
+    return static_cast<std::uint8_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
 }
 
 /// Local closest-point search. Starting at face `last`, repeatedly moves to the closest face of the one-ring

@@ -122,12 +122,6 @@ private:
                 max_squared_distance_ = std::max(max_squared_distance_, from->squared_distance(i));
     }
 
-    bool has_edge(Index v, Index w) const {
-        bool any = false;
-        for_each_face_at_edge(v, w, [&](const Halfedge&) { any = true; });
-        return any;
-    }
-
     std::vector<Candidate> find_candidates() const {
         std::vector<Candidate> all;
         for_each_edge(halfedges_, [&](std::span<const Halfedge> on) {
@@ -137,7 +131,8 @@ private:
             if (!simplified_.groups.empty() && simplified_.groups[faces[0]] != simplified_.groups[faces[1]])
                 return;
             const auto q = quadrilateral(simplified_.triangles[faces[0]], simplified_.triangles[faces[1]]);
-            if (q && !has_edge(q->c, q->d) && is_valid_flip(*q)) all.push_back({faces, *q, {}, {}});
+            if (q && halfedges_between(q->c, q->d).empty() && is_valid_flip(*q))
+                all.push_back({faces, *q, {}, {}});
         });
         return all;
     }
@@ -160,19 +155,19 @@ private:
     /// Whether a new face on the edge vw is folded over an existing face at that edge.
     /// \param area  area vector of the new face
     bool makes_fold(Index v, Index w, const Vector3& area) const {
-        bool any = false;
-        for_each_face_at_edge(v, w, [&](const Halfedge& halfedge) {
+        for (const Halfedge& halfedge : halfedges_between(v, w)) {
             const Vector3 n = area_vector(simplified_.triangles[halfedge.face]);
-            any |= n.dot(area) < min_flip_fold_cosine * n.norm() * area.norm();
-        });
-        return any;
+            if (n.dot(area) < min_flip_fold_cosine * n.norm() * area.norm()) return true;
+        }
+        return false;
     }
 
-    template <class Visit>
-    void for_each_face_at_edge(Index v, Index w, Visit&& visit) const {
-        const std::uint64_t edge = Halfedge{std::min(v, w), std::max(v, w)}.edge();
-        auto halfedge = std::ranges::lower_bound(halfedges_, edge, {}, &Halfedge::edge);
-        for (; halfedge != halfedges_.end() && halfedge->edge() == edge; ++halfedge) visit(*halfedge);
+    std::span<const Halfedge> halfedges_between(Index v, Index w) const {
+        const Halfedge* all = halfedges_.data();
+        const auto [begin, end] =
+            std::equal_range(all, all + halfedges_.size(), Halfedge{std::min(v, w), std::max(v, w)},
+                             [](const Halfedge& a, const Halfedge& b) { return a.edge() < b.edge(); });
+        return {begin, end};
     }
 
     /// Adds the distances from the points of the original whose closest face is one of the two.
@@ -253,7 +248,8 @@ private:
     /// Selects independent flips greedily, by decreasing gain.
     std::vector<EdgeFlip> select_independent(std::vector<Candidate>& candidates) const {
         std::erase_if(candidates, [](const Candidate& c) { return !(c.gain > 0); });
-        std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::gain);
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
         std::vector<EdgeFlip> chosen;
         std::vector<std::uint8_t> flipped(simplified_.triangles.size(), 0);
         std::set<std::pair<Index, Index>> made;
@@ -263,8 +259,7 @@ private:
             bool is_free = true;
             for (const auto& [v, w] : {std::pair(q.a, q.b), std::pair(q.b, q.c), std::pair(q.c, q.a),
                                        std::pair(q.a, q.d), std::pair(q.d, q.b)}) {
-                for_each_face_at_edge(v, w,
-                                      [&](const Halfedge& halfedge) { is_free &= !flipped[halfedge.face]; });
+                for (const Halfedge& halfedge : halfedges_between(v, w)) is_free &= !flipped[halfedge.face];
             }
             if (!is_free || !made.insert(std::minmax(q.c, q.d)).second) continue;
             for (const Index f : c.faces) flipped[f] = 1;

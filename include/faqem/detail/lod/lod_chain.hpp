@@ -44,17 +44,17 @@ struct Attempt : Result {
 template <class Out, class Run, class Measure>
 class LodChain {
 public:
-    LodChain(std::span<const LevelTarget> level_targets, const Options& options, const RunContext& context,
+    LodChain(std::span<const LevelTarget> levels, const Options& options, const RunContext& context,
              std::uint64_t faces, Run& run, Measure& measure, const RunWithin<decltype(Out::result)>& within)
-        : level_targets_(level_targets),
+        : level_targets_(levels),
           options_(options),
           context_(context),
           faces_(faces),
           run_(run),
           measure_(measure),
           within_(within),
-          steps_(1 + static_cast<double>(std::ranges::count_if(level_targets, is_distance))),
-          out_(level_targets.size()) {}
+          steps_(1 + static_cast<double>(std::count_if(levels.begin(), levels.end(), is_distance))),
+          out_(levels.size()) {}
 
     std::vector<Out> simplify() {
         for (std::size_t i = 0; i < level_targets_.size(); ++i) {

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <string>
 
@@ -49,8 +48,7 @@ FAQEM_INLINE FaceComponents face_components(const PositionView& positions, Trian
     engine::UnionFind joined(copy.size());
     for (std::size_t f = 0; f < triangles.size(); ++f) {
         const Triangle t = triangles[f];
-        joined.unite(representative[t[0]], representative[t[1]]);
-        joined.unite(representative[t[0]], representative[t[2]]);
+        for (const Index v : {t[1], t[2]}) joined.unite(representative[t[0]], representative[v]);
     }
     FaceComponents found;
     std::vector<Index> number(copy.size(), no_index);
@@ -81,8 +79,9 @@ FAQEM_INLINE FoundComponents removed_components(std::span<const PlacedFace> face
             {c,
              {"", size.faces, size.area / all, to_array(4 * size.box.min()), to_array(4 * size.box.max())}});
     }
-    std::ranges::stable_sort(found.visible, std::greater(),
-                             [](const FoundComponent& component) { return component.removed.area_share; });
+    std::stable_sort(found.visible.begin(), found.visible.end(), [](const auto& a, const auto& b) {
+        return a.removed.area_share > b.removed.area_share;
+    });
     return found;
 }
 

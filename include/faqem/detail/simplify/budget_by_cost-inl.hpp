@@ -43,17 +43,15 @@ inline bool is_flat(const CostCurve::Step& step) {
 // Takes the cheapest reductions of all meshes until `sum` is at most `face_budget`.
 inline void take_cheapest(std::vector<Reduction> reductions, std::uint64_t face_budget,
                           std::vector<std::uint64_t>& share, std::uint64_t& sum) {
-    std::ranges::stable_sort(reductions, {}, &Reduction::cost);
+    std::stable_sort(reductions.begin(), reductions.end(),
+                     [](const Reduction& a, const Reduction& b) { return a.cost < b.cost; });
     for (const Reduction& reduction : reductions) {
         if (sum <= face_budget) break;
         std::uint64_t& faces = share[reduction.mesh];
-        sum -= faces - reduction.faces;
-        faces = reduction.faces;
         // The last reduction may remove more faces than necessary: its mesh gets the remaining budget.
-        if (sum < face_budget) {
-            faces += face_budget - sum;
-            sum = face_budget;
-        }
+        const std::uint64_t removed = std::min(faces - reduction.faces, sum - face_budget);
+        faces -= removed;
+        sum -= removed;
     }
 }
 

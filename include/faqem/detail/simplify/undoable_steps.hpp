@@ -42,7 +42,7 @@ public:
         for (Index i = 0; i < steps_.size(); ++i) {
             const std::size_t end = i + 1 < steps_.size() ? steps_[i + 1].first_face : faces_.size();
             const auto around = std::span(faces_).subspan(steps_[i].first_face, end - steps_[i].first_face);
-            if (std::ranges::any_of(around, [&](Index f) { return is_older[f] != 0; })) is_undone_[i] = 1;
+            for (const Index f : around) is_undone_[i] |= is_older[f];
             if (is_undone_[i]) {
                 for (const Index f : around) is_older[f] = 1;
             } else {

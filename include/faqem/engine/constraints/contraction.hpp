@@ -79,7 +79,8 @@ public:
         if (vertices_.size() > max_vertices) return Refusal::link;
         if (vanishing_.size() + degenerate >= mesh.face_count()) return Refusal::last_faces;
         const auto is_locked = [&](Index v) { return locked[v] != 0; };
-        if (remaining_.empty() && std::ranges::any_of(vertices_, is_locked)) return Refusal::locked;
+        if (remaining_.empty() && std::any_of(vertices_.begin(), vertices_.end(), is_locked))
+            return Refusal::locked;
         for (const Index w : corners_)
             if (is_locked(w) && loses_all_faces(mesh, w)) return Refusal::locked;
         return std::nullopt;
@@ -99,10 +100,9 @@ public:
     /// \throws Cancelled  if `collapse` does, but not before the whole set is contracted
     template <class Collapse>
     void apply(const CollapseMesh& mesh, const PairTable& pairs, Index fixed, Collapse&& collapse) const {
+        const auto has_fewer = [&](Index v, Index w) { return mesh.degree(v) < mesh.degree(w); };
         const Index survivor =
-            fixed != no_index
-                ? fixed
-                : *std::ranges::max_element(vertices_, {}, [&](Index v) { return mesh.degree(v); });
+            fixed != no_index ? fixed : *std::max_element(vertices_.begin(), vertices_.end(), has_fewer);
         std::optional<Cancelled> stopped;
         while (true) {
             Neighbour inner;
@@ -207,10 +207,9 @@ private:
 
     // Moves pairs of faces with the same corners from remaining_ to flaps_.
     void separate_flaps() {
-        const auto key = [](const RemainingFace& r) {
-            return std::array{std::min(r.a, r.b), std::max(r.a, r.b), r.face};
-        };
-        std::ranges::sort(remaining_, {}, key);
+        const auto key = [](const RemainingFace& r) { return std::pair(std::minmax(r.a, r.b), r.face); };
+        std::sort(remaining_.begin(), remaining_.end(),
+                  [&](const RemainingFace& r, const RemainingFace& s) { return key(r) < key(s); });
         flaps_.clear();
         std::size_t kept = 0;
         for (std::size_t i = 0; i < remaining_.size(); ++i) {

@@ -121,7 +121,7 @@ private:
 
     bool has_other_group(const CollapseMesh& mesh, Index v) const {
         return !mesh.all_of_faces(v, [&](Index f, unsigned) {
-            return std::ranges::find(shared_groups_, groups_[f]) != shared_groups_.end();
+            return std::count(shared_groups_.begin(), shared_groups_.end(), groups_[f]) > 0;
         });
     }
 

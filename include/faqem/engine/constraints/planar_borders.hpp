@@ -51,7 +51,7 @@ public:
         tolerance_ = 1e-6 * box.diagonal().norm();
         for_each_path(edges, [&](std::vector<Index>& path) { split(path); });
         // Lines come last: they replace the planes in which they lie.
-        std::ranges::stable_sort(chains_, {}, &Chain::is_line);
+        std::stable_partition(chains_.begin(), chains_.end(), [](const Chain& c) { return !c.is_line; });
         remove_parts_of_flat_surfaces();
         if (chains_.empty()) return result;
         result.at.assign(positions_.size(), no_index);
@@ -100,7 +100,8 @@ private:
         for (const auto& [a, b] : edges) ends.push_back({a, b}), ends.push_back({b, a});
         std::sort(ends.begin(), ends.end());
         const auto index = [&](Index a, Index b) {
-            return static_cast<std::size_t>(std::ranges::lower_bound(ends, std::array{a, b}) - ends.begin());
+            return static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end(), std::array{a, b}) -
+                                            ends.begin());
         };
         const auto continues = [&](Index v) { return index(v + 1, 0) - index(v, 0) == 2; };
         std::vector<bool> is_used(ends.size(), false);
@@ -126,8 +127,8 @@ private:
         double length = 0;
         for (std::size_t i = 1; i < path.size(); ++i) length += (at(path, i) - at(path, i - 1)).norm();
         const std::size_t vertices = path.size();
-        if (path.front() ==
-            path.back()) {  // starts with the last straight part of a plane, and ends with all of it
+        // A loop starts with the last straight part of a plane, and ends with all of it.
+        if (path.front() == path.back()) {
             const Growth first = grow(path, 0, most_axes);
             if (first.end + 1 < path.size()) {
                 const std::size_t start = first.last_turn;

@@ -141,7 +141,7 @@ private:
     bool has_unmatched(const CollapseMesh& mesh, Index v, Index Match::*side) const {
         return !mesh.all_of_faces(v, [&](Index f, unsigned corner) {
             const Index wedge = wedge_of_corner_[3 * std::size_t{f} + corner];
-            return std::ranges::any_of(matches_, [&](const Match& m) { return m.*side == wedge; });
+            return std::any_of(matches_.begin(), matches_.end(), [&](Match m) { return m.*side == wedge; });
         });
     }
 

@@ -70,12 +70,12 @@ inline std::vector<Component> removable_components(const CollapseMesh& mesh,
                                                    const ComponentSize& largest) {
     std::vector<Component> all = components(mesh);
     for (Component& c : all) {
-        const bool has_no_area =
-            std::all_of(c.faces.begin(), c.faces.end(), [&](Index f) { return is_degenerate(mesh, f); });
-        if (has_no_area) c.box = Eigen::AlignedBox3d(c.box.min());
+        if (std::all_of(c.faces.begin(), c.faces.end(), [&](Index f) { return is_degenerate(mesh, f); }))
+            c.box = Eigen::AlignedBox3d(c.box.min());
     }
     const auto diagonal = [](const Component& c) { return c.box.diagonal().norm(); };
-    std::ranges::stable_sort(all, {}, diagonal);
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Component& a, const Component& b) { return diagonal(a) < diagonal(b); });
     if (!all.empty()) all.pop_back();
     const auto has_locked = [&](Index f) {
         const Triangle& t = mesh.triangle(f);
