@@ -3,9 +3,8 @@
 #include "faqem/detail/simplify/preprocess.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <compare>
-#include <limits>
 #include <numeric>
 #include <string>
 
@@ -102,11 +101,6 @@ inline void restore_locked_positions(const MeshView& mesh, const std::vector<Vec
         if (mesh.vertex_locks[v]) out.positions[out.welded[v]] = positions[v];
 }
 
-inline void check_triangles(const MeshView& mesh) {
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-        check_indices(mesh.triangles[f], f, mesh.positions.size());
-}
-
 // Numbers the representatives in input order and maps the triangles to them.
 inline void apply_weld(const MeshView& mesh, const std::vector<Vec3>& positions,
                        const std::vector<Index>& representative, PreprocessedMesh& out) {
@@ -134,10 +128,8 @@ inline void drop_degenerate_faces(PreprocessedMesh& out) {
 // Removes faces that have the corners, winding and group of an earlier face, since they are invisible. Faces
 // with the same corners and opposite winding are kept.
 inline void drop_duplicate_faces(std::span<const Index> groups, PreprocessedMesh& out) {
-    struct FaceKey {
-        Index second, third, group, face;                  // corners that follow the smallest one
-        auto operator<=>(const FaceKey&) const = default;  // NOLINT(modernize-use-nullptr)
-    };
+    // The corners that follow the smallest one, the group and the index of a face.
+    using FaceKey = std::array<Index, 4>;
     std::vector<std::size_t> offset(out.positions.size() + 1, 0);
     const auto smallest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
     for (const Triangle& t : out.triangles)
@@ -156,8 +148,8 @@ inline void drop_duplicate_faces(std::span<const Index> groups, PreprocessedMesh
                   faces.begin() + static_cast<std::ptrdiff_t>(end));
         for (std::size_t i = begin + 1; i < end; ++i) {
             const FaceKey &a = faces[i - 1], &b = faces[i];
-            if (a.second != b.second || a.third != b.third || a.group != b.group) continue;
-            out.triangles[b.face] = dropped_face;
+            if (!std::equal(a.begin(), a.end() - 1, b.begin())) continue;
+            out.triangles[b.back()] = dropped_face;
             ++out.dropped_faces;
         }
         begin = end;
@@ -167,25 +159,15 @@ inline void drop_duplicate_faces(std::span<const Index> groups, PreprocessedMesh
 // Computes centre and scale from the bounding box of the referenced vertices. Extents are divided by 4 first,
 // so that the diagonal does not overflow even for the largest coordinates.
 inline void find_scale(double wanted_diagonal, PreprocessedMesh& out) {
-    Vec3 low, high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
+    Eigen::AlignedBox3d box;
     for (const Triangle& t : out.triangles) {
         if (is_dropped(t)) continue;
-        for (const Index v : t) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                low[i] = std::min(low[i], out.positions[v][i]);
-                high[i] = std::max(high[i], out.positions[v][i]);
-            }
-        }
+        for (const Index v : t) box.extend(to_eigen(out.positions[v]));
     }
-    if (!(low[0] <= high[0])) return;
-    double quarter[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-        out.centre[i] = 0.5 * low[i] + 0.5 * high[i];
-        quarter[i] = 0.25 * high[i] - 0.25 * low[i];
-    }
-    const double quarter_diagonal = portable_length(quarter[0], quarter[1], quarter[2]);
+    if (box.isEmpty()) return;
+    out.centre = to_array(Vector3(0.5 * box.min() + 0.5 * box.max()));
+    const Vector3 quarter = 0.25 * box.max() - 0.25 * box.min();
+    const double quarter_diagonal = portable_length(quarter.x(), quarter.y(), quarter.z());
     const double scale = 0.25 * wanted_diagonal / quarter_diagonal;
     if (std::isfinite(scale) && scale > 0) out.scale = scale;
 }
@@ -205,7 +187,8 @@ FAQEM_INLINE Vec3 PreprocessedMesh::to_model(const Vector3& p) const {
 FAQEM_INLINE PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,
                                          const RunContext& context) {
     check_sizes(mesh);
-    check_triangles(mesh);
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+        check_indices(mesh.triangles[f], f, mesh.positions.size());
     const std::vector<Vec3> positions = checked_positions(mesh.positions);
     PreprocessedMesh out;
     context.check_now();
