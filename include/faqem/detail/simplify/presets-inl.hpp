@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/options.hpp"
 
@@ -11,50 +9,31 @@ namespace detail {
 using engine::AreaTerm;
 using engine::BaseWeight;
 
-// Table 1 of the paper. Its terms have different units, so that their balance depends on the model size. The
-// weights were tuned on Thingi10K, whose models are in millimetres with diagonals near 100.
-inline Settings paper() {
-    const engine::CompositeWeights table{.base = BaseWeight::inverse_area,
-                                         .plane_area = 1,
-                                         .boundary = 500,
-                                         .normal = 0.01,
-                                         .area = 100,
-                                         .seam = 5000};
-    return {.weights = table, .diagonal = 100, .weld_distance = 1e-6};
-}
-
-inline Settings qem() { return {.link = LinkCondition::on}; }
-
-// Both terms have the unit of a squared area, so that their balance does not depend on the scale.
-inline Settings stmw() {
-    return {.weights = {.base = BaseWeight::area, .area = 1, .area_term = AreaTerm::before_placement}};
-}
-
-// Memoryless quadrics are computed from the current surface, so that small normal deviations of earlier
-// collapses are not penalised later. The flip test is therefore stricter than that of the paper.
-inline Settings fast() {
-    return {.quadric_policy = Settings::QuadricPolicy::memoryless,
+/// The settings of a preset without the options.
+inline Settings named(Preset preset) {
+    using Policy = Settings::QuadricPolicy;
+    if (preset == Preset::qem) return {.link = LinkCondition::on};
+    // Table 1 of the paper. Its terms have different units, so that their balance depends on the model size. The
+    // weights were tuned on Thingi10K, whose models are in millimetres with diagonals near 100.
+    if (preset == Preset::paper)
+        return {.weights = {.base = BaseWeight::inverse_area,
+                            .plane_area = 1,
+                            .boundary = 500,
+                            .normal = 0.01,
+                            .area = 100,
+                            .seam = 5000},
+                .diagonal = 100,
+                .weld_distance = 1e-6};
+    // Both terms have the unit of a squared area, so that their balance does not depend on the scale.
+    if (preset == Preset::stmw)
+        return {.weights = {.base = BaseWeight::area, .area = 1, .area_term = AreaTerm::before_placement}};
+    // Memoryless quadrics are computed from the current surface, so that small normal deviations of earlier
+    // collapses are not penalised later. The flip test is therefore stricter than that of the paper.
+    return {.quadric_policy = preset == Preset::fast ? Policy::memoryless : Policy::tracked,
             .link = LinkCondition::by_size,
+            .fit_vertices = preset == Preset::best,
             .min_fold_cosine = -0.9,
             .min_normal_cosine = 0.3};
-}
-
-inline Settings balanced() {
-    Settings s = fast();
-    s.quadric_policy = Settings::QuadricPolicy::tracked;
-    return s;
-}
-
-inline Settings best() {
-    Settings s = balanced();
-    s.fit_vertices = true;
-    return s;
-}
-
-inline Settings named(Preset preset) {
-    constexpr std::array all = {qem, paper, stmw, fast, balanced, best};  // in the order of the enumerators
-    static_assert(all.size() == all_presets.size());
-    return all[static_cast<std::size_t>(preset)]();
 }
 
 FAQEM_INLINE Settings settings(const Options& options) {
