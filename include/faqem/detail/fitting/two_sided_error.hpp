@@ -133,14 +133,6 @@ void move(Tracker& tracker, std::span<const Vector3> positions, double searched_
     if (searched_share < 1) tracker.search_farthest(searched_share, context);
 }
 
-/// Total surface area. O(faces)
-inline double area(const MeshRef& mesh) {
-    double twice = 0;
-    for (const Triangle& t : mesh.triangles)
-        if (t[0] != no_index) twice += area_vector(mesh.positions, t).norm();
-    return twice / 2;
-}
-
 inline TwoSidedError::TwoSidedError(const ReferenceSurface& original, std::span<const Triangle> triangles,
                                     std::span<const Vector3> positions, const RunContext& context)
     : original_(original),

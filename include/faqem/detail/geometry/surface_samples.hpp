@@ -25,6 +25,14 @@ inline Vector3 area_vector(std::span<const Vector3> positions, const Triangle& t
     return engine::area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
+/// Total surface area. O(faces)
+inline double area(const MeshRef& mesh) {
+    double twice = 0;
+    for (const Triangle& t : mesh.triangles)
+        if (t[0] != no_index) twice += area_vector(mesh.positions, t).norm();
+    return twice / 2;
+}
+
 /// Unit normal of each triangle; zero if it has no area or no_index corners.
 /// O(faces)
 std::vector<Vector3> unit_normals(const MeshRef& mesh);

@@ -87,14 +87,5 @@ FAQEM_INLINE MeshRef RunState::initial_surface() const {
     return {initial_positions_, initial_triangles_};
 }
 
-FAQEM_INLINE double RunState::area() const {
-    double sum = 0;
-    for (const Triangle& t : mesh_.triangles)
-        sum +=
-            0.5 *
-            engine::area_vector(mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]).norm();
-    return sum;
-}
-
 }  // namespace detail
 FAQEM_NAMESPACE_END

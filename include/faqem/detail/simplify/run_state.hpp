@@ -95,7 +95,7 @@ public:
     /// called
     MeshRef initial_surface() const;
     /// Area of the current surface. O(faces)
-    double area() const;
+    double area() const { return detail::area({mesh_.positions, mesh_.triangles}); }
 
 private:
     ReorderedMesh mesh_;
