@@ -12,7 +12,7 @@
 #include "faqem/detail/fitting/gauss_newton.hpp"
 #include "faqem/detail/fitting/two_sided_error.hpp"
 #include "faqem/detail/geometry/edge_flip.hpp"
-#include "faqem/detail/geometry/halfedges.hpp"
+#include "faqem/engine/mesh/boundary_edges.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -42,16 +42,6 @@ inline constexpr double max_distance_ratio = 0.998;
 /// If the squared maximum distance decreases by a factor f, the sums may increase by f to this power.
 inline constexpr double tradeoff_exponent = 0.15;
 
-/// For each vertex, whether it is on an edge with exactly one face.
-inline std::vector<std::uint8_t> boundary_vertices(std::span<const Triangle> triangles,
-                                                   std::size_t vertices) {
-    std::vector<std::uint8_t> is_boundary(vertices, 0);
-    for_each_edge(sorted_halfedges(triangles), [&](std::span<const Halfedge> on) {
-        if (on.size() == 1) is_boundary[on[0].low] = is_boundary[on[0].high] = 1;
-    });
-    return is_boundary;
-}
-
 /// Implementation of fit_vertices().
 class VertexFitting {
 public:
@@ -62,9 +52,10 @@ public:
           original_(original, context),
           triangles_(simplified.triangles.begin(), simplified.triangles.end()),
           positions_(simplified.positions.begin(), simplified.positions.end()),
-          fixed_(boundary_vertices(simplified.triangles, positions_.size())),
+          fixed_(fixed.begin(), fixed.end()),
           error_(original_, triangles_, positions_, context) {
-        for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] |= fixed[v];
+        for (const auto& [a, b] : engine::find_boundary_edges(triangles_, positions_.size()))
+            fixed_[a] = fixed_[b] = 1;
     }
 
     /// Takes Gauss-Newton steps on all vertices, and reverts those that do not improve the fit.
@@ -75,7 +66,7 @@ public:
         context_.check_now();
         deviations_ = error_.measure(positions_);
         const std::vector<FaceDeviation> first = deviations_;
-        const double before = max_squared_distance(first);
+        const double before = sum(first).max_squared_distance;
         for (int step = 0; step < steps; ++step) {
             move(gauss_newton_step(triangles_, error_.correspondences(), fixed_, power, context_));
             if (step + 1 < steps) error_.update_correspondences(positions_);
@@ -83,7 +74,7 @@ public:
         deviations_ = error_.measure(positions_);
         for (int round = 0; round < max_revert_rounds && revert(first, before); ++round)
             deviations_ = error_.measure(positions_);
-        if (!(max_squared_distance(deviations_) <= before)) {
+        if (!(sum(deviations_).max_squared_distance <= before)) {
             positions_ = start_;
             deviations_ = error_.measure(positions_);
         }
@@ -153,10 +144,6 @@ private:
         FaceDeviation all;
         for (const FaceDeviation& deviation : deviations) all.add(deviation);
         return all;
-    }
-
-    static double max_squared_distance(std::span<const FaceDeviation> deviations) {
-        return sum(deviations).max_squared_distance;
     }
 
     /// For each vertex, the total deviation of its faces.
