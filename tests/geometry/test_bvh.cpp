@@ -166,11 +166,11 @@ TEST_CASE("BVH: closest_if() ignores faces that the filter rejects") {
         for (Index f = 0; f < 400; ++f) {
             if (allowed(f)) best = std::min(best, soup.on(f, p).distance_squared);
         }
-        const Bvh::Hit hit = tree.closest_if(p, allowed);
+        const Bvh::Hit hit = tree.closest_if(p, [&](const Bvh::Corners& t) { return allowed(t.face); });
         CHECK(allowed(hit.face));
         CHECK(hit.distance_squared == best);
     }
-    CHECK(tree.closest_if(p, [](Index) { return false; }).face == no_index);
+    CHECK(tree.closest_if(p, [](const Bvh::Corners&) { return false; }).face == no_index);
 }
 
 TEST_CASE("BVH: closest_if() stops after the maximum number of rejections") {
@@ -180,12 +180,12 @@ TEST_CASE("BVH: closest_if() stops after the maximum number of rejections") {
     constexpr double anywhere = std::numeric_limits<double>::infinity();
     for (std::size_t max_rejections = 0; max_rejections < 40; ++max_rejections) {
         std::size_t calls = 0;
-        const auto reject_all = [&](Index) { return ++calls, false; };
+        const auto reject_all = [&](const Bvh::Corners&) { return ++calls, false; };
         CHECK(tree.closest_if(p, reject_all, anywhere, max_rejections).face == no_index);
         CHECK(calls == max_rejections);
     }
     const Index nearest = tree.closest(p).face;
-    const auto all_but_nearest = [&](Index f) { return f != nearest; };
+    const auto all_but_nearest = [&](const Bvh::Corners& t) { return t.face != nearest; };
     CHECK(tree.closest_if(p, all_but_nearest, anywhere, 2).distance_squared ==
           tree.closest_if(p, all_but_nearest).distance_squared);
 }

@@ -72,8 +72,9 @@ Bvh::Hit OntoMap::closest_facing(Index face, const Vector3& p, const Vector3& no
         if (at.distance_squared <= max_distance_squared_)
             known = {near->face, to_array(at.barycentric), to_array(at.point), at.distance_squared};
     }
-    const Bvh::Hit hit =
-        tree_.closest_if(to_array(p), faces_point, std::min(max_distance_squared_, known.distance_squared));
+    const Bvh::Hit hit = tree_.closest_if(
+        to_array(p), [&](const Bvh::Corners& t) { return faces_point(t.face); },
+        std::min(max_distance_squared_, known.distance_squared));
     return hit.face != no_index ? hit : known;
 }
 

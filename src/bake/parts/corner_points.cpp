@@ -92,7 +92,7 @@ private:
         SurfacePoint closest(const Vector3& p, const Filter& filter) const {
             constexpr std::size_t max_rejections = 512;  // as for SuccessiveProjection
             const Bvh::Hit hit = tree.closest_if(
-                to_array(p), [&](Index i) { return filter(faces[i]); },
+                to_array(p), [&](const Bvh::Corners& t) { return filter(faces[t.face]); },
                 std::numeric_limits<double>::infinity(), max_rejections);
             if (hit.face == no_index) return {};
             return {faces[hit.face], hit.barycentric, MapStep::history};

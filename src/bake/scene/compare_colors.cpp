@@ -81,7 +81,8 @@ void add_sample(ColorErrorSums& sums, const Model& from, const Model& to, const 
     const detail::LinearColor here = from.color(s.face, s.barycentric);
     if (from.masked_out(s.face, here[3])) return;
     const Vector3& normal = from.face_normals[s.face];
-    Bvh::Hit hit = to.tree.closest_if(s.point, [&](Index f) { return to.face_normals[f].dot(normal) > 0; });
+    const auto faces_here = [&](const Bvh::Corners& t) { return to.face_normals[t.face].dot(normal) > 0; };
+    Bvh::Hit hit = to.tree.closest_if(s.point, faces_here);
     if (hit.face == no_index) {
         hit = to.tree.closest(s.point);
         ++sums.unmatched;

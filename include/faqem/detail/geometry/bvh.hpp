@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "faqem/detail/geometry/triangle.hpp"
@@ -71,7 +70,7 @@ public:
     /// O(log n) typically
     Hit closest(const Vec3& p, double max_distance_squared = std::numeric_limits<double>::infinity()) const {
         return closest_if(
-            p, [](Index) { return true; }, max_distance_squared);
+            p, [](const Corners&) { return true; }, max_distance_squared);
     }
 
     /// Same as closest() without a limit, for callers that know a face near p. The nearer the face, the
@@ -87,9 +86,8 @@ public:
         return {face, to_array(near.barycentric), to_array(near.point), near.distance_squared};
     }
 
-    /// Same as closest(), restricted to the faces f for which filter(f) returns true.
-    /// \param filter          bool(Index face) or bool(const Corners&); called only for faces closer than the best
-    ///                        one so far
+    /// Same as closest(), restricted to the faces for which filter() returns true.
+    /// \param filter          bool(const Corners&); called only for faces closer than the best one so far
     /// \param max_rejections  after this many rejections by the filter, the best face so far is returned
     template <class Filter>
     Hit closest_if(const Vec3& p, Filter&& filter,
@@ -199,16 +197,8 @@ private:
     /// Converts a squared distance to the frame, rounded up.
     float limit_in_frame(double distance_squared) const;
 
-    template <class Filter>
-    static bool is_accepted_by(Filter& filter, const Corners& t) {
-        if constexpr (std::is_invocable_v<Filter&, const Corners&>)
-            return filter(t);
-        else
-            return filter(t.face);
-    }
-
-    /// Calls leaf(corners) or leaf(corners, squared distance of the box in the frame) for the triangles whose bounding
-    /// box is within the squared distance limit() of p, nearest box first. limit() is evaluated again after each call.
+    /// Calls leaf(corners, squared distance of the box in the frame) for the triangles whose bounding box is within the
+    /// squared distance limit() of p, nearest box first. limit() is evaluated again after each call.
     template <class Limit, class Leaf>
     void traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const;
 
@@ -229,10 +219,7 @@ void Bvh::traverse(const Vector3& p, Limit&& limit, Leaf&& leaf) const {
         const Pending top = stack[--size];
         if (!(top.distance_squared <= bound)) continue;
         if (top.child & leaf_bit) {
-            if constexpr (std::is_invocable_v<Leaf&, const Corners&, float>)
-                leaf(triangles_[top.child & ~leaf_bit], top.distance_squared);
-            else
-                leaf(triangles_[top.child & ~leaf_bit]);
+            leaf(triangles_[top.child & ~leaf_bit], top.distance_squared);
             bound = limit_in_frame(limit());
             continue;
         }
@@ -260,12 +247,12 @@ Bvh::Hit Bvh::closest_if(const Vec3& p, Filter&& filter, double max_distance_squ
     constexpr double stop_search = -1;
     traverse(
         query, [&] { return rejections < max_rejections ? best.distance_squared : stop_search; },
-        [&](const Corners& t) {
+        [&](const Corners& t, float) {
             const ClosestPoint hit = closest_point_on_triangle(query, t.a, t.b, t.c);
             const bool nearer = hit.distance_squared < best.distance_squared;
             if (!nearer && !(hit.distance_squared == best.distance_squared && t.face < face)) return;
             if (rejections == max_rejections) return;
-            if (!is_accepted_by(filter, t)) {
+            if (!filter(t)) {
                 ++rejections;
                 return;
             }
@@ -281,7 +268,7 @@ void Bvh::visit_within(const Vec3& p, double distance_squared, Visit&& visit) co
     const Vector3 query = to_eigen(p);
     traverse(
         query, [&] { return distance_squared; },
-        [&](const Corners& t) {
+        [&](const Corners& t, float) {
             const ClosestPoint hit = closest_point_on_triangle(query, t.a, t.b, t.c);
             if (hit.distance_squared <= distance_squared) visit(t.face, hit);
         });

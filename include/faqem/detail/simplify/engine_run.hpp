@@ -35,7 +35,7 @@ using engine::RunContext;
 // Whether a point is within a distance of a surface. Ends at the first near face, which need not be the nearest.
 inline bool is_near(const Bvh& tree, const Vector3& p, double distance) {
     bool any = false;
-    const auto reject = [&](Index) { return !(any = true); };
+    const auto reject = [&](const Bvh::Corners&) { return !(any = true); };
     tree.closest_if(to_array(p), reject, distance * distance, 1);
     return any;
 }
