@@ -14,8 +14,6 @@
 
 FAQEM_NAMESPACE_BEGIN
 
-namespace detail {}  // namespace detail
-
 FAQEM_INLINE std::vector<Index> vertex_map(const CollapseHistory& history) {
     const std::vector<Index> last = detail::final_versions(history);
     std::vector<Index> number(last.size(), no_index);

@@ -57,15 +57,6 @@ struct ReplayTables {
     bool has_entries(const CollapseHistory& history, std::size_t patch) const {
         return first_entry(history, patch) != first_entry(history, patch + 1);
     }
-
-    /// Position of a point of the simplified mesh.
-    /// \param face         face of the simplified mesh
-    /// \param barycentric  weights of its three corners
-    Vector3 position_on(Index face, const Vec3& barycentric) const {
-        Vector3 p = Vector3::Zero();
-        for (std::size_t i = 0; i < 3; ++i) p += barycentric[i] * to_eigen(corner_positions[face][i]);
-        return p;
-    }
 };
 
 /// Computes all tables except those that describe_patches() adds.

@@ -94,7 +94,7 @@ FAQEM_INLINE SuccessiveProjection::Query SuccessiveProjection::make_query(Index 
     query.corners = replay_.corner_versions[face];
     const std::array<Vec3, 3>& positions = replay_.corner_positions[face];
     const Vector3 a = to_eigen(positions[0]), b = to_eigen(positions[1]), c = to_eigen(positions[2]);
-    query.p0 = replay_.position_on(face, barycentric);
+    query.p0 = position_on(face, barycentric);
     const Vector3 n = engine::area_vector(a, b, c);
     const double length = n.norm();
     query.n0 = length > 0 ? Vector3(n / length) : Vector3::Zero();
@@ -344,7 +344,7 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3&
                                                          const SurfacePoint& near, const NearTriangles& faces,
                                                          Recent& recent) const {
     const std::optional<NearTriangles::Hit> hit =
-        faces.closest(replay_.position_on(face, barycentric), recent.search);
+        faces.closest(position_on(face, barycentric), recent.search);
     if (!hit) {
         recent.face = no_index, recent.is_preimage = false;
         return map_near(face, barycentric, near);
@@ -365,7 +365,7 @@ FAQEM_INLINE SurfacePoint SuccessiveProjection::map_near(Index face, const Vec3&
 FAQEM_INLINE std::optional<SurfacePoint> SuccessiveProjection::map_to_same(
     Index face, const Vec3& barycentric, MapStep step, const NearTriangles& faces, Recent& recent) const {
     if (!recent.is_preimage) return std::nullopt;
-    const std::optional<Vec3> at = faces.projection(replay_.position_on(face, barycentric), recent.search);
+    const std::optional<Vec3> at = faces.projection(position_on(face, barycentric), recent.search);
     if (!at) return std::nullopt;
     return SurfacePoint{recent.face, *at, step};
 }

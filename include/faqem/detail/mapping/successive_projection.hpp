@@ -101,7 +101,9 @@ public:
     /// \param face         face of the simplified mesh
     /// \param barycentric  weights of its three corners
     Vector3 position_on(Index face, const Vec3& barycentric) const {
-        return replay_.position_on(face, barycentric);
+        Vector3 p = Vector3::Zero();
+        for (std::size_t i = 0; i < 3; ++i) p += barycentric[i] * to_eigen(replay_.corner_positions[face][i]);
+        return p;
     }
 
 private:
