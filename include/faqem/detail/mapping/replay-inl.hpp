@@ -5,63 +5,33 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "faqem/detail/geometry/edge_flip.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
-struct PatchEdge {
-    std::uint64_t key;
-    std::size_t entry;  // within the patch
-    bool operator<(const PatchEdge& o) const { return key != o.key ? key < o.key : entry < o.entry; }
-};
 
-// Labels the connected components of patches; reuses its buffers.
-struct ComponentLabeller {
-    std::vector<PatchEdge> edges;
-    std::vector<std::size_t> parent;
-
-    std::size_t root(std::size_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
+// Numbers the connected components of a patch 0, 1, ... (at most 255) in the order of their first faces,
+// see ReplayTables::patch_component.
+// corners: per face of the patch; surface_patch(e): surface patch of face e of the patch
+template <class PatchId>
+void label_components(std::span<const Triangle> corners, PatchId&& surface_patch,
+                      std::span<std::uint8_t> labels) {
+    engine::UnionFind joined(corners.size());
+    for_each_edge(sorted_halfedges(corners), [&](std::span<const Halfedge> on) {
+        for_each_connected_pair(
+            on.size(), [&](std::size_t i) { return surface_patch(on[i].face); },
+            [&](std::size_t i, std::size_t j) { joined.unite(on[i].face, on[j].face); });
+    });
+    std::uint8_t next = 0;
+    for (Index e = 0; e < corners.size(); ++e) {
+        const Index first = joined.find(e);  // <= e
+        labels[e] = first == e ? next : labels[first];
+        if (first == e && next < 255) ++next;
     }
-
-    // Numbers the connected components of a patch 0, 1, ... (at most 255) in the order of their first faces,
-    // see ReplayTables::patch_component.
-    // corners: per face of the patch; surface_patch(e): surface patch of face e of the patch
-    template <class PatchId>
-    void label(std::span<const Triangle> corners, PatchId&& surface_patch, std::span<std::uint8_t> labels) {
-        edges.clear();
-        parent.resize(corners.size());
-        std::iota(parent.begin(), parent.end(), std::size_t{0});
-        for (std::size_t e = 0; e < corners.size(); ++e) {
-            for (int c = 0; c < 3; ++c) {
-                const Index a = corners[e][c], b = corners[e][(c + 1) % 3];
-                edges.push_back({(std::uint64_t{std::min(a, b)} << 32) | std::max(a, b), e});
-            }
-        }
-        std::sort(edges.begin(), edges.end());
-        for (std::size_t i = 0, end; i < edges.size(); i = end) {
-            for (end = i + 1; end < edges.size() && edges[end].key == edges[i].key;) ++end;
-            const auto surface_patch_of_halfedge = [&](std::size_t k) {
-                return surface_patch(edges[i + k].entry);
-            };
-            for_each_connected_pair(
-                end - i, surface_patch_of_halfedge, [&](std::size_t first, std::size_t second) {
-                    const std::size_t a = root(edges[i + first].entry), b = root(edges[i + second].entry);
-                    parent[std::max(a, b)] = std::min(a, b);
-                });
-        }
-        std::uint8_t next = 0;
-        for (std::size_t e = 0; e < corners.size(); ++e) {
-            const std::size_t r = root(e);  // r <= e
-            labels[e] = r == e ? next : labels[r];
-            if (r == e && next < 255) ++next;
-        }
-    }
-};
+}
 
 inline double distance(const Vec3& a, const Vec3& b) {
     const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
@@ -181,7 +151,6 @@ FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<con
     replay.patch_component.resize(replay.corners.size());
     replay.mean_edge.resize(history.patch_count());
     parallel_blocks(history.patch_count(), 1024, context, [&](std::size_t first, std::size_t last) {
-        ComponentLabeller component_labeller;
         for (std::size_t k = first; k < last; ++k) {
             const std::uint64_t begin = replay.first_entry(history, k),
                                 size = replay.first_entry(history, k + 1) - begin;
@@ -189,8 +158,7 @@ FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<con
             for (std::size_t e = 0; e < size; ++e)
                 replay.bounds[begin + e] = bounding_sphere(replay.positions, corners[e]);
             const auto surface_patch = [&](std::size_t e) { return surface_patches[history.patch(k)[e]]; };
-            component_labeller.label(corners, surface_patch,
-                                     std::span(replay.patch_component).subspan(begin, size));
+            label_components(corners, surface_patch, std::span(replay.patch_component).subspan(begin, size));
             replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
         }
     });
