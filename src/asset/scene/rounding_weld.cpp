@@ -102,9 +102,10 @@ private:
     }
     Index* head_of(Level& level, const Vec3& cell) {
         // Integers have few digits in binary, of which the hash needs many.
-        Vec3 key = engine::weld_detail::without_negative_zero(cell);
-        for (double& x : key) x *= 1.6180339887498949;
-        return level.table.find(key, [&](Index j) { return cell_of(points_[j], level.size) == cell; });
+        Vec3 spread = cell;
+        for (double& x : spread) x *= 1.6180339887498949;
+        return level.table.find(engine::weld_detail::key_of(spread),
+                                [&](Index j) { return cell_of(points_[j], level.size) == cell; });
     }
 
     const std::vector<Vec3>& points_;

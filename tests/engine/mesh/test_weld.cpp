@@ -37,13 +37,14 @@ Indices naive(const std::vector<Vec3>& positions, double reach) {
 
 TEST_CASE("welding maps equal positions, and no others, to the first vertex") {
     const double next = std::nextafter(1.0, 2.0);
-    CHECK(weld_exact({{1, 2, 3}, {3, 2, 1}, {1, 2, 3}, {next, 2, 3}, {3, 2, 1}, {1, 2, 3}}) ==
-          Indices{0, 1, 0, 3, 1, 0});
+    const std::vector<Vec3> all = {{1, 2, 3}, {3, 2, 1}, {1, 2, 3}, {next, 2, 3}, {3, 2, 1}, {1, 2, 3}};
+    CHECK(weld_exact(all) == Indices{0, 1, 0, 3, 1, 0});
     CHECK(weld_exact({}).empty());
 }
 
 TEST_CASE("welding treats minus zero as zero") {
-    CHECK(weld_exact({{0, 0, 0}, {-0.0, 0, -0.0}, {1, -0.0, 0}, {1, 0, 0}}) == Indices{0, 0, 2, 2});
+    const std::vector<Vec3> all = {{0, 0, 0}, {-0.0, 0, -0.0}, {1, -0.0, 0}, {1, 0, 0}};
+    CHECK(weld_exact(all) == Indices{0, 0, 2, 2});
     CHECK(weld_within({{0, 0, 0}, {-0.0, 0, -0.0}}, 0) == Indices{0, 0});
     CHECK(weld_within({{-0.0, 0, 0}, {0, 0, -0.0}}, 1e-6) == Indices{0, 0});
 }

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
-#include <utility>
 #include <vector>
 
 #include "faqem/compare.hpp"
 #include "faqem/detail/base/vector.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
 #include "faqem/export.hpp"
 
@@ -15,29 +14,11 @@ FAQEM_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// For each vertex, the smallest index of a vertex at the same position (-0 equals 0).
-inline std::vector<Index> weld_equal(const MeshView& mesh) {
-    // Bit patterns of the coordinates, because NaN breaks the ordering of doubles, and the vertex.
-    std::vector<std::pair<std::array<std::uint64_t, 3>, Index>> keys(mesh.positions.size());
-    for (std::size_t v = 0; v < keys.size(); ++v) {
-        const Vec3 p = mesh.positions[v];
-        for (std::size_t k = 0; k < 3; ++k) keys[v].first[k] = std::bit_cast<std::uint64_t>(p[k] + 0.0);
-        keys[v].second = static_cast<Index>(v);
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<Index> first(keys.size());
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const bool same = i > 0 && keys[i].first == keys[i - 1].first;
-        first[keys[i].second] = same ? first[keys[i - 1].second] : keys[i].second;
-    }
-    return first;
-}
-
 /// The faces with three different welded vertices. Stores their number and that of degenerate faces in
 /// `result`.
 /// \throws InputError  if a vertex index is out of range
 inline std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result) {
-    const std::vector<Index> first = weld_equal(mesh);
+    const std::vector<Index> first = engine::weld_exact(mesh.positions);
     std::vector<Triangle> faces;
     faces.reserve(mesh.triangles.size());
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {

@@ -42,16 +42,14 @@ inline std::vector<ComponentMeasures> component_sizes(std::span<const PlacedFace
 }
 
 FAQEM_INLINE FaceComponents face_components(const PositionView& positions, TriangleView triangles) {
-    std::vector<Vec3> copy(positions.size());
-    for (std::size_t v = 0; v < copy.size(); ++v) copy[v] = positions[v];
-    const std::vector<Index> representative = engine::weld_exact(copy);
-    engine::UnionFind joined(copy.size());
+    const std::vector<Index> representative = engine::weld_exact(positions);
+    engine::UnionFind joined(positions.size());
     for (std::size_t f = 0; f < triangles.size(); ++f) {
         const Triangle t = triangles[f];
         for (const Index v : {t[1], t[2]}) joined.unite(representative[t[0]], representative[v]);
     }
     FaceComponents found;
-    std::vector<Index> number(copy.size(), no_index);
+    std::vector<Index> number(positions.size(), no_index);
     for (std::size_t f = 0; f < triangles.size(); ++f) {
         Index& own = number[joined.find(representative[triangles[f][0]])];
         if (own == no_index) own = found.count++;

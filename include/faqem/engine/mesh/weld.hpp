@@ -2,6 +2,7 @@
 /// \file
 /// Welding of vertices at the same position (paper, supplementary: pre-emptive merging).
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -15,10 +16,15 @@ namespace engine {
 
 namespace weld_detail {
 
-inline std::uint64_t hash(const Vec3& key) {
+/// The bit patterns of coordinates, which are equal to themselves even for NaN; those of -0 are those of 0.
+using Key = std::array<std::uint64_t, 3>;
+
+inline Key key_of(const Vec3& p) { return std::bit_cast<Key>(Vec3{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}); }
+
+inline std::uint64_t hash(const Key& key) {
     std::uint64_t h = 0;
-    for (const double x : key) {
-        h ^= std::bit_cast<std::uint64_t>(x);
+    for (const std::uint64_t x : key) {
+        h ^= x;
         h *= 0x9e3779b97f4a7c15ull;
         h ^= h >> 29;
     }
@@ -34,7 +40,7 @@ public:
     /// Calls match(vertex) for the vertices with the same or a colliding hash until it returns true.
     /// Returns that vertex's slot, or else a free slot.
     template <class Match>
-    Index* find(const Vec3& key, Match&& match) {
+    Index* find(const Key& key, Match&& match) {
         std::size_t i = hash(key) & (slots_.size() - 1);
         while (slots_[i] != no_index && !match(slots_[i])) i = (i + 1) & (slots_.size() - 1);
         return &slots_[i];
@@ -44,20 +50,17 @@ private:
     std::vector<Index> slots_;
 };
 
-// Replaces -0 by 0, so that both have the same hash.
-inline Vec3 without_negative_zero(const Vec3& p) { return {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}; }
-
 }  // namespace weld_detail
 
-/// Welds vertices at exactly equal positions; -0 equals 0. O(n) expected
-/// \param positions        model units or any other unit, finite
+/// Welds vertices at exactly equal positions; -0 equals 0, and equal bit patterns of NaN are equal. O(n) expected
+/// \param positions        model units or any other unit
 /// \return per vertex, the smallest index of a vertex at the same position
-inline std::vector<Index> weld_exact(const std::vector<Vec3>& positions) {
+inline std::vector<Index> weld_exact(const PositionView& positions) {
     std::vector<Index> representative(positions.size());
     weld_detail::VertexTable table(positions.size());
     for (Index v = 0; v < positions.size(); ++v) {
-        Index* slot = table.find(weld_detail::without_negative_zero(positions[v]),
-                                 [&](Index w) { return positions[w] == positions[v]; });
+        const weld_detail::Key key = weld_detail::key_of(positions[v]);
+        Index* slot = table.find(key, [&](Index w) { return weld_detail::key_of(positions[w]) == key; });
         if (*slot == no_index) *slot = v;
         representative[v] = *slot;
     }
@@ -85,8 +88,7 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
     weld_detail::VertexTable table(positions.size());
     std::vector<Index> next_in_cell(positions.size(), no_index);
     const auto head_of = [&](const Vec3& cell) {
-        return table.find(weld_detail::without_negative_zero(cell),
-                          [&](Index w) { return cell_of(positions[w]) == cell; });
+        return table.find(weld_detail::key_of(cell), [&](Index w) { return cell_of(positions[w]) == cell; });
     };
     for (Index v = 0; v < positions.size(); ++v) {
         if (representative[v] != v) {
