@@ -63,14 +63,11 @@ std::vector<std::uint8_t> images_in_role(const Asset& model, TextureRef Material
 std::vector<Texture> textures(const Asset& model, std::span<const PendingImage> pending,
                               TextureRef Material::*role, TexelEncoding encoding) {
     const std::vector<std::uint8_t> is_used = images_in_role(model, role);
-    std::vector<std::uint8_t> is_pending(is_used.size(), 0);
     std::vector<Texture> result(is_used.size());
-    for (const PendingImage& image : pending) {
-        is_pending[image.image] = 1;
+    for (const PendingImage& image : pending)
         if (is_used[image.image]) result[image.image] = make_texture(image.pixels, encoding);
-    }
     for (std::size_t i = 0; i < result.size(); ++i)
-        if (is_used[i] && !is_pending[i]) result[i] = decoded_texture(model.images[i], encoding);
+        if (is_used[i] && !result[i]) result[i] = decoded_texture(model.images[i], encoding);
     return result;
 }
 

@@ -26,12 +26,8 @@ bool can_merge(const Material& a, const Material& b, Bake kind) {
            !a.emissive_texture == !b.emissive_texture;
 }
 
-// Properties by which coincident faces look different.
-struct FaceAppearance {
-    Index material;
-    bool is_wound_against_normals;  // the winding contradicts the normals
-    bool operator==(const FaceAppearance&) const = default;
-};
+// Properties by which coincident faces look different: the material, and whether the winding contradicts the normals.
+using FaceAppearance = std::pair<Index, bool>;
 
 bool is_wound_against_normals(const Part& part, const Triangle& t) {
     if (part.normals.empty()) return false;

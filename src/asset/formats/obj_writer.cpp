@@ -157,11 +157,7 @@ bool has_unsupported_wrap(const Material& m) {
 }
 
 void add_losses(const std::vector<Material>& materials, std::vector<std::string>& losses) {
-    struct Loss {
-        std::string what;
-        std::function<bool(const Material&)> occurs;
-    };
-    std::vector<Loss> kinds = {
+    std::vector<std::pair<std::string, std::function<bool(const Material&)>>> kinds = {
         {"factors of metallic-roughness textures",
          [](const Material& m) {
              return m.metallic_roughness_texture && (m.roughness != 1 || m.metallic != 1);
@@ -177,10 +173,10 @@ void add_losses(const std::vector<Material>& materials, std::vector<std::string>
         if (std::ranges::find(mtl_textures, slot.texture) == mtl_textures.end())
             kinds.insert(kinds.begin() + 1, {std::string(slot.title) + " textures",
                                              [&](const Material& m) { return bool(m.*slot.texture); }});
-    for (const Loss& kind : kinds) {
-        const auto count = std::ranges::count_if(materials, kind.occurs);
+    for (const auto& [what, occurs] : kinds) {
+        const auto count = std::ranges::count_if(materials, occurs);
         if (count)
-            losses.push_back("OBJ cannot hold " + kind.what + " (" +
+            losses.push_back("OBJ cannot hold " + what + " (" +
                              pluralized(static_cast<std::uint64_t>(count), "material") + ")");
     }
 }

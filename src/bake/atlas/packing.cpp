@@ -192,20 +192,17 @@ public:
         context.check_now();
         std::uint64_t texels = 0;
         for (const ChartRaster& raster : rasters_) {
-            const auto blocks = std::count_if(raster.mask.blocks.begin(), raster.mask.blocks.end(),
-                                              [](std::uint8_t b) { return b != 0; });
+            const auto blocks =
+                std::ranges::count_if(raster.mask.blocks, [](std::uint8_t b) { return b != 0; });
             texels += static_cast<std::uint64_t>(blocks) * raster.block_size * raster.block_size;
         }
         if (texels > std::uint64_t{width_} * height_) return false;
         std::vector<std::size_t> order(rasters_.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            const auto key = [&](std::size_t i) {
-                const ChartRaster& raster = rasters_[i];
-                return std::tuple(raster.block_size, std::max(raster.mask.columns, raster.mask.rows),
-                                  std::min(raster.mask.columns, raster.mask.rows));
-            };
-            return key(a) != key(b) ? key(a) > key(b) : a < b;
+        std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t i) {
+            const ChartRaster& raster = rasters_[i];
+            return std::tuple(raster.block_size, std::max(raster.mask.columns, raster.mask.rows),
+                              std::min(raster.mask.columns, raster.mask.rows));
         });
         std::uint32_t block_size = std::min({max_block_size, width_, height_});
         OccupancyGrid grid(width_ / block_size, height_ / block_size);

@@ -9,8 +9,12 @@ namespace {
 
 constexpr const char* pbr_key = "pbrMetallicRoughness";
 
+Json json_of(bool value) { return value; }
+Json json_of(float value) { return shortest_decimal(value); }
+Json json_of(AlphaMode mode) { return mode == AlphaMode::mask ? "MASK" : "BLEND"; }
+
 template <std::size_t N>
-Json json_floats(const std::array<float, N>& values) {
+Json json_of(const std::array<float, N>& values) {
     Json array = Json::array();
     for (const float value : values) array.push_back(shortest_decimal(value));
     return array;
@@ -19,12 +23,12 @@ Json json_floats(const std::array<float, N>& values) {
 /// Writes a member only if it changed, so that unmodified numbers keep their digits. Erases default values.
 template <class T>
 void set_if_changed(Json& object, const char* key, const T& current, const T& original,
-                    const T& default_value, const Json& value) {
+                    const T& default_value) {
     if (current == original) return;
     if (current == default_value)
         object.erase(key);
     else
-        object[key] = value;
+        object[key] = json_of(current);
 }
 
 bool is_same_reference(const GltfWriter& writer, const TextureRef& current, const TextureRef& original) {
@@ -38,8 +42,8 @@ Json make_texture_info(GltfWriter& writer, const TextureRef& ref) {
     Json info = {{"index", make_texture(writer, ref)}};
     if (ref.uv_set != 0) info["texCoord"] = ref.uv_set;
     Json transform = Json::object();
-    if (ref.offset != Vec2f{0, 0}) transform["offset"] = json_floats(ref.offset);
-    if (ref.scale != Vec2f{1, 1}) transform["scale"] = json_floats(ref.scale);
+    if (ref.offset != Vec2f{0, 0}) transform["offset"] = json_of(ref.offset);
+    if (ref.scale != Vec2f{1, 1}) transform["scale"] = json_of(ref.scale);
     if (ref.rotation != 0) transform["rotation"] = shortest_decimal(ref.rotation);
     if (!transform.empty()) info["extensions"]["KHR_texture_transform"] = std::move(transform);
     return info;
@@ -84,12 +88,9 @@ void write_texture_factor(Json& holder, const char* key, const char* number, flo
 void write_core_textures(GltfWriter& writer, Json& json, const Material& current, const Material& original) {
     Json& pbr = json[pbr_key];
     if (pbr.is_null()) pbr = Json::object();
-    set_if_changed(pbr, "baseColorFactor", current.base_color, original.base_color, Vec4f{1, 1, 1, 1},
-                   json_floats(current.base_color));
-    set_if_changed(pbr, "metallicFactor", current.metallic, original.metallic, 1.0f,
-                   shortest_decimal(current.metallic));
-    set_if_changed(pbr, "roughnessFactor", current.roughness, original.roughness, 1.0f,
-                   shortest_decimal(current.roughness));
+    set_if_changed(pbr, "baseColorFactor", current.base_color, original.base_color, Vec4f{1, 1, 1, 1});
+    set_if_changed(pbr, "metallicFactor", current.metallic, original.metallic, 1.0f);
+    set_if_changed(pbr, "roughnessFactor", current.roughness, original.roughness, 1.0f);
     for (const CoreSlot& slot : core_slots) {
         Json& holder = slot.is_in_pbr ? pbr : json;
         write_texture_info(writer, current, holder, slot.key, current.*slot.texture, original.*slot.texture);
@@ -101,14 +102,12 @@ void write_core_textures(GltfWriter& writer, Json& json, const Material& current
 }
 
 void write_alpha(Json& json, const Material& current, const Material& original) {
-    const char* mode = current.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND";
-    set_if_changed(json, "alphaMode", current.alpha_mode, original.alpha_mode, AlphaMode::opaque, mode);
+    set_if_changed(json, "alphaMode", current.alpha_mode, original.alpha_mode, AlphaMode::opaque);
     // alphaCutoff is valid only with the mode MASK.
     if (current.alpha_mode != AlphaMode::mask)
         json.erase("alphaCutoff");
     else
-        set_if_changed(json, "alphaCutoff", current.alpha_cutoff, original.alpha_cutoff, 0.5f,
-                       shortest_decimal(current.alpha_cutoff));
+        set_if_changed(json, "alphaCutoff", current.alpha_cutoff, original.alpha_cutoff, 0.5f);
 }
 
 /// Adds a warning that `part` (for example "textures") of `what` was removed because the UVs are new.
@@ -223,11 +222,9 @@ Json material_json(GltfWriter& writer, const Material& material) {
 
     if (material.name != original.name) json["name"] = material.name;
     write_core_textures(writer, json, material, original);
-    set_if_changed(json, "emissiveFactor", material.emissive, original.emissive, Vec3f{0, 0, 0},
-                   json_floats(material.emissive));
+    set_if_changed(json, "emissiveFactor", material.emissive, original.emissive, Vec3f{0, 0, 0});
     write_alpha(json, material, original);
-    set_if_changed(json, "doubleSided", material.double_sided, original.double_sided, false,
-                   material.double_sided);
+    set_if_changed(json, "doubleSided", material.double_sided, original.double_sided, false);
     write_unknown_textures(writer, material, original, json);
     write_extensions(writer, material, original, json);
     write_unlit(json, material.unlit);
