@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "faqem/detail/base/buckets.hpp"
+#include "faqem/engine/quadric/quadric.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
@@ -24,27 +25,7 @@ inline constexpr double mean_damping = 2e-4;
 inline constexpr int max_iterations = 60;
 inline constexpr double residual_tolerance = 1e-3;
 
-/// A symmetric 3 x 3 matrix.
-struct Symmetric3 {
-    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-
-    void add(double factor, const Symmetric3& m) {
-        xx += factor * m.xx, xy += factor * m.xy, xz += factor * m.xz;
-        yy += factor * m.yy, yz += factor * m.yz, zz += factor * m.zz;
-    }
-    Vector3 operator*(const Vector3& v) const {
-        return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2],
-                xz * v[0] + yz * v[1] + zz * v[2]};
-    }
-    double trace() const { return xx + yy + zz; }
-    /// \pre the determinant is not zero
-    Symmetric3 inverse() const {
-        const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
-        const double cyy = xx * zz - xz * xz, cyz = xy * xz - xx * yz, czz = xx * yy - xy * xy;
-        const double f = 1 / (xx * cxx + xy * cxy + xz * cxz);
-        return {f * cxx, f * cxy, f * cxz, f * cyy, f * cyz, f * czz};
-    }
-};
+using engine::Symmetric3;
 
 /// Quadratic form of one residual: the weighted point-to-plane and point-to-point terms.
 /// \param n  unit normal
@@ -70,12 +51,12 @@ inline double power_of(double x, double power) {
 
 inline void add(const Correspondence& correspondence, double weight, FaceSystem& face) {
     const Symmetric3 metric = residual_metric(correspondence.normal, weight);
-    const Vector3 weighted_residual = metric * correspondence.residual;
+    const Vector3 weighted_residual = metric.apply(correspondence.residual);
     const Vec3& share = correspondence.sample.barycentric;
     for (std::size_t k = 0; k < 3; ++k) {
         face.rhs[k] += share[k] * weighted_residual;
-        face.diagonal[k].add(share[k] * share[k], metric);
-        face.off_diagonal[k].add(share[k] * share[(k + 1) % 3], metric);
+        face.diagonal[k].add(metric, share[k] * share[k]);
+        face.off_diagonal[k].add(metric, share[k] * share[(k + 1) % 3]);
     }
 }
 
@@ -114,7 +95,7 @@ public:
         for (std::size_t f = 0; f < faces_.size(); ++f) {
             if (triangles_[f][0] == no_index) continue;
             for (std::size_t k = 0; k < 3; ++k) {
-                diagonal_[triangles_[f][k]].add(1, faces_[f].diagonal[k]);
+                diagonal_[triangles_[f][k]].add(faces_[f].diagonal[k], 1);
                 rhs_[triangles_[f][k]] += faces_[f].rhs[k];
             }
         }
@@ -124,14 +105,14 @@ public:
     const std::vector<Vector3>& rhs() const { return rhs_; }
 
     void multiply(std::span<const Vector3> x, std::vector<Vector3>& result) const {
-        for (std::size_t v = 0; v < x.size(); ++v) result[v] = diagonal_[v] * x[v];
+        for (std::size_t v = 0; v < x.size(); ++v) result[v] = diagonal_[v].apply(x[v]);
         for (std::size_t f = 0; f < faces_.size(); ++f) {
             const Triangle& t = triangles_[f];
             if (t[0] == no_index) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index v = t[k], w = t[(k + 1) % 3];
-                result[v] += faces_[f].off_diagonal[k] * x[w];
-                result[w] += faces_[f].off_diagonal[k] * x[v];
+                result[v] += faces_[f].off_diagonal[k].apply(x[w]);
+                result[w] += faces_[f].off_diagonal[k].apply(x[v]);
             }
         }
         for (std::size_t v = 0; v < x.size(); ++v)
@@ -140,7 +121,7 @@ public:
 
     /// Block-Jacobi preconditioner: multiplies by the inverses of the diagonal blocks.
     void precondition(std::span<const Vector3> x, std::vector<Vector3>& result) const {
-        for (std::size_t v = 0; v < x.size(); ++v) result[v] = inverse_[v] * x[v];
+        for (std::size_t v = 0; v < x.size(); ++v) result[v] = inverse_[v].apply(x[v]);
     }
 
 private:
@@ -155,7 +136,7 @@ private:
                 continue;
             }
             const double diagonal_damping = (damping * diagonal_[v].trace() + mean_damping * mean_trace) / 3;
-            diagonal_[v].add(diagonal_damping > 0 ? diagonal_damping : 1.0, {1, 0, 0, 1, 0, 1});
+            diagonal_[v].add(Symmetric3{1, 0, 0, 1, 0, 1}, diagonal_damping > 0 ? diagonal_damping : 1.0);
             inverse_[v] = diagonal_[v].inverse();
         }
     }

@@ -78,7 +78,7 @@ public:
         sum.add(at_v, 1);
         sum.add(shared, -0.5);
         const Vector3 moment = at_v.apply(d);
-        const Quadric q = {sum.xx, sum.xy, sum.xz, sum.yy, sum.yz, sum.zz, -moment, d.dot(moment)};
+        const Quadric q = {sum, -moment, d.dot(moment)};
         const Eigen::AlignedBox3d bounds(placement_bounds_.min() - origin, placement_bounds_.max() - origin);
         const Vector3 p = flat && allowed_position == AllowedPosition::anywhere
                               ? optimal_position_in(*flat, origin, q, Vector3::Zero(), d, bounds)
@@ -116,21 +116,7 @@ public:
 
 private:
     /// Sum of w n n^T.
-    struct Planes {
-        double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-        void add(const Vector3& n, double w) {
-            const Vector3 m = w * n;
-            xx += m.x() * n.x(), xy += m.x() * n.y(), xz += m.x() * n.z();
-            yy += m.y() * n.y(), yz += m.y() * n.z(), zz += m.z() * n.z();
-        }
-        void add(const Planes& o, double w) {
-            xx += w * o.xx, xy += w * o.xy, xz += w * o.xz, yy += w * o.yy, yz += w * o.yz, zz += w * o.zz;
-        }
-        Vector3 apply(const Vector3& p) const {
-            return {xx * p.x() + xy * p.y() + xz * p.z(), xy * p.x() + yy * p.y() + yz * p.z(),
-                    xz * p.x() + yz * p.y() + zz * p.z()};
-        }
-    };
+    using Planes = Symmetric3;
 
     /// The face planes of a vertex relative to its current position. One cache line.
     struct alignas(64) VertexPlanes {

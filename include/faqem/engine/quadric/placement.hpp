@@ -78,9 +78,9 @@ inline Vector3 optimal_position_in(const Flat& flat, const Vector3& origin, cons
     const Vector3 foot = product(across, flat.point - origin);  // the point in the flat nearest to the origin
     const Vector3 slope = product(flat.along, q.apply(foot) + q.b);
     // The second term makes the quadric regular; its minimum is in the flat.
-    Eigen::Matrix3d m = (q.xx + q.yy + q.zz) * across;
+    Eigen::Matrix3d m = q.trace() * across;
     for (int k = 0; k < 3; ++k) m.col(k) += product(flat.along, q.apply(flat.along.col(k)));
-    const Quadric inside = {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2), slope, 0};
+    const Quadric inside = {{m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}, slope, 0};
     return foot + product(flat.along, optimal_position(inside, product(flat.along, a), product(flat.along, b),
                                                        AllowedPosition::anywhere, &bounds));
 }

@@ -11,10 +11,39 @@
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
 
-/// Coefficients of a quadric: the upper triangle of A (xx xy xz yy yz zz), b and c. A default-constructed
-/// quadric is zero.
-struct Quadric {
+/// A symmetric 3 x 3 matrix, by default zero.
+struct Symmetric3 {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+    /// Adds w n n^T.
+    void add(const Vector3& n, double w) {
+        const Vector3 m = w * n;
+        xx += m.x() * n.x(), xy += m.x() * n.y(), xz += m.x() * n.z();
+        yy += m.y() * n.y(), yz += m.y() * n.z(), zz += m.z() * n.z();
+    }
+    /// Adds w times another matrix.
+    void add(const Symmetric3& o, double w) {
+        xx += w * o.xx, xy += w * o.xy, xz += w * o.xz, yy += w * o.yy, yz += w * o.yz, zz += w * o.zz;
+    }
+
+    /// The product with a vector.
+    Vector3 apply(const Vector3& p) const {
+        return {xx * p.x() + xy * p.y() + xz * p.z(), xy * p.x() + yy * p.y() + yz * p.z(),
+                xz * p.x() + yz * p.y() + zz * p.z()};
+    }
+
+    double trace() const { return xx + yy + zz; }
+    /// \pre the determinant is not zero
+    Symmetric3 inverse() const {
+        const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
+        const double cyy = xx * zz - xz * xz, cyz = xy * xz - xx * yz, czz = xx * yy - xy * xy;
+        const double f = 1 / (xx * cxx + xy * cxy + xz * cxz);
+        return {f * cxx, f * cxy, f * cxz, f * cyy, f * cyz, f * czz};
+    }
+};
+
+/// Coefficients of a quadric: A, b and c. A default-constructed quadric is zero.
+struct Quadric : Symmetric3 {
     Vector3 b = Vector3::Zero();
     double c = 0;
 
@@ -23,8 +52,10 @@ struct Quadric {
     /// \param d  offset of the plane
     /// \param w  weight
     static Quadric plane(const Vector3& n, double d, double w) {
-        return {w * n.x() * n.x(), w * n.x() * n.y(), w * n.x() * n.z(), w * n.y() * n.y(),
-                w * n.y() * n.z(), w * n.z() * n.z(), w * d * n,         w * d * d};
+        return {{w * n.x() * n.x(), w * n.x() * n.y(), w * n.x() * n.z(), w * n.y() * n.y(),
+                 w * n.y() * n.z(), w * n.z() * n.z()},
+                w * d * n,
+                w * d * d};
     }
 
     /// The quadric of the plane with normal `n` through `point`, with weight `w`.
@@ -78,24 +109,17 @@ struct Quadric {
         return q;
     }
 
-    /// The product A p.
-    Vector3 apply(const Vector3& p) const {
-        return {xx * p.x() + xy * p.y() + xz * p.z(), xy * p.x() + yy * p.y() + yz * p.z(),
-                xz * p.x() + yz * p.y() + zz * p.z()};
-    }
-
     /// Evaluates Q(p). The result may be slightly negative due to rounding.
     double operator()(const Vector3& p) const { return p.dot(apply(p)) + 2 * b.dot(p) + c; }
 
     /// The point that minimises Q, or nothing if A is nearly singular: det A <= 1e-9 (trace A)^3. This test
     /// is independent of the scale of the model.
     std::optional<Vector3> minimum() const {
-        const double trace = xx + yy + zz;
         const double cxx = yy * zz - yz * yz;
         const double cxy = xz * yz - xy * zz;
         const double cxz = xy * yz - xz * yy;
         const double det = xx * cxx + xy * cxy + xz * cxz;
-        if (!(det > 1e-9 * trace * trace * trace)) return std::nullopt;
+        if (!(det > 1e-9 * trace() * trace() * trace())) return std::nullopt;
         const double cyy = xx * zz - xz * xz;
         const double cyz = xy * xz - xx * yz;
         const double czz = xx * yy - xy * xy;
