@@ -6,7 +6,7 @@
 
 #include "asset/scene/affine.hpp"
 #include "asset/scene/source_traits.hpp"
-#include "faqem/engine/mesh/weld.hpp"
+#include "faqem/detail/simplify/preprocess.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -95,24 +95,14 @@ MotionRounding motion_rounding(const Asset& asset, const Part& part) {
 std::vector<Triangle> welded_by_motion(const Part& part, const MotionRounding& rounding, double distance) {
     const bool is_skinned = !part.joints.empty() && !part.weights.empty();
     if (!is_skinned && part.morph_targets.empty()) return {};
-    // Vertices that no face uses must not affect the others, as in a weld by position.
-    std::vector<Index> used;
-    std::vector<Vec3> positions;
-    std::vector<std::uint8_t> is_used(part.positions.size(), 0);
-    for (const Triangle& t : part.triangles)
-        for (const Index v : t) is_used[v] = 1;
-    for (Index v = 0; v < is_used.size(); ++v)
-        if (is_used[v]) used.push_back(v), positions.push_back(part.positions[v]);
-    const std::vector<Index> near = engine::weld_within(positions, distance);
+    std::vector<Index> welded = weld_referenced(part.positions, part.triangles, distance);
     // By first vertex at a position: those that differ from it.
-    std::vector<std::vector<Index>> others(used.size());
-    std::vector<Index> welded(part.positions.size(), no_index);
+    std::vector<std::vector<Index>> others(welded.size());
     bool any = false;
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        const Index v = used[i], first = used[near[i]];
-        welded[v] = first;
+    for (Index v = 0; v < welded.size(); ++v) {
+        const Index first = welded[v];
         if (v == first || move_together(part, rounding, first, v)) continue;
-        std::vector<Index>& apart = others[near[i]];
+        std::vector<Index>& apart = others[first];
         const auto begin = apart.size() > max_compared
                                ? apart.end() - static_cast<std::ptrdiff_t>(max_compared)
                                : apart.begin();

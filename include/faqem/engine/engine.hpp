@@ -174,12 +174,9 @@ private:
     void count_refusal(Refusal reason) { ++result_.refusals[static_cast<std::size_t>(reason)]; }
 
     AllowedPosition allowed_position(Index u, Index v) {
-        const bool u_stays = locked_[u], v_stays = locked_[v];
-        if (!u_stays && !v_stays && !curves_ && wedges_.empty()) return AllowedPosition::anywhere;
-        if (u_stays && v_stays) return count_refusal(Refusal::locked), AllowedPosition::nowhere;
-        const AllowedPosition lock = u_stays   ? AllowedPosition::at_first
-                                     : v_stays ? AllowedPosition::at_second
-                                               : AllowedPosition::anywhere;
+        const AllowedPosition lock = allowed_by_fixed(locked_[u] != 0, locked_[v] != 0);
+        if (lock == AllowedPosition::anywhere && !curves_ && wedges_.empty()) return lock;
+        if (lock == AllowedPosition::nowhere) return count_refusal(Refusal::locked), lock;
         const AllowedPosition seam = intersection(lock, wedges_.allowed_position(mesh_, u, v));
         if (seam == AllowedPosition::nowhere) return count_refusal(Refusal::seam), seam;
         if (!curves_ || rules_.groups == GroupBoundaries::free) return seam;

@@ -84,14 +84,11 @@ public:
     /// \param vertices  for each vertex slot of the new mesh, its slot in the current mesh
     /// \param faces     likewise for face slots
     void renumber(std::span<const Index> vertices, std::span<const Index> faces) {
-        const auto select = [](std::vector<Index>& of, std::span<const Index> slots) {
-            std::vector<Index> selected;
-            selected.reserve(slots.size());
-            for (const Index slot : slots) selected.push_back(of[slot]);
-            of = std::move(selected);
-        };
-        select(version_, vertices);
-        select(faces_, faces);
+        std::vector<Index> version(vertices.begin(), vertices.end()), left(faces.begin(), faces.end());
+        for (Index& slot : version) slot = version_[slot];
+        for (Index& slot : left) slot = faces_[slot];
+        version_ = std::move(version);
+        faces_ = std::move(left);
     }
 
     /// Current history index of a vertex slot.

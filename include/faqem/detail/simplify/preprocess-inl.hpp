@@ -19,8 +19,6 @@ namespace detail {
 
 using engine::RunContext;
 
-inline constexpr Triangle dropped_face = {no_index, no_index, no_index};
-
 inline bool is_dropped(const Triangle& t) { return t[0] == no_index; }
 
 [[noreturn]] inline void fail(const std::string& element, const std::string& what) {
@@ -73,23 +71,19 @@ inline std::vector<Vec3> checked_positions(const PositionView& view) {
     return positions;
 }
 
-// For each vertex the vertex that it is welded to. Unreferenced vertices are not welded: they must not affect
-// the positions of others.
-inline std::vector<Index> representatives(const MeshView& mesh, const std::vector<Vec3>& positions,
-                                          const Settings& settings) {
-    std::vector<Index> result(positions.size());
-    std::iota(result.begin(), result.end(), Index{0});
-    if (settings.weld == Weld::none) return result;
+FAQEM_INLINE std::vector<Index> weld_referenced(const std::vector<Vec3>& positions,
+                                                const TriangleView& triangles, double distance) {
     std::vector<std::uint8_t> is_used(positions.size(), 0);
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-        for (const Index v : mesh.triangles[f]) is_used[v] = 1;
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        for (const Index v : triangles[f]) is_used[v] = 1;
     if (std::find(is_used.begin(), is_used.end(), 0) == is_used.end())
-        return engine::weld_within(positions, settings.weld_distance);
-    std::vector<Index> used;
+        return engine::weld_within(positions, distance);
+    std::vector<Index> used, result(positions.size());
+    std::iota(result.begin(), result.end(), Index{0});
     std::vector<Vec3> used_positions;
     for (Index v = 0; v < positions.size(); ++v)
         if (is_used[v]) used.push_back(v), used_positions.push_back(positions[v]);
-    const std::vector<Index> welded = engine::weld_within(used_positions, settings.weld_distance);
+    const std::vector<Index> welded = engine::weld_within(used_positions, distance);
     for (std::size_t i = 0; i < used.size(); ++i) result[used[i]] = used[welded[i]];
     return result;
 }
@@ -122,7 +116,7 @@ inline void apply_weld(const MeshView& mesh, const std::vector<Vec3>& positions,
 
 inline void drop_degenerate_faces(PreprocessedMesh& out) {
     for (Triangle& t : out.triangles)
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = dropped_face, ++out.dropped_faces;
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) t = no_corners, ++out.dropped_faces;
 }
 
 // Removes faces that have the corners, winding and group of an earlier face, since they are invisible. Faces
@@ -149,7 +143,7 @@ inline void drop_duplicate_faces(std::span<const Index> groups, PreprocessedMesh
         for (std::size_t i = begin + 1; i < end; ++i) {
             const FaceKey &a = faces[i - 1], &b = faces[i];
             if (!std::equal(a.begin(), a.end() - 1, b.begin())) continue;
-            out.triangles[b.back()] = dropped_face;
+            out.triangles[b.back()] = no_corners;
             ++out.dropped_faces;
         }
         begin = end;
@@ -192,7 +186,8 @@ FAQEM_INLINE PreprocessedMesh preprocess(const MeshView& mesh, const Settings& s
     const std::vector<Vec3> positions = checked_positions(mesh.positions);
     PreprocessedMesh out;
     context.check_now();
-    apply_weld(mesh, positions, representatives(mesh, positions, settings), out);
+    const TriangleView welded = settings.weld == Weld::none ? TriangleView() : mesh.triangles;
+    apply_weld(mesh, positions, weld_referenced(positions, welded, settings.weld_distance), out);
     context.check_now();
     restore_locked_positions(mesh, positions, out);
     drop_degenerate_faces(out);

@@ -47,6 +47,11 @@ struct PreprocessedMesh {
 PreprocessedMesh preprocess(const MeshView& mesh, const Settings& settings,
                             const engine::RunContext& context = {});
 
+/// Welds the vertices that triangles refer to, as engine::weld_within(). The others must not affect their positions.
+/// \return per vertex, the index of its representative
+FAQEM_EXPORT std::vector<Index> weld_referenced(const std::vector<Vec3>& positions,
+                                                const TriangleView& triangles, double distance);
+
 /// The input faces without those that Topology::prune removes; vertex indices are those of the input.
 /// \throws as preprocess()
 /// Complexity: O(n log n); O(n) without pruning

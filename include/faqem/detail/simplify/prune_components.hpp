@@ -13,10 +13,13 @@
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
+/// The corners of a face that was removed.
+inline constexpr Triangle no_corners = {no_index, no_index, no_index};
+
 /// A removed face.
 struct PrunedFace {
     Index face = no_index;
-    Triangle corners = {no_index, no_index, no_index};  ///< its corners before the removal
+    Triangle corners = no_corners;  ///< its corners before the removal
 };
 
 /// The faces that prune() removed.

@@ -79,11 +79,8 @@ public:
         if (shared_groups_.empty()) return AllowedPosition::nowhere;
         const bool u_stays = has_vertex(u) && (is_node(mesh, pairs, u) || has_other_group(mesh, u));
         const bool v_stays = has_vertex(v) && (is_node(mesh, pairs, v) || has_other_group(mesh, v));
-        if (u_stays && v_stays) return AllowedPosition::nowhere;
-        if (closes_loop(mesh, u, v)) return AllowedPosition::nowhere;
-        return u_stays   ? AllowedPosition::at_first
-               : v_stays ? AllowedPosition::at_second
-                         : AllowedPosition::anywhere;
+        if ((u_stays && v_stays) || closes_loop(mesh, u, v)) return AllowedPosition::nowhere;
+        return allowed_by_fixed(u_stays, v_stays);
     }
 
     /// Must be called before v is merged into u.

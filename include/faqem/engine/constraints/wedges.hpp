@@ -61,12 +61,7 @@ public:
     AllowedPosition allowed_position(const CollapseMesh& mesh, Index u, Index v) {
         if (empty()) return AllowedPosition::anywhere;
         if (!match(mesh, u, v)) return AllowedPosition::nowhere;
-        const bool u_stays = has_unmatched(mesh, u, &Match::at_u);
-        const bool v_stays = has_unmatched(mesh, v, &Match::at_v);
-        if (u_stays && v_stays) return AllowedPosition::nowhere;
-        return u_stays   ? AllowedPosition::at_first
-               : v_stays ? AllowedPosition::at_second
-                         : AllowedPosition::anywhere;
+        return allowed_by_fixed(has_unmatched(mesh, u, &Match::at_u), has_unmatched(mesh, v, &Match::at_v));
     }
 
     /// Must be called before u and v are merged. Merges their wedges; each merged wedge gets the values

@@ -25,6 +25,13 @@ inline AllowedPosition intersection(AllowedPosition a, AllowedPosition b) {
     return b == AllowedPosition::anywhere ? a : AllowedPosition::nowhere;
 }
 
+/// The positions that vertices which must not move allow. O(1)
+inline AllowedPosition allowed_by_fixed(bool is_first_fixed, bool is_second_fixed) {
+    if (is_first_fixed && is_second_fixed) return AllowedPosition::nowhere;
+    if (is_first_fixed) return AllowedPosition::at_first;
+    return is_second_fixed ? AllowedPosition::at_second : AllowedPosition::anywhere;
+}
+
 /// A plane or a line.
 struct Flat {
     Vector3 point;          ///< a point in it, engine units
