@@ -5,6 +5,7 @@
 
 #include "faqem/compare.hpp"
 #include "faqem/detail/base/vector.hpp"
+#include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
@@ -36,21 +37,12 @@ inline std::vector<Triangle> welded_faces(const MeshView& mesh, MeshInfo& result
 
 /// Returns the number of edges. Stores the numbers of boundary and non-manifold edges in `result`.
 inline std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& result) {
-    std::vector<std::uint64_t> edges;
-    edges.reserve(3 * faces.size());
-    for (const Triangle& t : faces) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Index u = t[k], v = t[(k + 1) % 3];
-            edges.push_back(std::uint64_t{std::min(u, v)} << 32 | std::max(u, v));
-        }
-    }
-    std::sort(edges.begin(), edges.end());
     std::uint64_t count = 0;
-    for (std::size_t i = 0, j = 0; i < edges.size(); i = j, ++count) {
-        while (j < edges.size() && edges[j] == edges[i]) ++j;
-        if (j - i == 1) ++result.boundary_edges;
-        if (j - i > 2) ++result.nonmanifold_edges;
-    }
+    for_each_edge(sorted_halfedges(faces), [&](std::span<const Halfedge> on) {
+        ++count;
+        result.boundary_edges += on.size() == 1;
+        result.nonmanifold_edges += on.size() > 2;
+    });
     return count;
 }
 
