@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "asset/scene/position_rounding.hpp"
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/detail/simplify/run.hpp"
+#include "faqem/engine/mesh/index_lists.hpp"
 #include "faqem/error.hpp"
 #include "result/best_picture.hpp"
 #include "result/image_trials.hpp"
@@ -118,8 +118,7 @@ private:
     // Nothing if the parts were not simplified with their UVs, or have too many faces with them: seams are kept.
     std::optional<State> with_source_uvs() const {
         if (simplified_.with_uvs.empty()) return std::nullopt;
-        std::vector<Index> all(simplified_.with_uvs.size());
-        std::iota(all.begin(), all.end(), Index{0});
+        const std::vector<Index> all = engine::all_indices(simplified_.with_uvs.size());
         const SimplifiedParts parts{simplified_.with_uvs, report_with_uvs(source_, simplified_, all), {}};
         const std::uint64_t allowed = std::max(report().target_faces, report().faces_out);
         if (parts.report.faces_out > allowed) return std::nullopt;

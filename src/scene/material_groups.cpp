@@ -1,10 +1,10 @@
 #include "scene/material_groups.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 #include "asset/scene/part_arrays.hpp"
+#include "faqem/engine/mesh/index_lists.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 #include "scene/vector_conversion.hpp"
 
@@ -155,8 +155,7 @@ std::vector<Index> separate_coincident_faces(const Part& part, std::vector<Index
         return groups;
     const std::vector<Triangle> corners = canonical_corners(part);
     const auto group = [&](Index f) { return groups.empty() ? Index{0} : groups[f]; };
-    std::vector<Index> order(corners.size());
-    std::iota(order.begin(), order.end(), Index{0});
+    std::vector<Index> order = engine::all_indices(corners.size());
     std::ranges::sort(order, {}, [&](Index f) { return std::tuple(corners[f], group(f), f); });
     std::vector<Index> separated;
     for (std::size_t i = 1, first = 0; i < order.size(); ++i) {

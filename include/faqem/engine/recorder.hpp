@@ -2,7 +2,6 @@
 /// \file
 /// Recorders are notified of every collapse before it happens.
 
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -47,7 +46,7 @@ public:
     /// Uses the slot numbers of `mesh` as history indices. New vertices are numbered from the number of
     /// vertex slots on. O(vertices + faces)
     explicit HistoryRecorder(const CollapseMesh& mesh)
-        : HistoryRecorder(identity(mesh.vertex_slots()), identity(mesh.face_slots()),
+        : HistoryRecorder(all_indices(mesh.vertex_slots()), all_indices(mesh.face_slots()),
                           static_cast<Index>(mesh.vertex_slots())) {}
 
     /// Records a collapse and the faces around the pair. O(valence)
@@ -101,12 +100,6 @@ public:
     CollapseHistory take() { return std::move(history_); }
 
 private:
-    static std::vector<Index> identity(std::size_t count) {
-        std::vector<Index> result(count);
-        std::iota(result.begin(), result.end(), Index{0});
-        return result;
-    }
-
     void add(Index survivor, Index removed, const Vector3& to) {
         const auto count = static_cast<Index>(history_.collapses.size());
         history_.collapses.push_back({version_[survivor], version_[removed], to_array(to)});

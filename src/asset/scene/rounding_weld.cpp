@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "asset/scene/messages.hpp"
 #include "asset/scene/position_rounding.hpp"
 #include "faqem/detail/base/buckets.hpp"
+#include "faqem/engine/mesh/index_lists.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 
 namespace faqem::detail {
@@ -214,14 +214,12 @@ public:
           triangles_(triangles),
           representative_(representative),
           tolerance_(tolerance),
-          welded_(positions.size()),
+          welded_(engine::all_indices(positions.size())),
           faces_(positions.size(), [&](auto&& put) {
               for (Index f = 0; f < triangles.size(); ++f)
                   for (const Index v : mapped(triangles[f], representative))
                       if (tolerance[v] > 0) put(v, f);
-          }) {
-        std::iota(welded_.begin(), welded_.end(), Index{0});
-    }
+          }) {}
 
     /// Returns, for every vertex that represents others, the one that it is welded to.
     std::vector<Index> operator()() {

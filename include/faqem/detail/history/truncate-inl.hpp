@@ -3,7 +3,6 @@
 #include "faqem/truncate.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -145,8 +144,7 @@ inline void fill_remaining_elements(CollapseHistory& h) {
     std::vector<std::uint8_t> is_deleted(h.triangles.size(), 0);
     for (const DeletedFace& deleted : h.deleted_faces) is_deleted[deleted.face] = 1;
     // Vertices are sorted by slot; a collapse puts the new version into the slot of its first version.
-    std::vector<Index> slot(last.size());
-    std::iota(slot.begin(), slot.end(), Index{0});
+    std::vector<Index> slot = engine::all_indices(last.size());
     for (std::size_t k = 0; k < h.collapses.size(); ++k)
         slot[h.positions.size() + k] = slot[h.collapses[k].first];
     std::vector<Index> version_at(h.positions.size(), no_index);

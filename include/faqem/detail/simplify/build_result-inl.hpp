@@ -4,7 +4,6 @@
 #include "faqem/detail/simplify/build_result.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -64,8 +63,7 @@ FAQEM_INLINE std::vector<Index> build_result(const MeshView& mesh, const Preproc
 // rounding. This is consistent with build_result() for every level of a chain.
 FAQEM_INLINE void to_model_units(const PreprocessedMesh& prepared, std::vector<Collapse>& collapses) {
     std::vector<Vector3> at = prepared.engine_positions();
-    std::vector<Index> place(at.size());
-    std::iota(place.begin(), place.end(), Index{0});
+    std::vector<Index> place = engine::all_indices(at.size());
     at.reserve(at.size() + collapses.size());
     place.reserve(at.capacity());
     for (Collapse& collapse : collapses) {

@@ -2,16 +2,13 @@
 
 #include "faqem/detail/simplify/compaction.hpp"
 
-#include <numeric>
 #include <utility>
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
 
-FAQEM_INLINE SlotTrace::SlotTrace(std::size_t slots) : next_(slots) {
-    std::iota(next_.begin(), next_.end(), Index{0});
-    source_slots_ = next_;
-}
+FAQEM_INLINE SlotTrace::SlotTrace(std::size_t slots)
+    : next_(engine::all_indices(slots)), source_slots_(next_) {}
 
 FAQEM_INLINE Index SlotTrace::root(Index slot) {
     Index end = slot;

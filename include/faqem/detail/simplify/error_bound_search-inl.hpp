@@ -4,7 +4,6 @@
 
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <string>
 
 #include "faqem/compare.hpp"
@@ -105,9 +104,9 @@ FAQEM_INLINE std::vector<FarFaces> FarFaceSearch::operator()(const MeshView& res
     }
     near_ = now;
     std::sort(now.begin(), now.end());
-    std::vector<Index> unknown(is_first_ ? original.triangles.size() : 0);
-    std::iota(unknown.begin(), unknown.end(), Index{0});
-    if (!std::exchange(is_first_, false)) unknown = faces_to_search(now);
+    std::vector<Index> unknown = std::exchange(is_first_, false)
+                                     ? engine::all_indices(original.triangles.size())
+                                     : faces_to_search(now);
 
     const Bvh tree(simplified.positions, simplified.triangles, context);
     std::vector<std::array<Index, 2>> beyond;

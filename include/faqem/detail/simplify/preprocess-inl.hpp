@@ -78,8 +78,7 @@ FAQEM_INLINE std::vector<Index> weld_referenced(const std::vector<Vec3>& positio
         for (const Index v : triangles[f]) is_used[v] = 1;
     if (std::find(is_used.begin(), is_used.end(), 0) == is_used.end())
         return engine::weld_within(positions, distance);
-    std::vector<Index> used, result(positions.size());
-    std::iota(result.begin(), result.end(), Index{0});
+    std::vector<Index> used, result = engine::all_indices(positions.size());
     std::vector<Vec3> used_positions;
     for (Index v = 0; v < positions.size(); ++v)
         if (is_used[v]) used.push_back(v), used_positions.push_back(positions[v]);

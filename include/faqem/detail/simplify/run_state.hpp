@@ -3,7 +3,6 @@
 /// The intermediate surface of a run, which is passed from one engine to the next.
 
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,8 +42,7 @@ public:
     void track_original() {
         keep_initial_surface();
         original_.emplace(mesh_.positions, mesh_.triangles);
-        vertex_map_.resize(mesh_.positions.size());
-        std::iota(vertex_map_.begin(), vertex_map_.end(), Index{0});
+        vertex_map_ = engine::all_indices(mesh_.positions.size());
     }
 
     /// Sets borders(). \pre advance_to() has not been called. O(faces)

@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// Many short lists of indices, each stored contiguously. Unlike the nodes of a linked list, the entries of
-/// a list can be prefetched together.
+/// Lists of indices: that of all, and many short ones, each stored contiguously. Unlike the nodes of a linked
+/// list, the entries of such a list can be prefetched together.
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,13 @@
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
+
+/// The numbers 0, 1 ... count - 1. O(count)
+inline std::vector<Index> all_indices(std::size_t count) {
+    std::vector<Index> result(count);
+    std::iota(result.begin(), result.end(), Index{0});
+    return result;
+}
 
 /// Handle of a list. Valid for one IndexLists object only.
 struct IndexList {

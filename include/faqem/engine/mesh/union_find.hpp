@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
+#include "faqem/engine/mesh/index_lists.hpp"
 #include "faqem/export.hpp"
-#include "faqem/mesh.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace engine {
@@ -17,9 +16,7 @@ namespace engine {
 class UnionFind {
 public:
     /// Creates `size` sets of one member each. O(size)
-    explicit UnionFind(std::size_t size = 0) : parent_(size) {
-        std::iota(parent_.begin(), parent_.end(), Index{0});
-    }
+    explicit UnionFind(std::size_t size = 0) : parent_(all_indices(size)) {}
 
     /// Adds a set with one new member and returns that member. Amortised O(1)
     Index add() {

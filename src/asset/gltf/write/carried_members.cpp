@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,6 +13,7 @@
 #include "asset/gltf/accessor.hpp"
 #include "asset/gltf/write/writer.hpp"
 #include "asset/scene/affine.hpp"
+#include "faqem/engine/mesh/index_lists.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -53,13 +53,9 @@ std::optional<VertexNumbers> unchanged_vertices(const GltfWriter& writer, const 
     const Index position = index_member(member(source, "attributes"), "POSITION");
     if (position == no_index || primitive_mode(source) != triangle_list) return std::nullopt;
     const std::vector<Vec3> positions = read_vectors<double, 3>(writer.source, position);
-    std::vector<Index> corners;
-    if (source.contains("indices")) {
-        corners = read_indices(writer.source, index_member(source, "indices"));
-    } else {
-        corners.resize(positions.size());
-        std::iota(corners.begin(), corners.end(), Index{0});
-    }
+    const std::vector<Index> corners = source.contains("indices")
+                                           ? read_indices(writer.source, index_member(source, "indices"))
+                                           : engine::all_indices(positions.size());
     if (corners.size() != data.corners.size()) return std::nullopt;
     VertexNumbers to(positions.size(), no_index);
     std::vector<Index> from(data.vertices.size(), no_index);
