@@ -1,7 +1,7 @@
 #include "bake/atlas/triangle_pairs.hpp"
 
 #include <algorithm>
-#include <compare>
+#include <tuple>
 
 namespace faqem::detail {
 namespace {
@@ -32,27 +32,21 @@ double waste(std::span<const PairTriangle> triangles, Index t, std::uint8_t corn
 }  // namespace
 
 std::vector<std::uint8_t> pair_triangles(std::span<const PairTriangle> triangles) {
-    struct Candidate {
-        double waste;
-        Index triangle;
-        std::uint8_t corner;
-        auto operator<=>(const Candidate&) const = default;
-    };
-    std::vector<Candidate> candidates;
+    std::vector<std::tuple<double, Index, std::uint8_t>> candidates;  // waste, triangle and its corner
     for (Index t = 0; t < triangles.size(); ++t) {
         for (std::uint8_t c = 0; c < 3; ++c) {
             const Index other = triangles[t].adjacent[c].triangle;
             if (other == no_index || other < t) continue;
             const double wasted = waste(triangles, t, c);
-            if (wasted <= max_waste) candidates.push_back({wasted, t, c});
+            if (wasted <= max_waste) candidates.emplace_back(wasted, t, c);
         }
     }
     std::sort(candidates.begin(), candidates.end());
     std::vector<std::uint8_t> corner(triangles.size(), no_partner);
-    for (const Candidate& c : candidates) {
-        const AdjacentTriangle& other = triangles[c.triangle].adjacent[c.corner];
-        if (corner[c.triangle] != no_partner || corner[other.triangle] != no_partner) continue;
-        corner[c.triangle] = c.corner;
+    for (const auto& [wasted, t, c] : candidates) {
+        const AdjacentTriangle& other = triangles[t].adjacent[c];
+        if (corner[t] != no_partner || corner[other.triangle] != no_partner) continue;
+        corner[t] = c;
         corner[other.triangle] = other.corner;
     }
     return corner;

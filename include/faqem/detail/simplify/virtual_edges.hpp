@@ -4,8 +4,6 @@
 /// supplementary).
 
 #include <algorithm>
-#include <array>
-#include <compare>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,41 +22,31 @@ using engine::CollapseMesh;
 // The nearest vertices of other components within a radius. Ties are ordered by index.
 class NearestInOtherComponents {
 public:
-    struct Hit {
-        double distance_squared;
-        std::size_t point;
-        auto operator<=>(const Hit&) const = default;
-    };
+    // Squared distance and point.
+    using Hit = std::pair<double, std::size_t>;
 
     NearestInOtherComponents(const std::vector<Index>& component_of, Index own, double radius_squared)
         : component_of_(component_of), own_(own), radius_squared_(radius_squared) {}
 
     // Points beyond this squared distance can be skipped; points at equal distance are ordered by index.
-    double limit() const {
-        return count_ < hits_.size() ? radius_squared_ : hits_[count_ - 1].distance_squared;
-    }
+    double limit() const { return hits_.size() < most ? radius_squared_ : hits_.back().first; }
 
     void add(double distance_squared, std::size_t point) {
         if (component_of_[point] == own_ || !(distance_squared <= radius_squared_)) return;
         const Hit hit{distance_squared, point};
-        if (count_ == hits_.size()) {
-            if (!(hit < hits_.back())) return;
-        } else {
-            ++count_;
-        }
-        std::size_t i = count_ - 1;
-        for (; i > 0 && hit < hits_[i - 1]; --i) hits_[i] = hits_[i - 1];
-        hits_[i] = hit;
+        hits_.insert(std::upper_bound(hits_.begin(), hits_.end(), hit), hit);
+        if (hits_.size() > most) hits_.pop_back();
     }
 
-    std::span<const Hit> hits() const { return std::span(hits_).first(count_); }
+    const std::vector<Hit>& hits() const { return hits_; }
 
 private:
+    static constexpr std::size_t most = 4;
+
     const std::vector<Index>& component_of_;
     Index own_;
     double radius_squared_;
-    std::array<Hit, 4> hits_ = {};
-    std::size_t count_ = 0;
+    std::vector<Hit> hits_;
 };
 
 // True if faces at both vertices have a common group, and the dot product of the mean normals is positive.
@@ -99,12 +87,8 @@ inline VerticesByComponent vertices_by_component(const CollapseMesh& mesh,
     return result;
 }
 
-/// A virtual edge that may be added; a < b.
-struct CandidateEdge {
-    double length_squared;
-    Index a, b;
-    auto operator<=>(const CandidateEdge&) const = default;
-};
+/// A virtual edge that may be added: its squared length, and its ends, the smaller one first.
+using CandidateEdge = std::pair<double, std::pair<Index, Index>>;
 
 /// Edges from each boundary vertex to the nearest boundary vertices of other components. An edge that is
 /// found from both ends occurs twice.
@@ -127,12 +111,11 @@ inline std::vector<CandidateEdge> candidate_edges(const CollapseMesh& mesh, cons
                 const Vector3 d = point.a - all.positions[i];
                 nearest.add(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), point.face);
             });
-        for (const auto& hit : nearest.hits()) {
-            const Index w = all.vertices[hit.point];
-            if (!(hit.distance_squared >= min_length * min_length) || surface.boundary_degree(w) == 0)
-                continue;
+        for (const auto& [length_squared, point] : nearest.hits()) {
+            const Index w = all.vertices[point];
+            if (!(length_squared >= min_length * min_length) || surface.boundary_degree(w) == 0) continue;
             if (!are_compatible(mesh, face_groups, v, w)) continue;
-            edges.push_back({hit.distance_squared, std::min(v, w), std::max(v, w)});
+            edges.push_back({length_squared, std::minmax(v, w)});
         }
     }
     return edges;
@@ -165,12 +148,12 @@ inline std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMesh& me
     std::sort(edges.begin(), edges.end());
     edges.erase(
         std::unique(edges.begin(), edges.end(),
-                    [](const CandidateEdge& x, const CandidateEdge& y) { return x.a == y.a && x.b == y.b; }),
+                    [](const CandidateEdge& x, const CandidateEdge& y) { return x.second == y.second; }),
         edges.end());
     if (edges.size() > all.vertices.size()) edges.resize(all.vertices.size());
     std::vector<std::pair<Index, Index>> result;
     result.reserve(edges.size());
-    for (const CandidateEdge& edge : edges) result.emplace_back(edge.a, edge.b);
+    for (const CandidateEdge& edge : edges) result.push_back(edge.second);
     std::sort(result.begin(), result.end());
     return result;
 }
