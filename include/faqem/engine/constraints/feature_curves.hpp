@@ -73,9 +73,7 @@ public:
         if (!has_vertex(u) && !has_vertex(v))
             return are_same_group(mesh, u, v) ? AllowedPosition::anywhere : AllowedPosition::nowhere;
         shared_groups_.clear();
-        mesh.for_each_face(u, [&](Index f, unsigned) {
-            if (mesh.has_corner(f, v)) shared_groups_.push_back(groups_[f]);
-        });
+        mesh.for_each_face_between(u, v, [&](Index f) { shared_groups_.push_back(groups_[f]); });
         if (shared_groups_.empty()) return AllowedPosition::nowhere;
         const bool u_stays = has_vertex(u) && (is_node(mesh, pairs, u) || has_other_group(mesh, u));
         const bool v_stays = has_vertex(v) && (is_node(mesh, pairs, v) || has_other_group(mesh, v));

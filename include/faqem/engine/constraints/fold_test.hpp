@@ -66,10 +66,8 @@ private:
     static Index opposite_face(const CollapseMesh& mesh, const MovedFace& moved) {
         Index other = no_index;
         std::uint32_t others = 0;
-        // Not a structured binding, which clang 14 cannot capture in a lambda.
-        const auto ends = mesh.lower_degree_first(moved.a, moved.b);
-        mesh.for_each_face(ends.first, [&](Index g, unsigned) {
-            if (g != moved.face && mesh.has_corner(g, ends.second)) other = g, ++others;
+        mesh.for_each_face_between(moved.a, moved.b, [&](Index g) {
+            if (g != moved.face) other = g, ++others;
         });
         return others == 1 ? other : no_index;
     }

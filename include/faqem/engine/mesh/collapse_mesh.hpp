@@ -96,6 +96,16 @@ public:
         return true;
     }
 
+    /// Calls visit(face) for every face at both u and v. O(smaller valence)
+    template <class Visit>
+    void for_each_face_between(Index u, Index v, Visit&& visit) const {
+        // Not a structured binding, which clang 14 cannot capture in a lambda.
+        const std::pair<Index, Index> ends = lower_degree_first(u, v);
+        for_each_face(ends.first, [&](Index f, unsigned) {
+            if (has_corner(f, ends.second)) visit(f);
+        });
+    }
+
     /// Calls visit(face, corner) once for every face at u or v: first for the faces at u, with the corner
     /// of u, then for the others, with the corner of v. O(valence)
     template <class Visit>

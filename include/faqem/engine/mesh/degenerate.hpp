@@ -91,9 +91,8 @@ private:
 
     static std::size_t count_at_pair(const CollapseMesh& mesh, const PairTable& pairs, Index pair) {
         std::size_t count = 0;
-        const auto [u, v] = mesh.lower_degree_first(pairs.first(pair), pairs.second(pair));
-        mesh.for_each_face(
-            u, [&, v = v](Index f, unsigned) { count += mesh.has_corner(f, v) && is_degenerate(mesh, f); });
+        mesh.for_each_face_between(pairs.first(pair), pairs.second(pair),
+                                   [&](Index f) { count += is_degenerate(mesh, f); });
         return count;
     }
 

@@ -241,10 +241,7 @@ private:
 
     void recount_faces(const CollapseMesh& mesh, Index pair) {
         const std::uint32_t before = std::exchange(pairs_[pair].face_count, 0);
-        const auto [lower, higher] = mesh.lower_degree_first(first(pair), second(pair));
-        mesh.for_each_face(lower, [&, other = higher](Index f, unsigned) {
-            if (mesh.has_corner(f, other)) pairs_[pair].add_face(f);
-        });
+        mesh.for_each_face_between(first(pair), second(pair), [&](Index f) { pairs_[pair].add_face(f); });
         apply_face_count(pair, before);
     }
 

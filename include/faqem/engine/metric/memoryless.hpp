@@ -179,9 +179,7 @@ private:
         if (known == high_valence_edges_.end() || has_regular_edges_only(mesh, pairs, v))
             return update_edge_planes(mesh, pairs, v);
         std::vector<Index>& ends = known->second.ends;
-        const auto [lower, higher] = mesh.lower_degree_first(u, v);
-        mesh.for_each_face(lower, [&, other = higher](Index f, unsigned) {
-            if (!mesh.has_corner(f, other)) return;
+        mesh.for_each_face_between(u, v, [&](Index f) {
             for (const Index w : mesh.triangle(f))
                 if (w != v) ends.push_back(w);
         });
@@ -207,8 +205,7 @@ private:
             Planes own;
             std::uint32_t faces = 0;
             Index first = no_index, last = no_index;
-            mesh.for_each_face(lower, [&, other = higher](Index f, unsigned) {
-                if (!mesh.has_corner(f, other)) return;
+            mesh.for_each_face_between(v, w, [&](Index f) {
                 ++faces;
                 first = last;
                 last = f;
@@ -239,10 +236,7 @@ private:
             for (std::uint32_t k = 0; k < count; ++k) visit(pairs.faces(pair)[k]);
             return;
         }
-        const auto [lower, higher] = mesh.lower_degree_first(pairs.first(pair), pairs.second(pair));
-        mesh.for_each_face(lower, [&, other = higher](Index f, unsigned) {
-            if (mesh.has_corner(f, other)) visit(f);
-        });
+        mesh.for_each_face_between(pairs.first(pair), pairs.second(pair), visit);
     }
 
     double edge_weight(const CollapseMesh& mesh, const PairTable& pairs, Index pair, Index u, Index v) const {
