@@ -12,7 +12,6 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
-#include <iterator>
 #include <string>
 
 namespace std {  // NOLINT(cert-dcl58-cpp): the names are those of the standard
@@ -22,15 +21,6 @@ template <class To, class From>
 constexpr To bit_cast(const From& from) noexcept {
     return __builtin_bit_cast(To, from);
 }
-
-namespace ranges {
-
-template <class Range, class Value>
-constexpr auto find(Range&& range, const Value& value) {
-    return std::find(std::begin(range), std::end(range), value);
-}
-
-}  // namespace ranges
 
 inline to_chars_result to_chars(char* first, char* last, double value) {
     std::array<char, 32> text{};
