@@ -39,6 +39,8 @@ std::vector<NamedSimplifier> simplifiers(const std::vector<std::string>& names) 
     for (const std::string& name : names) {
         if (name == "peers") {
             append(all, peers());
+        } else if (name == "packages") {
+            append(all, packages());
         } else if (name == "presets") {
             append(all, presets());
         } else {
@@ -60,10 +62,10 @@ void add_options(CLI::App& app, Arguments& a) {
         ->delimiter(',')
         ->check(CLI::PositiveNumber)
         ->check(CLI::Range(0.0, 1.0));
-    app.add_option(
-           "--simplifiers", a.simplifiers,
-           "names of peers, presets (faqem-NAME) and presets with options (faqem-NAME:key=value:...), or "
-           "peers or presets for all of them")
+    app.add_option("--simplifiers", a.simplifiers,
+                   "names of peers, packages, presets (faqem-NAME) and presets with options "
+                   "(faqem-NAME:key=value:...), "
+                   "or peers, packages or presets for all of them")
         ->delimiter(',');
     app.add_option("--out", a.out, "output, JSON lines; existing rows are not measured again");
     app.add_flag("--again", a.again,

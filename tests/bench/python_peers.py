@@ -168,7 +168,7 @@ def blender(source):
     thing = bpy.data.objects.new("source", mesh)
     bpy.context.collection.objects.link(thing)
     modifier = thing.modifiers.new("decimate", "DECIMATE")
-    modifier.ratio, modifier.use_collapse_triangulate = RATIO, True
+    modifier.ratio, modifier.use_collapse_triangulate = source.target / len(source.triangles), True
 
     def call():
         thing.update_tag()

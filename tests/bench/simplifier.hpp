@@ -31,6 +31,9 @@ Outcome openmesh(const TriangleMesh& mesh, std::size_t target_faces);
 Outcome open3d(const TriangleMesh& mesh, std::size_t target_faces);
 Outcome vtk(const TriangleMesh& mesh, std::size_t target_faces);
 
+/// Simplifies with a package that package_peers.py knows, in a process of the first python3 in PATH.
+Outcome package(const std::string& name, const TriangleMesh& mesh, std::size_t target_faces);
+
 /// A simplifier and its name in the rows.
 struct NamedSimplifier {
     std::string name;
@@ -40,10 +43,13 @@ struct NamedSimplifier {
 /// Returns the peers of this build, Lindstrom-Turk first.
 std::vector<NamedSimplifier> peers();
 
+/// Returns the peers that are not linked. Their times include starting a process and files.
+std::vector<NamedSimplifier> packages();
+
 /// Returns faqem's presets with the names `faqem-NAME`.
 std::vector<NamedSimplifier> presets();
 
-/// Returns a simplifier by name: a peer, or `faqem-PRESET[:key=value]...` with the keys area, boundary,
+/// Returns a simplifier by name: a peer, a package, or `faqem-PRESET[:key=value]...` with the keys area, boundary,
 /// normal, uv, plane_area, virtual (maximum length of virtual edges / diagonal), weld (distance), link (off,
 /// by-size, on, strict), border (free, locked) and threads.
 /// \throws OptionError  there is no such simplifier, key or value

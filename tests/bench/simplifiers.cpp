@@ -106,6 +106,16 @@ std::vector<NamedSimplifier> peers() {
     };
 }
 
+std::vector<NamedSimplifier> packages() {
+    std::vector<NamedSimplifier> all;
+    for (const char* name : {"blender", "gltfpack", "manifold3d", "meshlib"}) {
+        all.push_back({name, [name](const TriangleMesh& mesh, std::size_t target_faces) {
+                           return package(name, mesh, target_faces);
+                       }});
+    }
+    return all;
+}
+
 std::vector<NamedSimplifier> presets() {
     std::vector<NamedSimplifier> all;
     for (const Preset preset : all_presets) {
@@ -116,8 +126,10 @@ std::vector<NamedSimplifier> presets() {
 
 NamedSimplifier simplifier_named(std::string_view text) {
     if (text.starts_with("faqem-")) return faqem_named(text);
-    for (NamedSimplifier& peer : peers()) {
-        if (peer.name == text) return std::move(peer);
+    for (const auto& all : {peers(), packages()}) {
+        for (const NamedSimplifier& peer : all) {
+            if (peer.name == text) return peer;
+        }
     }
     refuse(text, "unknown, or not in this build");
 }
