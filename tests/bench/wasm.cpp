@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "cli/files/output_file.hpp"
+#include "../support/temporary_folder.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::bench {
@@ -64,8 +64,8 @@ WasmResult run_wasm(const FloatMesh& in, std::size_t target_faces, const std::st
     if (!fs::exists(index))
         throw OptionError("simplifier " + name + ": " + index.string() + " does not exist");
 
-    const cli::TemporaryFolder folder("faqem-bench");
-    const std::string before = folder.path() / "in", after = folder.path() / "out";
+    const testing::TemporaryFolder folder;
+    const std::string before = folder / "in", after = folder / "out";
     {
         std::ofstream file(before, std::ios::binary);
         put(file, counts(in));
