@@ -26,27 +26,29 @@ def write(file, vertices, triangles):
 
 
 def manifold3d(vertices, triangles, target):
-    """Bisects the tolerance, because there is no target, until at most the target and within 1% of it are left."""
+    """Searches for a tolerance that leaves the target within 1%, because there is no target for the number of faces."""
     import manifold3d
 
     solid = manifold3d.Manifold(manifold3d.Mesh64(vertices, triangles.astype(numpy.uint64)))
     if solid.status() != manifold3d.Error.NoError:
         sys.exit(f"manifold3d: {solid.status().name}")
-    high = numpy.linalg.norm(numpy.ptp(vertices, axis=0))
-    low, best = 1e-9 * high, None
-    for _ in range(28):
-        middle = (low * high) ** 0.5
+    # Large tolerances may leave more faces than smaller ones: the search begins with the first that is large enough.
+    diagonal = numpy.linalg.norm(numpy.ptp(vertices, axis=0))
+    low, high = 0, 1e-6 * diagonal
+    while high < diagonal and solid.simplify(high).num_tri() > target:
+        low, high = high, 1.25 * high
+    best = None
+    for _ in range(24):
+        middle = (low + high) / 2
         found = solid.simplify(middle)
-        if found.num_tri() > target:
-            low = middle
-            continue
-        high = middle
-        if found.num_tri() > (best.num_tri() if best else 0):
+        count = found.num_tri()
+        if count and (best is None or abs(count - target) < abs(best.num_tri() - target)):
             best = found
-        if found.num_tri() >= 0.99 * target:
+        if abs(count - target) <= 0.01 * target:
             break
-    if not best:
-        sys.exit("manifold3d: no tolerance leaves so few faces")
+        low, high = (middle, high) if count > target else (low, middle)
+    if best is None:
+        sys.exit("manifold3d: nothing is left")
     mesh = best.to_mesh64()
     return mesh.vert_properties[:, :3], mesh.tri_verts
 
