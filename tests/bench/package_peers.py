@@ -32,23 +32,21 @@ def manifold3d(vertices, triangles, target):
     solid = manifold3d.Manifold(manifold3d.Mesh64(vertices, triangles.astype(numpy.uint64)))
     if solid.status() != manifold3d.Error.NoError:
         sys.exit(f"manifold3d: {solid.status().name}")
-    # Large tolerances may leave more faces than smaller ones: the search begins with the first that is large enough.
+    # In one step, large tolerances may leave more faces than small ones. In many steps they do not, and reach fewer.
     diagonal = numpy.linalg.norm(numpy.ptp(vertices, axis=0))
     low, high = 0, 1e-6 * diagonal
-    while high < diagonal and solid.simplify(high).num_tri() > target:
-        low, high = high, 1.25 * high
-    best = None
+    while high < diagonal and (found := solid.simplify(high)).num_tri() > target:
+        solid, low, high = found, high, 1.25 * high
+    best = solid
     for _ in range(24):
         middle = (low + high) / 2
         found = solid.simplify(middle)
         count = found.num_tri()
-        if count and (best is None or abs(count - target) < abs(best.num_tri() - target)):
+        if count and abs(count - target) < abs(best.num_tri() - target):
             best = found
         if abs(count - target) <= 0.01 * target:
             break
         low, high = (middle, high) if count > target else (low, middle)
-    if best is None:
-        sys.exit("manifold3d: nothing is left")
     mesh = best.to_mesh64()
     return mesh.vert_properties[:, :3], mesh.tri_verts
 
