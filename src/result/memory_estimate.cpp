@@ -9,18 +9,20 @@
 #include "asset/model_files.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "bake/source/page_groups.hpp"
+#include "faqem/detail/simplify/run.hpp"
 #include "result/best_picture.hpp"
 #include "scene/resolved_options.hpp"
+#include "scene/simplify_parts.hpp"
 
 namespace faqem::detail {
 
 namespace {
 
 /// Bytes per face of the mesh being simplified. Measured on meshes of 0.06 to 1 million faces, rounded up.
-double simplify_bytes_per_face(const Options& options) {
-    if (options.preset == Preset::best) return 1750;
-    if (options.preset == Preset::balanced) return 450;
-    return options.preset == Preset::fast ? 350 : 700;
+double simplify_bytes_per_face(Preset preset) {
+    if (preset == Preset::best) return 1750;
+    if (preset == Preset::balanced) return 450;
+    return preset == Preset::fast ? 350 : 700;
 }
 
 constexpr double history_bytes_per_face = 300;  // collapse history and the data structures of the baking map
@@ -41,7 +43,7 @@ double search_factor(const Options& options) { return options.max_error ? 1.3 : 
 /// \param all, largest  numbers of faces of all meshes and of the largest one
 double work_bytes(const Options& options, double all, double largest) {
     return search_factor(options) *
-           (history_bytes_per_face * all + simplify_bytes_per_face(options) * largest);
+           (history_bytes_per_face * all + simplify_bytes_per_face(options.preset) * largest);
 }
 
 std::size_t attribute_values_per_corner(const Part& part) {
@@ -117,6 +119,14 @@ std::uint64_t estimated_simplify_memory(const Asset& asset, const Options& reque
         values = std::max(values, 3 * faces * static_cast<double>(attribute_values_per_corner(part)));
     }
     double work = work_bytes(options, all, largest);
+    if (options.preset == Preset::balanced && !asset.images.empty() && options.bake.kind != Bake::keep) {
+        // Half as much again, because the target is not distributed evenly.
+        const double share = static_cast<double>(target_face_count(options.target, all)) / std::max(all, 1.0);
+        const double fitted =
+            std::min({largest, static_cast<double>(most_faces_to_fit),
+                      1.5 * static_cast<double>(most_fitted_faces) / std::max(share, 1e-9)});
+        work = std::max(work, history_bytes_per_face * all + simplify_bytes_per_face(Preset::best) * fitted);
+    }
     if (options.bake.kind == Bake::keep) work += search_factor(options) * bytes_per_corner_value * values;
     if (options.visibility == Visibility::weighted)
         work = std::max(work, visibility_bytes_per_face * instanced_face_count(asset));

@@ -12,11 +12,6 @@
 
 namespace faqem::detail {
 
-namespace {
-
-std::size_t faces_of(const Asset& asset, std::size_t part) { return asset.parts[part].triangles.size(); }
-
-// Minimum face count that keeps all components of a part: 4 faces for each component, or all it has. O(faces)
 std::uint64_t min_faces_for_components(const Part& part) {
     const FaceComponents components = face_components(part.positions, part.triangles);
     std::vector<std::uint8_t> counted(components.count, 0);
@@ -29,6 +24,10 @@ std::uint64_t min_faces_for_components(const Part& part) {
     }
     return sum;
 }
+
+namespace {
+
+std::size_t faces_of(const Asset& asset, std::size_t part) { return asset.parts[part].triangles.size(); }
 
 // Minimum face count by part. If the sum is more than `target_faces`, the minimums are by part instead of by
 // component.

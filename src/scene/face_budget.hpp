@@ -11,6 +11,9 @@
 
 namespace faqem::detail {
 
+/// Minimum face count that keeps all components of a part: 4 faces for each component, or all it has. O(faces)
+std::uint64_t min_faces_for_components(const Part& part);
+
 /// Distributes `target_faces` over the parts in proportion to their face counts (largest remainder method).
 /// A part gets at least 4 faces (or all it has) for each of its connected components, at the expense of the
 /// other parts. If `target_faces` is too small for that, the minimum is 4 faces per part (or all it has).

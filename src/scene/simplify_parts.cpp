@@ -143,8 +143,19 @@ private:
     std::vector<SimplifiedParts> run(const std::vector<std::vector<std::uint64_t>>& share) {
         return run_parts(
             [&](std::size_t p, const MeshView& view, const Options& own, const RunContext& of_part) {
-                return simplify_part(source_.parts[p], view, share[p], own, of_part);
+                Options of_result = own;
+                if (is_fitted(source_.parts[p], view, share[p])) of_result.preset = Preset::best;
+                return simplify_part(source_.parts[p], view, share[p], of_result, of_part);
             });
+    }
+
+    // Whether a part is simplified as by preset best. Not with kept attributes, which belong to the places that vertices
+    // would leave, nor where components are lost: vertices of others would be drawn to their places.
+    bool is_fitted(const Part& part, const MeshView& view, const std::vector<std::uint64_t>& targets) const {
+        return options_.preset == Preset::balanced && !options_.max_error && !source_.images.empty() &&
+               !view.attributes && targets.front() <= most_fitted_faces &&
+               part.triangles.size() <= most_faces_to_fit && targets.back() < part.triangles.size() &&
+               min_faces_for_components(part) <= targets.back();
     }
 
     // Simplifies each part with a function that returns one result for each of results_.

@@ -14,6 +14,10 @@
 
 namespace faqem::detail {
 
+/// With preset balanced, the results of a part of an asset with images are fitted to the original, as by preset best, if they
+/// keep no attributes, have at most this number of faces, and the part at most that one: it takes a small share of the time of baking.
+inline constexpr std::size_t most_fitted_faces = 2000, most_faces_to_fit = 200'000;
+
 /// As run_to_targets(), for assets. Every target is distributed over the parts according to Options::budget,
 /// and every part is simplified from one level to the next.
 /// \param source   must have passed check_asset()

@@ -13,7 +13,7 @@ using namespace faqem::detail;
 using namespace tool_test;
 
 TEST_CASE("the memory estimate of a model grows with faces, preserved attributes, images and texture size") {
-    faqem::Options options{.bake = {.kind = faqem::Bake::none}};
+    faqem::Options options{.preset = faqem::Preset::fast, .bake = {.kind = faqem::Bake::none}};
     const faqem::Asset small = sheet(20);
     const auto more = [&](const faqem::Asset& asset, const faqem::Options& with) {
         return static_cast<double>(estimated_simplify_memory(asset, with)) -
