@@ -15,6 +15,9 @@ set(faqem_libraries_header_only Threads)
 set(faqem_libraries_openmesh OpenMesh)
 set(faqem_libraries_openmesh_header_only OpenMesh)
 set(faqem_libraries_asset Threads PNG JPEG WebP libdeflate)  # and faqem_decoders, those it was built with
+if(EMSCRIPTEN)
+    set(faqem_libraries_asset Threads)
+endif()
 set(faqem_libraries_bake "")
 
 # For each library: its CMake package, its target, and its Debian package. Some are searched for by their header and

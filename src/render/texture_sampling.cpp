@@ -150,8 +150,7 @@ auto MipImage::with_reader(std::size_t level, const Visit& visit) const {
 MipImage::Level MipImage::downsample(std::size_t from, const RunContext& context) const {
     Level result{std::max(1u, width(from) / 2), std::max(1u, height(from) / 2), {}};
     // Not a vector, since zeroing half a gigabyte takes long and cannot be cancelled.
-    result.rgba =
-        std::make_unique_for_overwrite<std::uint16_t[]>(std::size_t{result.width} * result.height * 4);
+    result.rgba.reset(new std::uint16_t[std::size_t{result.width} * result.height * 4]);
     std::vector<Taps> all_columns;
     all_columns.reserve(result.width);
     for (std::uint32_t x = 0; x < result.width; ++x)

@@ -14,10 +14,10 @@ package=$build/package
 mkdir -p "$prefix/include" "$prefix/share" "$package"
 for folder in include/eigen3 include/nlohmann share/eigen3 share/cmake; do ln -sfn "/usr/$folder" "$prefix/$folder"; done
 cmake -S "$source" -B "$build" -G Ninja --toolchain "$source/cmake/web.cmake" -DCMAKE_FIND_ROOT_PATH="$prefix" \
-    -DFAQEM_WERROR=ON -DFAQEM_BUILD_ASSET=OFF -DFAQEM_BUILD_OPENMESH=OFF -DFAQEM_BUILD_C=OFF \
+    -DCMAKE_UNITY_BUILD=ON -DFAQEM_WERROR=ON -DFAQEM_BUILD_TOOL=OFF -DFAQEM_BUILD_OPENMESH=OFF -DFAQEM_BUILD_C=OFF \
     -DFAQEM_BUILD_TESTS=OFF -DFAQEM_BUILD_EXAMPLES=OFF -DFAQEM_BUILD_DOCS=OFF
-cmake --build "$build" --target faqem_web
-cp "$source"/src/web/package/* "$build/src/web/faqem.wasm" "$source/LICENSE" "$package"
+cmake --build "$build" --target faqem_web faqem_bake_web
+cp "$source"/src/web/package/* "$build"/src/web/*.wasm "$source/LICENSE" "$package"
 node "$source/src/web/pack.mjs" "$package"
 cd "$package"
 npm pack --silent --pack-destination "$out"

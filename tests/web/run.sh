@@ -17,13 +17,21 @@ mkdir "$work/faqem" "$work/cases" "$work/empty"
 ln -s "$source"/src/python/faqem/*.py "$source/build/test/src/capi/libfaqem_c.so" "$work/faqem"
 PYTHONPATH=$work /usr/bin/python3 -B "$here/native.py" "$work/cases" "$source"/data/*.obj "$source"/data/*.ply "$source"/data/*.stl \
     "$source"/data/*.glb
+bake() { PYTHONPATH=$work /usr/bin/python3 -B "$here/baked.py" "$@"; }
+mkdir "$work/cases/baked"
+bake write "$work/cases/baked" "$source/data/textured_quad.glb"
 
 cd "$work/empty"
-npm install --silent --no-audit --no-fund "$work"/faqem-*.tgz typescript@5
-size=$(gzip -9c node_modules/faqem/faqem.wasm | wc -c)
-echo "faqem.wasm: $size bytes gzipped"
-[ "$size" -le 400000 ]
+npm install --silent --no-audit --no-fund "$work"/faqem-*.tgz typescript@5 pngjs@7
+for file in faqem:400000 faqem-bake:1300000; do
+    size=$(gzip -9c "node_modules/faqem/${file%:*}.wasm" | wc -c)
+    echo "${file%:*}.wasm: $size bytes gzipped"
+    [ "$size" -le "${file#*:}" ]
+done
 cp "$here"/*.mjs "$here"/types.mts .
 npx tsc --noEmit --strict --module nodenext --lib es2022,dom types.mts
 node --test-reporter=spec test_package.mjs "$work/cases"
+node --test-reporter=spec test_bake.mjs "$work/cases/baked"
+bake compare "$work/cases/baked"
 node test_browser.mjs chromium "$work/profile" "$work/cases" "$source/tests/viewer/browser.mjs"
+bake compare "$work/cases/baked"  # with a result of Chromium

@@ -1,7 +1,7 @@
-// Calls the installed npm package in headless Chromium, in a worker.
+// Calls the installed npm package in headless Chromium, in a worker, and bakes CASES/baked/maps.glb.
 // Usage: node test_browser.mjs CHROMIUM PROFILE CASES BROWSER.mjs, in the folder with node_modules
 import assert from "node:assert";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { pathToFileURL } from "node:url";
 
@@ -50,6 +50,13 @@ try {
     assert(made.phases.includes("simplify") && made.frames > 5, "the page works meanwhile, and gets the progress");
     assert.strictEqual(made.abort, "AbortError");
     console.log("Chromium: the same, in a worker", made);
+    const options = readFileSync(`${cases}/baked/maps.options`, "utf8");
+    const bytes = await evaluate(`(async () => {
+        const { simplifyGlb } = await import("/faqem.js");
+        const file = new Uint8Array(await (await fetch("/cases/baked/maps.glb")).arrayBuffer());
+        return [...(await simplifyGlb(file, ${options})).glb];
+    })()`);
+    writeFileSync(`${cases}/baked/maps.out.glb`, Uint8Array.from(bytes));  // baked.py compares it
 } finally {
     await page.close();
     server.close();

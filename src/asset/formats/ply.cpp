@@ -97,7 +97,7 @@ public:
 private:
     void check_elements() {
         for (const char* name : {"vertex", "face", "tristrips"})
-            if (std::ranges::count(header_.elements, name, &PlyElement::name) > 1)
+            if (std::ranges::count_if(header_.elements, [&](const auto& e) { return e.name == name; }) > 1)
                 throw InputError(file_, "header", std::string("more than one element ") + name);
         for (const PlyElement& element : header_.elements)
             check_index_count(element.count, file_, element.name);

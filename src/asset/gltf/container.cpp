@@ -63,7 +63,7 @@ GltfContainer split_gltf(std::span<const std::uint8_t> bytes, const std::string&
                              "needs " + bytes_text(size) + ", " + bytes_text(length - at) + " are left");
         if (chunk == 0 && type != json_chunk) throw InputError(file, where, "is not the JSON chunk");
         if (chunk == 0) {
-            container.json = {reinterpret_cast<const char*>(bytes.data() + at), size};
+            container.json = std::string_view(reinterpret_cast<const char*>(bytes.data() + at), size);
         } else if (chunk == 1 && type == bin_chunk) {
             container.bin = bytes.subspan(at, size);
             container.has_bin = true;

@@ -38,7 +38,7 @@ double to_decimal(double x, std::uint32_t digits, std::uint32_t decimals) {
     std::uint32_t own = 0;
     if (!is_long) {
         written = std::to_chars(text.data(), end, x, std::chars_format::fixed, static_cast<int>(decimals));
-        for (const char c : std::string_view(text.data(), written.ptr))
+        for (const char c : std::string_view(text.data(), written.ptr - text.data()))
             own += c >= '0' && c <= '9' && (own > 0 || c != '0');
     }
     if (is_long || own > digits)
@@ -67,7 +67,7 @@ bool is_printed_float(double x) {
     const int decimals = std::max(0, static_cast<int>(number.find('e')) - 2);
     const double closest = to_float(std::abs(x));
     char* const stop = std::to_chars(text.data(), text.data() + text.size(), closest, format, decimals).ptr;
-    return std::string_view(text.data(), stop) == number;
+    return std::string_view(text.data(), stop - text.data()) == number;
 }
 
 // Whether the coordinates are floats, as numbers or as text. If there are many, text is told from some of them.

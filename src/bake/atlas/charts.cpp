@@ -59,7 +59,8 @@ Charts parametrize_region(std::span<const PageTriangle> all, const std::vector<I
         const std::vector<Index>& flipped = parametrization.flipped_faces;
         if (!flipped.empty() && 4 * flipped.size() <= faces.size()) {
             std::vector<Index> rest;
-            std::ranges::set_difference(faces, flipped, std::back_inserter(rest));
+            std::set_difference(faces.begin(), faces.end(), flipped.begin(), flipped.end(),
+                                std::back_inserter(rest));
             for (const std::vector<Index>& part : {rest, flipped})
                 for (std::vector<Index>& group : connected_subsets(all, part))
                     waiting.push_back(std::move(group));

@@ -109,7 +109,8 @@ private:
     }
 
     static double shared_length(const FaceRegion& region, Index other) {
-        return std::ranges::lower_bound(region.neighbours, other, {}, &SharedBoundary::region)->length;
+        const auto is_before = [](const SharedBoundary& s, Index j) { return s.region < j; };
+        return std::lower_bound(region.neighbours.begin(), region.neighbours.end(), other, is_before)->length;
     }
 
     void enqueue_merge(Index i, Index j) {

@@ -78,3 +78,28 @@ export function simplify<P extends Positions>(
 /** Simplifies a mesh to several levels of detail in a worker; each continues from the one before it. */
 export function simplifyLevels<P extends Positions>(
     positions: P, triangles: Uint32Array | Uint16Array, levels: LevelTarget[], options?: MeshOptions): Promise<SimplifiedLevel<P>[]>;
+
+/** RGBA, top row first, sRGB as in the image file. */
+export interface Pixels {
+    width: number;
+    height: number;
+    data: Uint8Array | Uint8ClampedArray;
+}
+/** Codecs of images, which the module does not have. In browsers, each has a default. */
+export interface Codecs {
+    /** @param mimeType  image/png, image/jpeg or image/webp */
+    decode?(file: Uint8Array, mimeType: string): Pixels | Promise<Pixels>;
+    /** Gives a PNG or JPEG; the default a PNG. */
+    encode?(pixels: Pixels & { data: Uint8ClampedArray }): Uint8Array | Promise<Uint8Array>;
+}
+export interface GlbOptions extends Omit<RunOptions, "allowLarger" | "imageFormat" | "imageQuality" | "jpegQuality" | "maxBytes"> {
+    /** Needed outside of browsers. */
+    codecs?: Codecs;
+}
+/**
+ * Simplifies a GLB file and bakes its appearance into new textures, in a worker.
+ * @param bytes  the file, with its images
+ * @returns a GLB file, and the report, whose sizes of images are those of pixels
+ * @throws FaqemError  the file or an option is invalid, a codec is missing, or the memory does not suffice
+ */
+export function simplifyGlb(bytes: Uint8Array, options?: GlbOptions): Promise<{ glb: Uint8Array; report: Record<string, any> }>;

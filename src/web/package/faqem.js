@@ -1,7 +1,9 @@
-// Simplification of triangle meshes by faqem in WebAssembly. faqem.d.ts describes the interface.
+// Simplification of triangle meshes and textured models by faqem in WebAssembly. faqem.d.ts describes the interface.
+
+import { browserCodecs, decodeImages, encodeImages } from "./glb.js";
 
 const phases = ["load", "weld", "simplify", "map", "bake", "save"];
-const CANCELLED = 8, NO_MEMORY = 11;  // of faqem_status
+const OPTION = 2, CANCELLED = 8, NO_MEMORY = 11;  // of faqem_status
 const kebab = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
 
 export class FaqemError extends Error {
@@ -13,10 +15,13 @@ export class FaqemError extends Error {
     }
 }
 
+const geometry = () => new URL("./faqem.wasm", import.meta.url);
+const bake = () => new URL("./faqem-bake.wasm", import.meta.url);
+
 /** Compiles the module of a URL, of bytes, or, without a source, of the file beside this one. */
 async function compile(source) {
     if (source instanceof WebAssembly.Module) return source;
-    source ??= new URL("./faqem.wasm", import.meta.url);
+    source ??= geometry();
     if (typeof source !== "string" && !(source instanceof URL)) return WebAssembly.compile(source);
     const url = new URL(source, import.meta.url);
     if (url.protocol === "file:") {
@@ -79,6 +84,27 @@ class Faqem {
                 const error = this.#exports.faqem_result_level_error(this.#word(out + 4 * i));
                 return { ...this.#result(this.#word(out + 4 * i), positions.constructor), error };
             });
+        });
+    }
+
+    /** As simplifyGlb() below, for a file whose images are pixels (glb.js). */
+    simplifyGlb(bytes, options = {}) {
+        return this.#run({ ...options, imageFormat: "png", allowLarger: true }, ({ call, space, copy, settings }) => {
+            const c = this.#exports, out = space(4), made = [];
+            const make = (type, name, ...values) => {
+                call(name, ...values, out);
+                made.push([type, this.#word(out)]);
+                return this.#word(out);
+            };
+            try {
+                const source = make("asset", "faqem_asset_from_glb", copy(Uint8Array, bytes, "bytes"), bytes.length);
+                const asset = make("asset", "faqem_asset_simplify", source, settings);
+                const address = c.faqem_glb_bytes(make("glb", "faqem_asset_to_glb", asset), out) >>> 0;
+                const glb = new Uint8Array(c.memory.buffer, address, this.#word(out)).slice();
+                return { glb, report: JSON.parse(this.#text(c.faqem_asset_report_json(asset))) };
+            } finally {
+                made.forEach(([type, object]) => c[`faqem_${type}_destroy`](object));
+            }
         });
     }
 
@@ -179,12 +205,13 @@ export async function load(wasm) {
     return new Faqem(await compile(wasm));
 }
 
-let byDefault;  // the module of the file beside this one, compiled once
+const byDefault = new Map();  // the modules of files beside this one, compiled once
 
 /** Calls a function of Faqem in a worker of its own, which an AbortSignal ends. */
-async function inWorker(method, values, { progress, signal, wasm, ...options } = {}) {
+async function inWorker(method, values, { progress, signal, wasm, ...options } = {}, file = geometry) {
     signal?.throwIfAborted();
-    const module = await (wasm === undefined ? (byDefault ??= compile()) : compile(wasm));
+    if (wasm === undefined && !byDefault.has(file)) byDefault.set(file, compile(file()));
+    const module = await (wasm === undefined ? byDefault.get(file) : compile(wasm));
     const worker = globalThis.Worker
         ? new Worker(new URL("./worker.js", import.meta.url), { type: "module" })
         : new (await import(/* @vite-ignore */ /* webpackIgnore: true */ "node:worker_threads")).Worker(new URL("./worker.js", import.meta.url));
@@ -210,3 +237,15 @@ async function inWorker(method, values, { progress, signal, wasm, ...options } =
 
 export const simplify = (positions, triangles, options) => inWorker("simplify", [positions, triangles], options);
 export const simplifyLevels = (positions, triangles, levels, options) => inWorker("simplifyLevels", [positions, triangles, levels], options);
+
+export async function simplifyGlb(bytes, { codecs, ...options } = {}) {
+    const { decode, encode } = { ...(globalThis.OffscreenCanvas && browserCodecs), ...codecs };
+    if (!decode || !encode) throw new FaqemError("codecs: outside of browsers, decode() and encode() are needed", OPTION);
+    if (!(bytes instanceof Uint8Array)) throw new TypeError("bytes: not a Uint8Array");
+    for (const name of ["allowLarger", "imageFormat", "imageQuality", "jpegQuality", "maxBytes"])
+        if (options[name] !== undefined) throw new FaqemError(`${name}: codecs.encode() decides on the encoding of images`, OPTION);
+    const originals = [];
+    const pixels = await decodeImages(bytes, decode, originals, options.signal);
+    const { glb, report } = await inWorker("simplifyGlb", [pixels], options, bake);
+    return { glb: await encodeImages(glb, encode, originals, options.signal), report };
+}
