@@ -9,6 +9,7 @@
 #include "faqem/detail/simplify/run_state.hpp"
 #include "faqem/options.hpp"
 #include "fuzz/fuzz.hpp"
+#include "support/applied_steps.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;
@@ -105,14 +106,6 @@ void expect_steps(const RoundInput& input, const RoundSteps& found, const Compac
         expect(v == no_index || v < left.vertices.size(), "vertex map in range");
 }
 
-bool same_steps(const RoundSteps& a, const RoundSteps& b) {
-    return std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(),
-                      [](const RoundStep& x, const RoundStep& y) {
-                          return x.survivor == y.survivor && x.gone == y.gone && x.to == y.to;
-                      }) &&
-           a.patch_faces == b.patch_faces && a.patch_begin == b.patch_begin && a.refusals == b.refusals;
-}
-
 /// Rounds on one thread and on more, with checks.
 void reduce_in_rounds(RunState& state, std::size_t least, const RoundTracking* tracking) {
     const auto reduce = [&](std::uint32_t threads, auto&& check) {
@@ -137,7 +130,8 @@ void reduce_in_rounds(RunState& state, std::size_t least, const RoundTracking* t
     if (!left) return;
     for (const std::uint32_t threads : {2u, 3u}) {
         reduce(threads, [&](const RoundSteps& found, const CompactedMesh& found_left) {
-            expect(same_steps(one, found) && left->bound_faces == found_left.bound_faces,
+            expect(test::same_steps(one, found) && one.refusals == found.refusals &&
+                       left->bound_faces == found_left.bound_faces,
                    "the same steps with any number of threads");
         });
     }

@@ -68,14 +68,7 @@ TEST_CASE("rounds: 1, 2 and 8 threads find the same collapses in the same order"
     const RoundSteps one = Rounds(lump(), 2560, 1).found;
     for (const std::uint32_t threads : {2u, 8u}) {
         const RoundSteps more = Rounds(lump(), 2560, threads).found;
-        REQUIRE(more.steps.size() == one.steps.size());
-        bool same = true;
-        for (std::size_t i = 0; i < one.steps.size(); ++i)
-            same = same && more.steps[i].survivor == one.steps[i].survivor &&
-                   more.steps[i].gone == one.steps[i].gone && more.steps[i].to == one.steps[i].to;
-        CHECK(same);
-        CHECK(more.patch_faces == one.patch_faces);
-        CHECK(more.patch_begin == one.patch_begin);
+        CHECK(test::same_steps(more, one));
     }
 }
 

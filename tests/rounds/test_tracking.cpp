@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 #include "faqem/detail/simplify/spatial_order.hpp"
 #include "faqem/engine/tracking/distance.hpp"
-#include "faqem/simplify.hpp"
+#include "support/applied_steps.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
-#include "support/original.hpp"
 
 using namespace faqem;
 using namespace faqem::detail;
@@ -62,13 +60,6 @@ struct Tracked {
     CompactedMesh left;
 };
 
-bool same_steps(const RoundSteps& a, const RoundSteps& b) {
-    return std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(),
-                      [](const RoundStep& x, const RoundStep& y) {
-                          return x.survivor == y.survivor && x.gone == y.gone && x.to == y.to;
-                      });
-}
-
 }  // namespace
 
 TEST_CASE("tracked rounds: 1, 2 and 8 threads find the same collapses and the same bindings") {
@@ -77,7 +68,7 @@ TEST_CASE("tracked rounds: 1, 2 and 8 threads find the same collapses and the sa
     CHECK(test::closed_manifold(one.left.triangles));
     for (const std::uint32_t threads : {2u, 8u}) {
         const Tracked more(8192, 1e-3, threads);
-        CHECK(same_steps(more.found, one.found));
+        CHECK(test::same_steps(more.found, one.found));
         CHECK(more.left.bound_faces == one.left.bound_faces);
     }
 }
@@ -100,11 +91,13 @@ TEST_CASE("tracked rounds: every original vertex is bound to a face that is abou
 
 TEST_CASE("tracked rounds: a weight reduces the largest distance; without one, the collapses are the same") {
     const Tracked free(20'480, 0), held(20'480, 4 * 3.14 / 2048);
-    CHECK(same_steps(free.found, Tracked(0, 1).found));
+    CHECK(test::same_steps(free.found, Tracked(0, 1).found));
     CHECK(held.farthest() < 0.8 * free.farthest());
 }
 
-TEST_CASE("tracked rounds: what is untracked, because so many faces cannot move, has no bindings") {
+TEST_CASE(
+    "tracked rounds: a surface that keeps more faces than those from which distances are tracked has no "
+    "bindings") {
     const Tracked rounds(1000, 1e-3);
     CHECK(rounds.left.triangles.size() > 2000);
     CHECK(rounds.left.bound_faces.empty());

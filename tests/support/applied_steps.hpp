@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "faqem/detail/simplify/compaction.hpp"
@@ -18,6 +19,15 @@ inline detail::CompactedMesh applied(const std::vector<engine::Vector3>& positio
         mesh.collapse(survivor, gone, to);
     }
     return detail::compacted(mesh, trace);
+}
+
+/// Whether both have the same collapses, in the same order, and the same patches.
+inline bool same_steps(const detail::RoundSteps& a, const detail::RoundSteps& b) {
+    return std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(),
+                      [](const detail::RoundStep& x, const detail::RoundStep& y) {
+                          return x.survivor == y.survivor && x.gone == y.gone && x.to == y.to;
+                      }) &&
+           a.patch_faces == b.patch_faces && a.patch_begin == b.patch_begin;
 }
 
 }  // namespace faqem::test
