@@ -150,12 +150,11 @@ private:
     }
 
     // Whether a part is simplified as by preset best. Not with kept attributes, which belong to the places that vertices
-    // would leave, nor where components are lost: vertices of others would be drawn to their places.
+    // would leave.
     bool is_fitted(const Part& part, const MeshView& view, const std::vector<std::uint64_t>& targets) const {
         return options_.preset == Preset::balanced && !options_.max_error && !source_.images.empty() &&
                !view.attributes && targets.front() <= most_fitted_faces &&
-               part.triangles.size() <= most_faces_to_fit && targets.back() < part.triangles.size() &&
-               min_faces_for_components(part) <= targets.back();
+               part.triangles.size() <= most_faces_to_fit && targets.back() < part.triangles.size();
     }
 
     // Simplifies each part with a function that returns one result for each of results_.

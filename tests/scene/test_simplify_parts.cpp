@@ -291,16 +291,13 @@ TEST_CASE("coincident layers with opposite normals are kept with any winding") {
     CHECK(outside == out.triangles.size() / 2);
 }
 
-TEST_CASE("with images, a part that keeps few faces and all its components is fitted as by preset best") {
+TEST_CASE("with images, a part that keeps few faces is fitted as by preset best") {
     Asset asset = asset_with({bumpy(20)});
-    for (Index i = 1; i <= 40; ++i) asset.parts[0] = with_speck(std::move(asset.parts[0]), 25 + 2 * i);
     const auto positions = [&](std::uint64_t count, Preset preset) {
         return simplify_parts(asset, {.target = faces(count), .preset = preset}).parts[0].mesh.positions;
     };
-    // 44 faces are the least that keeps all components.
     CHECK(positions(100, Preset::balanced) != positions(100, Preset::best));
     asset.images.emplace_back();
     CHECK(positions(100, Preset::balanced) == positions(100, Preset::best));
     CHECK(positions(100, Preset::fast) != positions(100, Preset::best));
-    CHECK(positions(43, Preset::balanced) != positions(43, Preset::best));
 }

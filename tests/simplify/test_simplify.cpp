@@ -69,6 +69,23 @@ TEST_CASE("preset best does not change a mesh without collapses") {
     CHECK(result.report.edges_flipped == 0);
 }
 
+TEST_CASE("preset best does not draw vertices to components that were removed") {
+    const TriangleMesh sphere = test::icosphere(3);
+    TriangleMesh mesh = sphere;
+    for (const double z : {-1.4, 1.4})
+        mesh = test::both(mesh, test::moved(test::scaled(test::tetrahedron(), 0.1), {0, 0, z}));
+    const SimplifyResult result = simplify(mesh.view(), options(Preset::best, faces(20)));
+    const SimplifyResult alone = simplify(sphere.view(), options(Preset::best, faces(20)));
+    const auto farthest = [](const SimplifyResult& r) {
+        double square = 0;
+        for (const Vec3& p : r.mesh.positions)
+            square = std::max(square, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        return std::sqrt(square);
+    };
+    for (const Index face : result.face_origin) CHECK(face < sphere.triangles.size());
+    CHECK(farthest(result) == Approx(farthest(alone)).epsilon(0.05));
+}
+
 TEST_CASE("float positions are returned without rounding") {
     std::vector<Vec3f> positions;
     const TriangleMesh grid = test::shaken(test::grid(2), 0.1, 1);

@@ -9,10 +9,32 @@
 #include "faqem/detail/geometry/edge_flip.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
 #include "faqem/detail/simplify/engine_run.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/simplify.hpp"
 
 FAQEM_NAMESPACE_BEGIN
 namespace detail {
+
+/// The faces of the initial surface in connected components of which the result has a vertex: others would draw vertices
+/// to their places.
+/// \param slots  of the vertices of the result
+/// Complexity: O(n)
+inline std::vector<Triangle> faces_of_components_left(const RunState& state,
+                                                      const std::vector<Index>& slots) {
+    const MeshRef surface = state.initial_surface();
+    engine::UnionFind joined(surface.positions.size());
+    for (const Triangle& t : surface.triangles) joined.unite(t[0], t[1]), joined.unite(t[0], t[2]);
+    std::vector<std::uint8_t> has_result(state.mesh().positions.size(), 0),
+        is_left(surface.positions.size(), 0);
+    for (const Index slot : slots) has_result[slot] = 1;
+    for (Index v = 0; v < is_left.size(); ++v) {
+        const Index slot = state.vertex_map()[v];
+        if (slot != no_index && has_result[slot]) is_left[joined.find(v)] = 1;
+    }
+    std::vector<Triangle> faces(surface.triangles.begin(), surface.triangles.end());
+    std::erase_if(faces, [&](const Triangle& t) { return !is_left[joined.find(t[0])]; });
+    return faces;
+}
 
 /// Moves the vertices of a result closer to the original and flips edges where that reduces the distance.
 /// Locked vertices, seams and group curves stay; with attributes no edge is flipped, since that would change
@@ -41,8 +63,9 @@ inline void fit_result(const RunState& state, const PreprocessedMesh& prepared, 
     const MeshRef simplified{now, mesh.triangles};
     // Edge flips would change the attributes of the corners.
     const EdgeFlips flips = input.wedges.empty() ? EdgeFlips::on : EdgeFlips::off;
-    const FittingResult fitted = fit_vertices(state.initial_surface(), simplified, fixed, min_normal_cosine,
-                                              flips, mesh.face_groups, context);
+    const std::vector<Triangle> left = faces_of_components_left(state, slots);
+    const FittingResult fitted = fit_vertices({state.initial_surface().positions, left}, simplified, fixed,
+                                              min_normal_cosine, flips, mesh.face_groups, context);
     for (std::size_t v = 0; v < now.size(); ++v) {
         if (fitted.positions[v] == now[v]) continue;
         moved[v] = prepared.to_model(fitted.positions[v]);
