@@ -1,38 +1,13 @@
-// Calls the installed npm package in headless Chromium, in a worker, and bakes CASES/baked/maps.glb.
-// Usage: node test_browser.mjs CHROMIUM PROFILE CASES BROWSER.mjs, in the folder with node_modules
+// Calls the installed npm package in headless Chromium, in a worker, and bakes cases/baked/maps.glb.
+// Usage: node test_browser.mjs CHROMIUM PROFILE BROWSER.mjs, in a folder with examples/web, node_modules and cases
 import assert from "node:assert";
 import { readFileSync, writeFileSync } from "node:fs";
-import { createServer } from "node:http";
-import { pathToFileURL } from "node:url";
+import { open } from "./page.mjs";
 
-const [executable, profile, cases, browser] = process.argv.slice(2);
-const { openPage } = await import(pathToFileURL(browser));
-const types = { js: "text/javascript", wasm: "application/wasm" };
-const server = createServer(({ url }, response) => {
-    if (url === "/") return response.setHeader("Content-Type", "text/html").end("<title>faqem</title>");
-    try {
-        const file = readFileSync(url.startsWith("/cases/") ? `${cases}/${url.slice(7)}` : `node_modules/faqem${url}`);
-        response.setHeader("Content-Type", types[url.split(".").pop()] ?? "application/octet-stream").end(file);
-    } catch {
-        response.writeHead(404).end();
-    }
-}).listen(0, "127.0.0.1");
-await new Promise((resolve) => server.once("listening", resolve));
-
-const page = await openPage(executable, profile, { width: 640, height: 480 });
-/** The value of a promise in the page. */
-async function evaluate(expression) {
-    const { result, exceptionDetails } = await page.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
-    if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
-    return result.value;
-}
+const { evaluate, close } = await open(...process.argv.slice(2));
 try {
-    const loaded = new Promise((resolve) => page.on("Page.loadEventFired", resolve));
-    await page.send("Page.enable");
-    await page.send("Page.navigate", { url: `http://127.0.0.1:${server.address().port}/` });
-    await loaded;
     const made = await evaluate(`(async () => {
-        const { simplify } = await import("/faqem.js");
+        const { simplify } = await import("faqem");
         const array = async (Type, name) => new Type(await (await fetch("/cases/" + name)).arrayBuffer());
         const mesh = [await array(Float32Array, "grid.positions"), await array(Uint32Array, "grid.triangles")];
         const phases = new Set(), controller = new AbortController();
@@ -50,14 +25,13 @@ try {
     assert(made.phases.includes("simplify") && made.frames > 5, "the page works meanwhile, and gets the progress");
     assert.strictEqual(made.abort, "AbortError");
     console.log("Chromium: the same, in a worker", made);
-    const options = readFileSync(`${cases}/baked/maps.options`, "utf8");
+    const options = readFileSync("cases/baked/maps.options", "utf8");
     const bytes = await evaluate(`(async () => {
-        const { simplifyGlb } = await import("/faqem.js");
+        const { simplifyGlb } = await import("faqem");
         const file = new Uint8Array(await (await fetch("/cases/baked/maps.glb")).arrayBuffer());
         return [...(await simplifyGlb(file, ${options})).glb];
     })()`);
-    writeFileSync(`${cases}/baked/maps.out.glb`, Uint8Array.from(bytes));  // baked.py compares it
+    writeFileSync("cases/baked/maps.out.glb", Uint8Array.from(bytes));  // baked.py compares it
 } finally {
-    await page.close();
-    server.close();
+    await close();
 }
