@@ -22,7 +22,7 @@ mkdir "$work/cases/baked"
 bake write "$work/cases/baked" "$source/data/textured_quad.glb"
 
 cd "$work/empty"
-npm install --silent --no-audit --no-fund "$work"/faqem-*.tgz typescript@5 pngjs@7 three@0.187
+npm install --silent --no-audit --no-fund "$work"/faqem-*.tgz typescript@5 pngjs@7 three@0.187 @gltf-transform/functions@4
 for file in faqem:400000 faqem-bake:1300000; do
     size=$(gzip -9c "node_modules/faqem/${file%:*}.wasm" | wc -c)
     echo "${file%:*}.wasm: $size bytes gzipped"
@@ -30,7 +30,7 @@ for file in faqem:400000 faqem-bake:1300000; do
 done
 cp -R "$here"/*.mjs "$here"/types.mts "$source"/examples/web/* .
 ln -s ../cases cases
-npx tsc --noEmit --strict --module nodenext --lib es2022,dom types.mts
+npx tsc --noEmit --strict --module nodenext --lib es2022,esnext.float16,dom types.mts
 node --test-reporter=spec test_package.mjs "$work/cases"
 node --test-reporter=spec test_bake.mjs "$work/cases/baked"
 bake compare "$work/cases/baked"

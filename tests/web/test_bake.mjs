@@ -2,7 +2,10 @@
 import assert from "node:assert";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
+import { WebIO } from "@gltf-transform/core";
+import { KHRMaterialsClearcoat } from "@gltf-transform/extensions";
 import { FaqemError, simplifyGlb } from "faqem";
+import { rebake } from "faqem/gltf-transform";
 import { PNG } from "pngjs";
 
 const folder = process.argv[2];
@@ -22,6 +25,24 @@ for (const name of readdirSync(folder).filter((file) => file.endsWith(".options"
         writeFileSync(`${folder}/${name}.out.glb`, glb);  // baked.py compares it
     });
 }
+
+test("rebake() makes of a glTF-Transform document what simplifyGlb() makes of its file", async () => {
+    const io = new WebIO().registerExtensions([KHRMaterialsClearcoat]), options = { codecs, faces: 150, bake: "atlas", textureSize: 64 };
+    const document = await io.readBinary(new Uint8Array(readFileSync(`${folder}/maps.glb`))), root = document.getRoot();
+    const coat = document.createExtension(KHRMaterialsClearcoat).createClearcoat().setClearcoatFactor(0.5);
+    root.listMaterials()[0].setExtension(coat.extensionName, coat);
+    root.setExtras({ of: "the document" });
+    const before = await io.writeBinary(document), made = await simplifyGlb(before, options);
+    root.listAccessors()[0].setBuffer(document.createBuffer());
+    await assert.rejects(document.transform(rebake({ ...options, textureSize: -1 })), { name: "FaqemError", status: 2 });
+    assert.strictEqual(root.listBuffers().length, 2, "an error leaves the document unchanged");
+    await document.transform(rebake(options));
+    assert.deepStrictEqual(root.getExtras(), { of: "the document" });
+    const expected = await io.readBinary(made.glb);
+    expected.getRoot().setExtras(root.getExtras());
+    assert(expected.getRoot().listMaterials()[0].getExtension(coat.extensionName), "with the extension");
+    assert.deepStrictEqual(await io.writeBinary(document), await io.writeBinary(expected));
+});
 
 test("a codec that is missing or fails is an error", async () => {
     const broken = () => { throw new Error("no such codec"); };
