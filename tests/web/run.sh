@@ -34,7 +34,5 @@ npx tsc --noEmit --strict --module nodenext --lib es2022,esnext.float16,dom type
 node --test-reporter=spec test_package.mjs "$work/cases"
 node --test-reporter=spec test_bake.mjs "$work/cases/baked"
 bake compare "$work/cases/baked"
-browser="chromium $work/profile $source/tests/viewer/browser.mjs"
-node test_browser.mjs $browser
+node test_browser.mjs chromium "$work/profile" "$source/tests/viewer/browser.mjs"
 bake compare "$work/cases/baked"  # with a result of Chromium
-node test_example.mjs $browser
