@@ -48,13 +48,7 @@ def content(model):
 def compare(name, source, made, options):
     named = {{"textureSize": "texture_size", "maxError": "max_error"}.get(key, key): value for key, value in options.items()}
     native = faqem.simplify(source, threads=1, image_format="png", allow_larger=True, **named)
-    (*geometry, images), (*native_geometry, native_images) = content(made), content(faqem.Model.from_glb(native.to_glb()))
-    assert geometry == native_geometry, name
-    for (title, pixels), (native_title, native_pixels) in zip(images, native_images, strict=True):
-        # A few values of normal maps differ by one, since the order of some sums depends on the processor.
-        difference = numpy.abs(numpy.subtract(pixels, native_pixels))
-        most = 4 if title.endswith("_normal") else 0
-        assert title == native_title and difference.max() <= 1 and numpy.count_nonzero(difference) <= most, name
+    assert content(made) == content(faqem.Model.from_glb(native.to_glb())), name
     assert options["bake"] != "keep" or made.images[0].encoded == source.images[0].encoded
     print(f"{name}: {len(made.parts[0].triangles)} faces and {len(made.images)} images as the native library makes them")
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bake/atlas/triangle_overlap.hpp"
+#include "faqem/detail/base/portable_math.hpp"
 #include "faqem/detail/base/vector.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 
@@ -27,6 +28,9 @@ constexpr int max_iterations = 10;
 double twice_signed_area(const ComplexPoint& a, const ComplexPoint& b, const ComplexPoint& c) {
     return (std::conj(b - a) * (c - a)).imag();
 }
+
+// The distance from 0. That of std::abs(), as a quotient of complex numbers, rounds differently with each C library.
+double magnitude(const ComplexPoint& z) { return portable_length(z.real(), z.imag(), 0); }
 
 // The corners of a triangle as points of a chart.
 Triangle2 to_points(const std::array<ComplexPoint, 3>& t) {
@@ -68,7 +72,7 @@ LocalTriangle local_triangle(const PageTriangle& face) {
     result.at[(longest + 2) % 3] = {base, 0};
     result.at[longest] = {std::clamp(along, 0.0, base), std::max(twice / base, min_height_ratio * base)};
     const ComplexPoint origin = result.at[0],
-                       rotation = std::conj(result.at[1] - origin) / std::abs(result.at[1] - origin);
+                       rotation = std::conj(result.at[1] - origin) / magnitude(result.at[1] - origin);
     for (ComplexPoint& z : result.at) z = (z - origin) * rotation;
     return result;
 }
@@ -178,9 +182,9 @@ double stretch_of(const ChartMesh& chart_mesh, const std::vector<ComplexPoint>& 
         const auto t = chart_mesh.triangle(z, i);
         // The face's map is u = a x + b conj(x), with the singular values |a| + |b| and |a| - |b|.
         const ComplexPoint e = local.at[1] - local.at[0], f = local.at[2] - local.at[0];
-        const ComplexPoint u = t[1] - t[0], v = t[2] - t[0], det = {0, -2 * local.twice_area()};
-        const double a = std::abs((u * std::conj(f) - v * std::conj(e)) / det);
-        const double b = std::abs((e * v - f * u) / det);
+        const ComplexPoint u = t[1] - t[0], v = t[2] - t[0];
+        const double a = magnitude(u * std::conj(f) - v * std::conj(e)) / (2 * local.twice_area());
+        const double b = magnitude(e * v - f * u) / (2 * local.twice_area());
         const double s1 = (a + b) * (a + b) / ratio, s2 = (a - b) * (a - b) / ratio;
         sum += local.area * (s1 + s2 + 1 / s1 + 1 / s2) / 4;
     }
@@ -279,7 +283,7 @@ public:
                     z[chart_mesh_.vertex(i, (k + 2) % 3)] - z[chart_mesh_.vertex(i, (k + 1) % 3)];
                 rotation += local.half_cotangent(k) * u * std::conj(local.edge(k));
             }
-            const double size = std::abs(rotation);
+            const double size = magnitude(rotation);
             rotation = size > 0 ? rotation / size : ComplexPoint(1);
             for (std::size_t k = 0; k < 3; ++k) {
                 const ComplexPoint edge = local.half_cotangent(k) * rotation * local.edge(k);
