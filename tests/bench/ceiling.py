@@ -140,7 +140,7 @@ def measure(tools, source, result, folder):
         picture = numpy.array(Image.open(folder / f"views/unlit_{view:02d}.png").convert("RGBA")).reshape(-1, 4) / 255
         samples = (seen(corners, uvs, two_sided, frame, view, sample) for sample in SAMPLES)
         pixel, face, *at = map(numpy.concatenate, zip(*samples))
-        row, shared = numpy.unique([pixel, face], axis=1, return_index=True, return_counts=True)[1:]
+        row, shared = numpy.unique(pixel * len(corners) + face, return_index=True, return_counts=True)[1:]
         found.append([view * SIZE**2 + pixel[row], picture[pixel[row]], face[row], shared / 4, *(a[row] for a in at)])
     pixel, colors, face, share, *at = map(numpy.concatenate, zip(*found))
     for texture in numpy.unique(textures[face][textures[face] >= 0]):
