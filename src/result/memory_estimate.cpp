@@ -11,6 +11,7 @@
 #include "bake/source/page_groups.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "result/best_picture.hpp"
+#include "scene/layers.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/simplify_parts.hpp"
 
@@ -26,6 +27,7 @@ double simplify_bytes_per_face(Preset preset) {
 }
 
 constexpr double history_bytes_per_face = 300;  // collapse history and the data structures of the baking map
+constexpr double layer_bytes_per_face = 250;
 constexpr double visibility_bytes_per_face = 400;  // per face of all instances, with --visibility weighted
 constexpr double bytes_per_corner_value = 12;
 constexpr double image_library_bytes = 30e6;  // libraries of PNG, JPEG and WebP, and their buffers
@@ -127,6 +129,8 @@ std::uint64_t estimated_simplify_memory(const Asset& asset, const Options& reque
                       1.5 * static_cast<double>(most_fitted_faces) / std::max(share, 1e-9)});
         work = std::max(work, history_bytes_per_face * all + simplify_bytes_per_face(Preset::best) * fitted);
     }
+    if (separates_layers(asset, options))
+        work = std::max(work, (history_bytes_per_face + layer_bytes_per_face) * all);
     if (options.bake.kind == Bake::keep) work += search_factor(options) * bytes_per_corner_value * values;
     if (options.visibility == Visibility::weighted)
         work = std::max(work, visibility_bytes_per_face * instanced_face_count(asset));

@@ -12,6 +12,7 @@
 #include "faqem/detail/simplify/run.hpp"
 #include "scene/check_asset.hpp"
 #include "scene/face_budget.hpp"
+#include "scene/layers.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/motion.hpp"
 #include "scene/part_reports.hpp"
@@ -165,19 +166,29 @@ private:
             std::vector<SimplifyResult> results = simplify(p, view, own, of_part);
             if (results.back().report.stop == StopReason::cancelled) throw engine::Cancelled{};
             for (std::size_t i = 0; i < results.size(); ++i) {
-                round_result(results[i]);
                 results_[i].parts[p] = std::move(results[i]);
                 if (groups_) restore_face_groups(p, results_[i].parts[p]);
-                add_part_report(results_[i].report, results_[i].parts[p].report, part_title(source_, p));
             }
         });
-        for (SimplifiedParts& level : results_) {
-            report_removed_components(source_, level);
-            if (level.report.stop == StopReason::reached_time_limit)
-                level.report.warnings.push_back("max_seconds was over before the target was reached");
-            level.report.seconds.total = level.report.seconds.simplify;
-        }
+        for (SimplifiedParts& level : results_) finish(level);
         return std::move(results_);
+    }
+
+    // What concerns all parts together, and the report.
+    void finish(SimplifiedParts& level) const {
+        const Stopwatch watch;
+        if (separates_layers(source_, options_))
+            context_.in_time([&] { separate_layers(source_, level.parts, context_); });
+        for (std::size_t p = 0; p < source_.parts.size(); ++p) {
+            if (source_.parts[p].triangles.empty()) continue;
+            round_result(level.parts[p]);
+            add_part_report(level.report, level.parts[p].report, part_title(source_, p));
+        }
+        report_removed_components(source_, level);
+        if (level.report.stop == StopReason::reached_time_limit)
+            level.report.warnings.push_back("max_seconds was over before the target was reached");
+        level.report.seconds.simplify += watch.seconds();
+        level.report.seconds.total = level.report.seconds.simplify;
     }
 
     // Rounds the positions as the file will have them, so that this is what is measured.

@@ -1,0 +1,69 @@
+// Surfaces that lie close to others keep their side.
+
+#include <Eigen/Dense>
+
+#include "faqem/bake.hpp"
+#include "scene/layers.hpp"
+#include "support/catch.hpp"
+#include "support/meshes.hpp"
+#include "support/scenes.hpp"
+
+using namespace faqem;
+using namespace faqem::test;
+
+namespace {
+
+// A sphere of radius 1, and one with other faces that is shifted along x.
+Asset spheres(double radius, double shift) {
+    return asset_with({part_of(icosphere(4)), part_of(moved(globe(40, radius), {shift, 0, 0}))});
+}
+
+SimplifiedParts simplified(const Asset& asset, Preset preset) {
+    return simplify_parts(asset, {.target = ratio(0.03), .preset = preset});
+}
+
+// Distance of the surface around the origin in a direction.
+double radius(const TriangleMesh& mesh, const Vec3& direction) {
+    const Eigen::Vector3d d(direction[0], direction[1], direction[2]);
+    for (const Triangle& t : mesh.triangles) {
+        Eigen::Matrix3d corners;
+        for (int k = 0; k < 3; ++k) {
+            const Vec3& p = mesh.positions[t[static_cast<std::size_t>(k)]];
+            corners.col(k) = Eigen::Vector3d(p[0], p[1], p[2]);
+        }
+        const Eigen::Vector3d x = corners.inverse() * d;  // d is this combination of the corners
+        if (x.minCoeff() >= -1e-9) return 1 / x.sum();
+    }
+    return 0;
+}
+
+// Share of directions in which the outer sphere is inside the inner one.
+double share_crossed(const SimplifiedParts& result) {
+    const TriangleMesh directions = icosphere(4);
+    double crossed = 0;
+    for (const Vec3& d : directions.positions)
+        crossed += !(radius(result.parts[0].mesh, d) < radius(result.parts[1].mesh, d));
+    return crossed / static_cast<double>(directions.positions.size());
+}
+
+}  // namespace
+
+TEST_CASE("a surface close around another one stays outside") {
+    const Asset asset = spheres(1.005, 0);
+    CHECK(share_crossed(simplified(asset, Preset::fast)) > 0.2);
+    for (const Preset preset : {Preset::balanced, Preset::best})
+        CHECK(share_crossed(simplified(asset, preset)) < 0.02);
+}
+
+TEST_CASE("surfaces that are not close to others do not move") {
+    CHECK(simplified(spheres(1.005, 0), Preset::balanced).report.vertices_fitted > 0);
+    CHECK(simplified(spheres(1.005, 3), Preset::balanced).report.vertices_fitted == 0);
+    CHECK(simplified(spheres(2, 0), Preset::balanced).report.vertices_fitted == 0);
+}
+
+TEST_CASE("layers are not separated if distances to the source are limited") {
+    const Asset asset = spheres(1.005, 0);
+    CHECK(detail::separates_layers(asset, {}));
+    CHECK_FALSE(detail::separates_layers(asset, {.max_error = MaxError{}}));
+    CHECK_FALSE(detail::separates_layers(asset, {.preset = Preset::fast}));
+}
