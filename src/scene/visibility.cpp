@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "asset/scene/affine.hpp"
+#include "asset/scene/flatten.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "asset/scene/source_traits.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
@@ -30,23 +30,6 @@ constexpr double min_patch_normal_cosine = 0.8;
 // No further large faces around a vertex are sampled once this visibility is reached.
 constexpr double sufficient_visibility = 0.5;
 
-// Mesh of an instance, in the coordinates of the scene.
-struct InstanceMesh {
-    std::vector<Vec3> positions;
-    std::vector<Triangle> triangles;  // with reversed winding if the transform is a reflection
-};
-
-InstanceMesh instance_mesh(const Asset& scene, const Instance& instance) {
-    const Part& part = scene.parts[instance.part];
-    const Eigen::Map<const Eigen::Matrix4d> transform(instance.transform.data());
-    InstanceMesh result;
-    for (const Vec3& p : part.positions) result.positions.push_back(transformed_point(instance.transform, p));
-    result.triangles = part.triangles;
-    if (transform.topLeftCorner<3, 3>().determinant() < 0)
-        for (Triangle& t : result.triangles) std::swap(t[1], t[2]);
-    return result;
-}
-
 // Sides of a face that occlude, depending on its material.
 enum class OccludingSides { none, front, both };
 
@@ -62,24 +45,17 @@ OccludingSides occluding_sides(const Asset& scene, Index material) {
 // The occluding faces of all instances.
 class Occluders {
 public:
-    Occluders(const Asset& scene, const std::vector<Instance>& all, const RunContext& context) {
-        std::vector<Vec3> positions;
-        std::vector<Triangle> triangles;
+    Occluders(const Asset& scene, const std::vector<PosedInstance>& all, const RunContext& context) {
         check_size(scene, all);
-        for (const Instance& instance : all) {
-            const Part& part = scene.parts[instance.part];
-            const InstanceMesh own = instance_mesh(scene, instance);
-            const auto first = static_cast<Index>(positions.size());
-            positions.insert(positions.end(), own.positions.begin(), own.positions.end());
-            for (std::size_t f = 0; f < own.triangles.size(); ++f) {
-                const OccludingSides kind = occluding_sides(scene, face_material(part, f));
-                if (kind == OccludingSides::none) continue;
-                const Triangle& t = own.triangles[f];
-                triangles.push_back({first + t[0], first + t[1], first + t[2]});
-                is_double_sided_.push_back(kind == OccludingSides::both);
-            }
+        const Part placed = flatten(scene, all);
+        std::vector<Triangle> triangles;
+        for (std::size_t f = 0; f < placed.triangles.size(); ++f) {
+            const OccludingSides kind = occluding_sides(scene, face_material(placed, f));
+            if (kind == OccludingSides::none) continue;
+            triangles.push_back(placed.triangles[f]);
+            is_double_sided_.push_back(kind == OccludingSides::both);
         }
-        tree_ = Bvh(positions, triangles, context);
+        tree_ = Bvh(placed.positions, triangles, context);
     }
 
     // Whether the point is hidden from a distant viewer in the given direction.
@@ -91,9 +67,9 @@ public:
     }
 
 private:
-    static void check_size(const Asset& scene, const std::vector<Instance>& all) {
+    static void check_size(const Asset& scene, const std::vector<PosedInstance>& all) {
         std::uint64_t faces = 0, vertices = 0;
-        for (const Instance& instance : all) {
+        for (const PosedInstance& instance : all) {
             faces += scene.parts[instance.part].triangles.size();
             vertices += scene.parts[instance.part].positions.size();
         }
@@ -213,13 +189,15 @@ private:
 }  // namespace
 
 VertexVisibility vertex_visibility(const Asset& scene, const RunContext& context) {
-    const std::vector<Instance> all = measured_instances(scene);
+    std::vector<PosedInstance> all;
+    for (const Instance& instance : measured_instances(scene))
+        all.push_back({instance.part, instance.transform});
     const Occluders occluders(scene, all, context);
     std::vector<std::vector<std::optional<float>>> seen(scene.parts.size());
     for (std::size_t p = 0; p < seen.size(); ++p) seen[p].resize(scene.parts[p].positions.size());
-    for (const Instance& instance : all) {
+    for (const PosedInstance& instance : all) {
         context.check_now();
-        const InstanceMesh own = instance_mesh(scene, instance);
+        const Part own = flatten(scene, {instance});
         const Surface surface = extract_surface({own.positions, own.triangles});
         const std::vector<float> at = VisibilitySampler(surface, occluders, context).by_position(context);
         for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
