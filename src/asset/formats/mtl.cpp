@@ -352,8 +352,7 @@ std::map<std::string, MtlMaterial> read_libraries(const std::vector<std::string>
             if (!known_files.insert(found.file).second) return;
             text = read_file(found.file);
         } catch (const InputError& error) {
-            warnings.push_back(std::string("material library ignored: ") + error.what());
-            return;
+            return warnings.push_back(std::string("material library ignored: ") + error.what());
         }
         if (!found.is_as_named)
             warnings.push_back("material library " + TextScanner::quoted(name) + " was not found; the file " +

@@ -229,14 +229,16 @@ private:
     std::string first_unknown_;
 };
 
+/// Whether a corner has an index of a kind: 1 for UVs, 2 for normals.
+bool has_indices(const ObjStatements& in, std::size_t kind) {
+    return std::ranges::any_of(in.corners, [kind](const ObjCorner& c) { return c[kind] != no_index; });
+}
+
 void fill_vertices(Part& part, const ObjStatements& in, const CornerVertices& corner_vertices) {
     const std::size_t count = corner_vertices.count();
     part.positions.resize(count);
     if (!in.colors.empty()) part.colors.resize(count);
-    const auto uses = [&](int kind) {
-        return std::ranges::any_of(in.corners, [kind](const ObjCorner& c) { return c[kind] != no_index; });
-    };
-    const bool has_uvs = uses(1), has_normals = uses(2);
+    const bool has_uvs = has_indices(in, 1), has_normals = has_indices(in, 2);
     if (has_uvs) part.uvs.emplace_back(count, Vec2f{0, 0});
     if (has_normals) part.normals.resize(count, {0, 0, 0});
     for (std::size_t v = 0; v < count; ++v) {
@@ -286,9 +288,7 @@ void add_materials(Asset& asset, const ObjStatements& in, const std::map<std::st
 /// The smoothing that all faces have if no corner has a normal.
 Smoothing common_smoothing(const ObjStatements& in) {
     const std::vector<std::int64_t>& groups = in.face_smoothing;
-    const bool has_normals =
-        std::ranges::any_of(in.corners, [](const ObjCorner& c) { return c[2] != no_index; });
-    if (has_normals || groups.empty() || groups[0] == unknown_smoothing ||
+    if (has_indices(in, 2) || groups.empty() || groups[0] == unknown_smoothing ||
         std::ranges::any_of(groups, [&](std::int64_t group) { return group != groups[0]; }))
         return Smoothing::unknown;
     return groups[0] == 0 ? Smoothing::off : Smoothing::on;

@@ -208,9 +208,8 @@ std::vector<Index> used_materials(const Part& part) {
     return used;
 }
 
-/// The values of a v, vt or vn line.
-template <std::size_t N>
-using LineValues = std::array<double, N>;
+/// The values of a v line: a position and a colour.
+using PositionLine = std::array<double, 6>;
 
 /// Numbers the v, vt and vn lines in the order in which face corners use them, so that writing, reading and
 /// writing again reproduces the file.
@@ -249,7 +248,7 @@ public:
     Index position(Index vertex) {
         if (position_line_[vertex] != no_index) return position_line_[vertex];
         const Vec3& p = part_.positions[vertex];
-        LineValues<6> row = {p[0], p[1], p[2], 0, 0, 0};
+        PositionLine row = {p[0], p[1], p[2], 0, 0, 0};
         for (std::size_t k = 0; k < 3 && !part_.colors.empty(); ++k)
             row[3 + k] = round_to_six_decimals(srgb_from_linear(part_.colors[vertex][k]));
         return position_line_[vertex] = positions_.insert(row);
@@ -257,7 +256,7 @@ public:
 
     void write(std::string& text) const {
         const bool floats = is_float_representable(part_.positions);
-        for (const LineValues<6>& row : positions_.values()) {
+        for (const PositionLine& row : positions_.values()) {
             text += 'v';
             for (std::size_t k = 0; k < (part_.colors.empty() ? 3 : 6); ++k) {
                 text += ' ';
@@ -296,7 +295,7 @@ private:
     const Part& part_;
     std::vector<CachedUv> uv_line_;
     std::vector<Index> position_line_, normal_line_;  // line numbers by vertex; no_index: not assigned yet
-    UniqueValues<LineValues<6>> positions_;
+    UniqueValues<PositionLine> positions_;
     UniqueValues<Vec2f> uvs_;
     UniqueValues<Vec3f> normals_;
 };

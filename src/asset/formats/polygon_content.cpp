@@ -54,10 +54,8 @@ private:
     /// Adds the materials of the texture files that faces refer to, in the order of their numbers, and sets material_.
     void add_materials(const std::vector<std::string>& texture_files) {
         if (texture_files.empty()) return;
-        if (faces_.uvs.empty() && part_.uvs.empty()) {
-            warn("texture files are not read: there are no texture coordinates");
-            return;
-        }
+        if (faces_.uvs.empty() && part_.uvs.empty())
+            return warn("texture files are not read: there are no texture coordinates");
         const std::vector<std::size_t> numbers = texture_numbers(texture_files.size());
         FileFinder finder(file_.parent_path());
         ReferencedImages images(asset_, finder);
