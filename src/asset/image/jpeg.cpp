@@ -128,9 +128,6 @@ boolean grow_jpeg_output(j_compress_ptr state) {
     return TRUE;
 }
 
-void begin_jpeg_output(j_compress_ptr state) { grow_jpeg_output(state); }
-void end_jpeg_output(j_compress_ptr) {}
-
 /// Sets the coding of an encoder whose defaults have been set. It calls libjpeg, so it has no objects with destructors.
 struct JpegCoding {
     int quality;  ///< of the usual tables; 0: the next one instead
@@ -141,10 +138,7 @@ void set_jpeg_coding(jpeg_compress_struct& state, const JpegCoding& coding) {
     const int chroma_step = coding.rounding.chroma == Chroma::half ? 2 : 1;
     state.comp_info[0].h_samp_factor = state.comp_info[0].v_samp_factor = chroma_step;
     state.optimize_coding = TRUE;
-    if (coding.quality > 0) {
-        jpeg_set_quality(&state, coding.quality, TRUE);
-        return;
-    }
+    if (coding.quality > 0) return jpeg_set_quality(&state, coding.quality, TRUE);
     unsigned steps[DCTSIZE2];
     for (unsigned i = 0; i < DCTSIZE2; ++i)
         steps[i] = (coding.rounding.step * (10 + i / DCTSIZE + i % DCTSIZE) + 5) / 10;
@@ -156,9 +150,9 @@ bool write_jpeg_file(JpegEncoder& encoder, const Pixels& pixels, const JpegCodin
     jpeg_compress_struct& state = encoder.state;
     if (setjmp(encoder.errors.jump)) return false;
     jpeg_create_compress(&state);
-    encoder.output.base.init_destination = begin_jpeg_output;
+    encoder.output.base.init_destination = [](j_compress_ptr own) { grow_jpeg_output(own); };
     encoder.output.base.empty_output_buffer = grow_jpeg_output;
-    encoder.output.base.term_destination = end_jpeg_output;
+    encoder.output.base.term_destination = [](j_compress_ptr) {};
     state.dest = &encoder.output.base;
     state.image_width = pixels.width;
     state.image_height = pixels.height;
