@@ -142,10 +142,8 @@ private:
 
     void number_nodes() {
         Index next = 0;
-        for (Index n = 0; n < removed_.size(); ++n) {
-            number_.push_back(removed_[n] ? no_index : keeps_numbers_ ? n : next);
-            if (!removed_[n]) ++next;
-        }
+        for (Index n = 0; n < removed_.size(); ++n)
+            number_.push_back(removed_[n] ? no_index : keeps_numbers_ ? n : next++);
     }
 
     /// Renumbers the nodes in a list, which is erased if none is left.

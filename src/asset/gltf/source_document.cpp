@@ -74,8 +74,8 @@ private:
         if (index >= array_size(document_, "textures")) return;
         const Json& texture = member(document_, "textures")[index];
         mark_image(index_member(texture, "source"));
-        const Json& extensions = member(texture, "extensions");
-        for (const Json& extension : extensions) mark_image(index_member(extension, "source"));
+        for (const Json& extension : member(texture, "extensions"))
+            mark_image(index_member(extension, "source"));
     }
 
     void mark_image(Index image) {
@@ -95,12 +95,9 @@ public:
             for (const Json& primitive : member(mesh, "primitives")) add_primitive(primitive);
         for (const Json& skin : member(document, "skins"))
             add(skin, "inverseBindMatrices", "inverse bind matrices");
-        for (const Json& animation : member(document, "animations")) {
-            for (const Json& sampler : member(animation, "samplers")) {
-                add(sampler, "input", "animation");
-                add(sampler, "output", "animation");
-            }
-        }
+        for (const Json& animation : member(document, "animations"))
+            for (const Json& sampler : member(animation, "samplers"))
+                for (const char* key : {"input", "output"}) add(sampler, key, "animation");
         for (const Json& node : member(document, "nodes"))
             add_all(member(node, "extensions", instancing_name, "attributes"), "instance ");
         for (const Json& image : member(document, "images"))
@@ -154,8 +151,7 @@ bool is_dynamic(const Asset& asset) {
 std::vector<Index> variant_materials(const Asset& asset, const Part& part) {
     std::set<Index> result;
     for (const Json& primitive : primitives_of(asset, part)) {
-        const Json& variants = member(primitive, "extensions", "KHR_materials_variants");
-        for (const Json& mapping : member(variants, "mappings")) {
+        for (const Json& mapping : member(primitive, "extensions", variants_name, "mappings")) {
             const Index wanted = index_member(mapping, "material");
             for (Index m = 0; m < asset.materials.size(); ++m)
                 if (wanted != no_index && asset.materials[m].source == wanted && !asset.materials[m].rebaked)
@@ -242,13 +238,11 @@ void carry_materials(const Asset& from, Asset& to) {
 std::string unused_objects(const Json& document) {
     if (names_objects_by_number(document)) return {};
     const UseMarker marker(document);
-    const std::uint64_t materials = marker.unused_materials(), images = marker.unused_images();
-    if (materials == 0 && images == 0) return {};
-    std::string text;
-    if (materials > 0) text = pluralized(materials, "material");
-    if (materials > 0 && images > 0) text += " and ";
-    if (images > 0) text += pluralized(images, "image");
-    return text + " that no mesh uses";
+    std::vector<std::string> counts;
+    add_counted(counts, marker.unused_materials(), "material", "");
+    add_counted(counts, marker.unused_images(), "image", "");
+    if (counts.empty()) return {};
+    return counts.front() + (counts.size() > 1 ? " and " + counts.back() : "") + " that no mesh uses";
 }
 
 std::vector<ResultView> buffer_views(const Json& document) {

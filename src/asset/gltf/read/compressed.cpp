@@ -99,10 +99,7 @@ std::optional<std::vector<std::uint8_t>> encode_indices(const std::vector<std::u
 
 /// Number of corners plus number of vertices of a primitive.
 std::uint64_t draco_element_count(const Json& document, const Json& primitive) {
-    const Json& accessors = document["accessors"];
-    const auto count = [&](std::uint64_t accessor) {
-        return unsigned_member(accessors[accessor], "count", 0);
-    };
+    const auto count = [&](Index a) { return unsigned_member(document["accessors"][a], "count", 0); };
     return count(index_member(primitive, "indices")) + count(primitive["attributes"].front().get<Index>());
 }
 
@@ -279,17 +276,15 @@ void check_draco(const CheckedJson& primitive) {
 
 std::vector<char> draco_accessor_flags(const Json& document) {
     std::vector<char> result(array_size(document, "accessors"), 0);
-    const auto mark = [&](const Json& index) {
-        if (index.is_number_unsigned() && index.get<std::uint64_t>() < result.size())
-            result[index.get<std::uint64_t>()] = 1;
+    const auto mark = [&](const Json& accessor) {
+        if (const std::optional<Index> index = valid_index(accessor, result.size())) result[*index] = 1;
     };
-    for (const Json& mesh : member(document, "meshes")) {
+    for (const Json& mesh : member(document, "meshes"))
         for (const Json& primitive : member(mesh, "primitives")) {
             if (!member(primitive, "extensions").contains(draco_name)) continue;
             for (const Json& accessor : member(primitive, "attributes")) mark(accessor);
             mark(member(primitive, "indices"));
         }
-    }
     return result;
 }
 

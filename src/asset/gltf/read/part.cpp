@@ -9,6 +9,7 @@
 #include "asset/gltf/read/load.hpp"
 #include "asset/scene/influences.hpp"
 #include "asset/scene/repair.hpp"
+#include "faqem/engine/mesh/index_lists.hpp"
 #include "faqem/error.hpp"
 #include "faqem/options.hpp"
 
@@ -167,14 +168,9 @@ std::uint64_t append_vertices(Part& part, const PartLayout& layout, const Source
 /// The corners of a primitive as indices of its own vertices.
 std::vector<Index> corners_of(const LoadedGltf& loaded, const Json& primitive, std::uint64_t vertices,
                               const std::string& where) {
-    std::vector<Index> corners;
     const Index indices = index_member(primitive, "indices");
-    if (indices == no_index) {
-        corners.resize(vertices);
-        for (std::uint64_t i = 0; i < vertices; ++i) corners[i] = static_cast<Index>(i);
-        return corners;
-    }
-    corners = read_indices(*loaded.source, indices);
+    if (indices == no_index) return engine::all_indices(vertices);
+    std::vector<Index> corners = read_indices(*loaded.source, indices);
     for (const Index corner : corners)
         if (corner >= vertices)
             throw InputError(loaded.file, where + "/indices",

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -128,8 +127,7 @@ bool has_attribute(const Part& part, const std::string& name) {
 
 /// Whether the UV sets of the part are those of the source.
 bool has_source_uvs(const GltfWriter& writer, const Part& part) {
-    const std::set<Index> materials(part.face_material.begin(), part.face_material.end());
-    return std::ranges::none_of(materials, [&](Index material) {
+    return std::ranges::none_of(part.face_material, [&](Index material) {
         return material != no_index && writer.asset.materials[material].rebaked;
     });
 }

@@ -108,10 +108,7 @@ void gather_tangents(const Part& part, PrimitiveData& data) {
     if (part.tangents.empty() || data.normals.empty()) return;
     data.tangents = gather(part.tangents, data.vertices);
     for (Vec4f& tangent : data.tangents) {
-        if (!make_unit(tangent) || !std::isfinite(tangent[3])) {
-            data.tangents.clear();
-            return;
-        }
+        if (!make_unit(tangent) || !std::isfinite(tangent[3])) return data.tangents.clear();
         tangent[3] = tangent[3] < 0 ? -1.0f : 1.0f;
     }
 }

@@ -185,11 +185,10 @@ void write_scene(GltfWriter& writer, const std::vector<Index>& new_meshes) {
 void write_extension_lists(GltfWriter& writer) {
     // The list of variants is removed if no primitive has variants.
     bool has_variants = false;
-    if (writer.out.contains("meshes"))
-        for_each_extension(writer.out["meshes"], [&](const std::string& name, const Json&) {
-            has_variants = has_variants || name == "KHR_materials_variants";
-        });
-    if (!has_variants) erase_extension(writer.out, "KHR_materials_variants");
+    for_each_extension(member(writer.out, "meshes"), [&](const std::string& name, const Json&) {
+        has_variants = has_variants || name == variants_name;
+    });
+    if (!has_variants) erase_extension(writer.out, variants_name);
     std::set<std::string> used;
     for_each_extension(writer.out, [&](const std::string& name, const Json&) { used.insert(name); });
     Json required = Json::array();
