@@ -28,12 +28,14 @@ std::string name_in(std::string_view reference, ReferenceSyntax kind) {
     return name;
 }
 
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 bool has_scheme(std::string_view text) {
-    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     if (text.empty() || !is_letter(text[0])) return false;
-    const auto end = std::ranges::find_if(text, [&](char c) {
-        return !is_letter(c) && !(c >= '0' && c <= '9') && c != '+' && c != '-' && c != '.';
-    });
+    const auto end = std::ranges::find_if(
+        text, [&](char c) { return !is_letter(c) && !is_digit(c) && c != '+' && c != '-' && c != '.'; });
     return end != text.end() && *end == ':';
 }
 
@@ -82,6 +84,19 @@ std::string percent_decoded(std::string_view text) {
         if (is_escape) i += 2;
     }
     return decoded;
+}
+
+std::string percent_encoded(std::string_view text, std::string_view plain) {
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    std::string encoded;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (is_letter(c) || is_digit(c) || plain.find(c) != std::string_view::npos)
+            encoded += c;
+        else
+            encoded += {'%', digits[byte / 16], digits[byte % 16]};
+    }
+    return encoded;
 }
 
 fs::path resolve_inside(const fs::path& folder, std::string_view reference, ReferenceSyntax kind) {

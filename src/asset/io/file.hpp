@@ -36,6 +36,9 @@ enum class ReferenceSyntax {
 /// Decodes percent escapes. A percent sign that is not followed by two hexadecimal digits is kept.
 std::string percent_decoded(std::string_view text);
 
+/// Replaces bytes other than ASCII letters, digits and those of `plain` by percent escapes.
+FAQEM_EXPORT std::string percent_encoded(std::string_view text, std::string_view plain);
+
 /// Resolves a file reference of an asset. The file must lie in the folder of the asset or below it after
 /// symbolic links are resolved. The current directory is used only if `folder` is empty.
 /// \param folder     folder of the asset; empty: the current directory

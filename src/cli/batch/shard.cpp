@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "asset/io/file.hpp"
 #include "cli/files/sha256.hpp"
 #include "faqem/error.hpp"
 
@@ -94,18 +95,7 @@ Shard parse_shard(const std::string& text, const Environment& environment) {
 }
 
 std::string default_output(const std::string& id, const std::string& extension) {
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    const std::string hash = sha256(id);
-    std::string name;
-    for (const char c : id) {
-        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                              c == '.' || c == '_' || c == '-';
-        const auto byte = static_cast<unsigned char>(c);
-        if (is_plain)
-            name += c;
-        else
-            name += {'%', digits[byte / 16], digits[byte % 16]};
-    }
+    const std::string hash = sha256(id), name = detail::percent_encoded(id, "-._");
     return hash.substr(0, 2) + "/" + (name.size() > max_name_size ? hash : name) + extension;
 }
 

@@ -15,7 +15,6 @@
 #include "asset/image/image.hpp"
 #include "asset/io/file.hpp"
 #include "asset/scene/flatten.hpp"
-#include "faqem/error.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -74,21 +73,7 @@ void encode_binary(GltfWriter& writer, const fs::path& file, EncodedModel& model
         encoded_file(file.filename().string(), join_glb(json_text(writer.out, -1), buffer, file.string())));
 }
 
-/// A file name as a relative URI (RFC 3986, section 2.3).
-std::string percent_encoded(const std::string& name) {
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    std::string uri;
-    for (const char c : name) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                           c == '-' || c == '.' || c == '_' || c == '~';
-        const auto byte = static_cast<unsigned char>(c);
-        if (plain)
-            uri += c;
-        else
-            uri += {'%', digits[byte / 16], digits[byte % 16]};
-    }
-    return uri;
-}
+constexpr const char* unreserved = "-._~";  // marks in relative URIs (RFC 3986, section 2.3)
 
 /// The images, the buffer and then the JSON, which refers to them.
 void encode_json_with_files(GltfWriter& writer, const fs::path& file, EncodedModel& model) {
@@ -96,13 +81,13 @@ void encode_json_with_files(GltfWriter& writer, const fs::path& file, EncodedMod
     for (std::size_t i = 0; i < writer.images.size(); ++i) {
         const Image& image = *writer.images[i];
         const std::string name = image_file_name(stem, i, file_extension(image.mime_type));
-        writer.out["images"][i]["uri"] = percent_encoded(name);
+        writer.out["images"][i]["uri"] = percent_encoded(name, unreserved);
         if (!image.mime_type.empty()) writer.out["images"][i]["mimeType"] = image.mime_type;
         model.files.push_back(encoded_image(name, image));
     }
     std::vector<std::uint8_t> buffer = writer.binary.finish(writer.out);
     if (!buffer.empty()) {
-        writer.out["buffers"][0]["uri"] = percent_encoded(buffer_file_name(stem));
+        writer.out["buffers"][0]["uri"] = percent_encoded(buffer_file_name(stem), unreserved);
         model.files.push_back(encoded_file(buffer_file_name(stem), std::move(buffer)));
     }
     model.files.push_back(encoded_file(file.filename().string(), json_text(writer.out, 2)));
