@@ -1,5 +1,4 @@
 #include <string>
-#include <vector>
 
 #include "asset/scene/material_textures.hpp"
 #include "capi/c_asset.hpp"

@@ -7,7 +7,6 @@
 
 #include "cli/batch/ledger.hpp"
 #include "cli/files/sha256.hpp"
-#include "faqem/error.hpp"
 
 namespace faqem::cli {
 

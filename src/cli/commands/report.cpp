@@ -14,7 +14,6 @@
 #include "cli/report/model_comparison.hpp"
 #include "cli/report/report_page.hpp"
 #include "cli/report/viewer_model.hpp"
-#include "faqem/error.hpp"
 #include "render/views.hpp"
 
 namespace faqem::cli {

@@ -1,7 +1,6 @@
 #include "cli/options/simplify_options.hpp"
 
 #include "cli/options/bound_options.hpp"
-#include "faqem/error.hpp"
 
 namespace faqem::cli {
 
