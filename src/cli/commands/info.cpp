@@ -50,12 +50,10 @@ MeshInfo sum_of_instances(const Asset& asset, const std::vector<MeshInfo>& meshe
     for (const Instance& instance : all) {
         const MeshInfo& mesh = meshes[instance.part];
         const Eigen::Affine3d transform(Eigen::Map<const Eigen::Matrix4d>(instance.transform.data()));
-        sum.faces += mesh.faces;
-        sum.degenerate_faces += mesh.degenerate_faces;
-        sum.vertices += mesh.vertices;
-        sum.components += mesh.components;
-        sum.boundary_edges += mesh.boundary_edges;
-        sum.nonmanifold_edges += mesh.nonmanifold_edges;
+        for (const auto count :
+             {&MeshInfo::faces, &MeshInfo::degenerate_faces, &MeshInfo::vertices, &MeshInfo::components,
+              &MeshInfo::boundary_edges, &MeshInfo::nonmanifold_edges})
+            sum.*count += mesh.*count;
         sum.euler += mesh.euler;
         sum.area += mesh.area * std::pow(std::abs(transform.linear().determinant()), 2.0 / 3);
         if (asset.parts[instance.part].triangles.empty()) continue;

@@ -44,19 +44,6 @@ struct SimplifyCommandArguments : SimplifyArguments {
     Overwrite overwrite = Overwrite::no;  ///< after check_outputs()
 };
 
-void write_histories(const SimplifyCommandArguments& arguments,
-                     const std::vector<CollapseHistory>& histories) {
-    std::ostringstream out;
-    for (const CollapseHistory& history : histories) write(history, out);
-    write_output(arguments.history, out.view(), arguments.overwrite);
-}
-
-void write_correspondence(const SimplifyCommandArguments& arguments, const std::vector<PageOrigins>& pages) {
-    std::ostringstream out;
-    write(pages, out);
-    write_output(arguments.correspondence, out.view(), arguments.overwrite);
-}
-
 /// Why few bytes are saved, in one line.
 void print_little_saved(std::ostream& out, const LittleSaved& saved) {
     out << "little saved: " << saved.reason;
@@ -117,8 +104,16 @@ void save_files(const SimplifyCommandArguments& arguments, const Options& option
     const ExitOnInterrupt exit_on_interrupt;
     const detail::CollectWrites collect(set);
     detail::save_result(simplified, arguments.out, options, arguments.overwrite);
-    if (!arguments.history.empty()) write_histories(arguments, simplified.histories);
-    if (!arguments.correspondence.empty()) write_correspondence(arguments, simplified.correspondence);
+    if (!arguments.history.empty()) {
+        std::ostringstream out;
+        for (const CollapseHistory& history : simplified.histories) write(history, out);
+        write_output(arguments.history, out.view(), arguments.overwrite);
+    }
+    if (!arguments.correspondence.empty()) {
+        std::ostringstream out;
+        write(simplified.correspondence, out);
+        write_output(arguments.correspondence, out.view(), arguments.overwrite);
+    }
 }
 
 /// Loads and simplifies the model if the memory is enough. \param diagonal  receives that of the input, scene units
