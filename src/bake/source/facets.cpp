@@ -111,10 +111,7 @@ std::vector<float> region_densities(
     const auto compare = [&](const Halfedge& a, const Halfedge& b) {
         const bool is_inner = face_material(part, a.face) == face_material(part, b.face) &&
                               vertices_of(part, a) == vertices_of(part, b);
-        if (is_inner || !differs(middle_of(a), middle_of(b))) {
-            regions.unite(a.face, b.face);
-            return;
-        }
+        if (is_inner || !differs(middle_of(a), middle_of(b))) return regions.unite(a.face, b.face);
         const auto [from, to] = vertices_of(part, a);
         const double length = (to_eigen(part.positions[from]) - to_eigen(part.positions[to])).norm();
         border[a.face] += length;

@@ -73,10 +73,7 @@ void split_group(const MaterialGroup& group, const Asset& asset, std::span<const
         total += shown[image];
     }
     const double pages = std::min(std::round(total / page_texels), static_cast<double>(images.size()));
-    if (!(pages >= 2)) {
-        to.push_back(group);
-        return;
-    }
+    if (!(pages >= 2)) return to.push_back(group);
     std::vector<std::size_t> page_of_image;
     double before = 0;
     for (const Index image : images) {
