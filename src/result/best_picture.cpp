@@ -44,12 +44,6 @@ constexpr double full_share = 0.98, face_margin = 0.985, near_face_margin = 0.99
 // What the work reports, as shares of Phase::bake.
 constexpr double begin_of_images = 0.2, begin_of_choices = 0.7;
 
-std::uint64_t total_faces(const Asset& asset) {
-    std::uint64_t result = 0;
-    for (const Part& part : asset.parts) result += part.triangles.size();
-    return result;
-}
-
 // Whether no part has normals, so that viewers show its faces flat (glTF 2.0, "Meshes").
 bool is_shown_flat(const Asset& asset) { return !some_part_has(asset, &Part::normals); }
 
@@ -61,7 +55,7 @@ public:
           options_(options),
           context_(context),
           limit_(*options.max_bytes),
-          faces_(total_faces(source)) {
+          faces_(face_count(source)) {
         keeps_images_ = options.bake.kind != Bake::automatic;
         if (options.bake.kind == Bake::automatic) {
             options_.bake.kind = Bake::keep;

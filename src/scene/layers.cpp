@@ -162,10 +162,8 @@ void separate(const Layers& source, Layers& results, const RunContext& context) 
 }  // namespace
 
 bool separates_layers(const Asset& source, const Options& options) {
-    std::size_t faces = 0;
-    for (const Part& part : source.parts) faces += part.triangles.size();
     return (options.preset == Preset::balanced || options.preset == Preset::best) && !options.max_error &&
-           faces <= 1'000'000;
+           face_count(source) <= 1'000'000;
 }
 
 void separate_layers(const Asset& source, std::span<SimplifyResult> results, const RunContext& context) {

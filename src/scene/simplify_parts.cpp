@@ -96,7 +96,7 @@ public:
             size_ = scene_size(source);
         else
             size_.scales.resize(source.parts.size());
-        for (const Part& part : source.parts) faces_ += static_cast<double>(part.triangles.size());
+        faces_ = static_cast<double>(face_count(source));
     }
 
     std::vector<SimplifiedParts> operator()(std::span<const std::uint64_t> targets) {
@@ -357,8 +357,7 @@ void add_parts_with_uvs(const Asset& source, Options own, const RunContext& cont
 
 SimplifiedParts simplify_welded_parts(const Asset& source, const Options& options, const RunContext& context,
                                       std::span<const LevelTarget> levels) {
-    std::uint64_t faces = 0;
-    for (const Part& part : source.parts) faces += part.triangles.size();
+    const std::uint64_t faces = face_count(source);
     const std::uint64_t target = target_face_count(options.target, static_cast<double>(faces));
     // Plain materials are kept anyway.
     const bool tries_uvs = may_keep_uvs(options) && has_appearance(source) &&

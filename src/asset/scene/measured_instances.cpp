@@ -21,8 +21,7 @@ double shown_faces(const Asset& asset, const std::vector<Instance>& all) {
 }
 
 bool has_excessive_instances(const Asset& asset, const std::vector<Instance>& all) {
-    double faces = 0;
-    for (const Part& part : asset.parts) faces += static_cast<double>(part.triangles.size());
+    const auto faces = static_cast<double>(face_count(asset));
     const double shown = shown_faces(asset, all);
     return shown > static_cast<double>(many_faces) && shown > many_copies * faces;
 }

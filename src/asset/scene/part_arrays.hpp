@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -32,6 +33,13 @@ inline constexpr std::array face_arrays = {material_array, object_array, group_a
 template <class T>
 bool some_part_has(const Asset& asset, std::vector<T> Part::*values) {
     return std::ranges::any_of(asset.parts, [&](const Part& part) { return !(part.*values).empty(); });
+}
+
+/// Number of faces of all parts.
+inline std::uint64_t face_count(const Asset& asset) {
+    std::uint64_t sum = 0;
+    for (const Part& part : asset.parts) sum += part.triangles.size();
+    return sum;
 }
 
 /// What an array of vertices is.

@@ -109,11 +109,10 @@ public:
                 const std::array<double, 2> legs = {shared_side(a.legs[0], b.legs[0]),
                                                     shared_side(a.legs[1], b.legs[1])};
                 const CellShape shape = cell_shape(legs, scale, true);
-                if (!shape.is_single_texel) {
-                    if (t < a.partner) units_.push_back({shape, t, a.partner, a.order, true});
-                    continue;
-                }
-                units_.push_back({shape, t, no_index, a.order, false});
+                if (shape.is_single_texel)
+                    units_.push_back({shape, t, no_index, a.order, false});
+                else if (t < a.partner)
+                    units_.push_back({shape, t, a.partner, a.order, true});
                 continue;
             }
             unpaired.push_back({cell_shape(a.legs, scale, false), t, no_index, a.order, false});

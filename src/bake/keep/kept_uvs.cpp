@@ -166,12 +166,6 @@ bool shows_single_texels(const Asset& asset, const PartSet& set) {
     });
 }
 
-// Whether a part has UVs that no texture uses, and nothing that a page would show better: several materials have no
-// borders where the free simplification left no faces for them.
-bool is_plain_with_uvs(const Asset& asset, const Part& part) {
-    return has_spare_uvs_only(asset, part) && materials_of(part).size() <= 1;
-}
-
 }  // namespace
 
 std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart> parts,
@@ -209,8 +203,11 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
     PictureDifference sum;
     double points = 0;
     for (const PartSet& set : sets) {
-        const bool must_be_kept = std::any_of(set.begin(), set.end(), [&](Index p) {
-            return needs_uvs[p] != 0 || is_plain_with_uvs(source, source.parts[p]);
+        // A part with UVs that no texture uses has nothing that a page would show better; of several materials, the free
+        // simplification may leave no faces, and so no borders.
+        const bool must_be_kept = std::ranges::any_of(set, [&](Index p) {
+            const Part& part = source.parts[p];
+            return needs_uvs[p] != 0 || (has_spare_uvs_only(source, part) && materials_of(part).size() <= 1);
         });
         const bool is_coarse =
             shows_single_texels(source, set) ||

@@ -52,8 +52,7 @@ void UvTexels::add(const std::array<Vec2f, 3>& uv, Wrap wrap_u, Wrap wrap_v) {
 }
 
 std::vector<std::uint8_t> UvTexels::finish() && {
-    if (is_empty_ || !(repetitions_ <= max_repetitions))
-        std::fill(shown_.begin(), shown_.end(), std::uint8_t{1});
+    if (is_empty_ || !(repetitions_ <= max_repetitions)) std::ranges::fill(shown_, std::uint8_t{1});
     return std::move(shown_);
 }
 

@@ -77,14 +77,13 @@ PartsWithUvs make_parts_with_uvs(const Asset& source, const SimplifiedParts& sim
 // \return false, without changing anything, if the time was over before new textures were complete
 bool bake_textures(const BakeJob& job, const RunContext& context, DecodedImages decoded,
                    UnencodedResult& out) {
-    const auto is_kept = [](const BakePart& part) { return part.is_kept; };
     const UnencodedResult before = out;
     bool fits = false;
     const auto work = [&](const RunContext& own) {
         own.check_now();
         fits = bake_pages({job.source, job.options, job.parts, own}, std::move(decoded), out);
     };
-    if (std::all_of(job.parts.begin(), job.parts.end(), is_kept)) {
+    if (std::ranges::all_of(job.parts, [](const BakePart& part) { return part.is_kept; })) {
         work(job.context);
     } else if (!context.in_time([&] { work(context); })) {
         out = before;
