@@ -127,12 +127,10 @@ Vector3 required_move(const Constraint& c, const Layers& results, const Bvh& tre
 // Separates the layers of the results.
 void separate(const Layers& source, Layers& results, const RunContext& context) {
     std::vector<std::vector<Constraint>> of_face(results.triangles.size());
-    {
-        const Bvh tree(source.positions, source.triangles, context);
-        parallel_each(of_face.size(), 64, context, [&](std::size_t f) {
-            of_face[f] = constraints(source, tree, results, static_cast<Index>(f));
-        });
-    }
+    const Bvh source_tree(source.positions, source.triangles, context);
+    parallel_each(of_face.size(), 64, context, [&](std::size_t f) {
+        of_face[f] = constraints(source, source_tree, results, static_cast<Index>(f));
+    });
     std::vector<Constraint> all;
     for (const auto& some : of_face) all.insert(all.end(), some.begin(), some.end());
     std::vector<double> reach(results.positions.size(), std::numeric_limits<double>::infinity());
