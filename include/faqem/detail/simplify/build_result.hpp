@@ -59,8 +59,8 @@ void finish_history(const MeshView& mesh, const PruneResult& pruned, std::vector
 ///                   `before`
 /// \return false if a face has zero area even with all its vertices reverted
 /// Complexity: O(faces) per pass; each pass but the last reverts at least one vertex
-bool revert_degenerate_faces(std::span<const Vec3> before, std::span<const Triangle> triangles,
-                             std::vector<Vec3>& now);
+FAQEM_EXPORT bool revert_degenerate_faces(std::span<const Vec3> before, std::span<const Triangle> triangles,
+                                          std::vector<Vec3>& now);
 
 /// Adds the fitted positions and the edge flips to the history of the result.
 /// \param flips   pairs of face indices of the result, in the order in which the flips were made
