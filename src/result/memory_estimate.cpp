@@ -27,7 +27,7 @@ double simplify_bytes_per_face(Preset preset) {
 }
 
 constexpr double history_bytes_per_face = 300;  // collapse history and the data structures of the baking map
-constexpr double layer_bytes_per_face = 250;
+constexpr double layer_bytes_per_face = 250;    // see separate_layers()
 constexpr double visibility_bytes_per_face = 400;  // per face of all instances, with --visibility weighted
 constexpr double bytes_per_corner_value = 12;
 constexpr double image_library_bytes = 30e6;  // libraries of PNG, JPEG and WebP, and their buffers

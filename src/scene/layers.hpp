@@ -17,7 +17,7 @@ bool separates_layers(const Asset& source, const Options& options);
 /// Moves vertices of results so that each connected component of the scene is on the side of its neighbours where it was
 /// in the source. Parts are simplified one by one, so that near surfaces may cross: their faces differ, and the distance
 /// between them is less than the error. Faces that are beside one other component, and parallel to it, move out to the
-/// source. Only crossings up to a share of the height of the faces there are mended.
+/// source. Crossings deeper than a share of the height of the face stay.
 /// \param source   the parts are where their first instances are; those without one are left out
 /// \param results  one per part, before mapping; positions change, and reports count them as fitted
 /// \param context  the result does not depend on the number of threads
