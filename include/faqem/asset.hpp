@@ -130,6 +130,9 @@ struct Part {
     /// stay closed; save() writes a mesh or object for each of them in formats that have these.
     std::vector<Index> face_object;  ///< empty or F, indices into object_names; no_index: the part itself
     std::vector<std::string> object_names;  ///< names of the objects
+    /// Empty, or by object: the part of the asset that bake() gives its faces to. simplify() makes such objects of meshes
+    /// that share boundary edges.
+    std::vector<Index> object_parts;
     /// The groups that a file names (`g` of OBJ), which divide neither meshes nor primitives: OBJ files keep them, glTF
     /// files only the names of each primitive.
     std::vector<Index> face_group;         ///< empty or F, indices into group_names; no_index: none

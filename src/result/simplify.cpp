@@ -20,6 +20,7 @@
 #include "scene/part_reports.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/simplify_parts.hpp"
+#include "scene/touching_parts.hpp"
 
 namespace faqem {
 namespace detail {
@@ -379,7 +380,9 @@ SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified, con
     });
 }
 
-SimplifiedAsset simplify(const Asset& source, const Options& options, const RunContext& context) {
+SimplifiedAsset simplify(const Asset& given, const Options& options, const RunContext& context) {
+    const std::optional<Asset> joined = join_touching_parts(given, options);
+    const Asset& source = joined ? *joined : given;
     return with_source_report(source, [&] {
         if (options.max_bytes) return simplify_within_bytes(source, options, context);
         SimplifiedParts simplified = simplify_parts(source, options, context);

@@ -7,6 +7,7 @@
 #include "scene/parts_error_bound_search.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/simplify_parts.hpp"
+#include "scene/touching_parts.hpp"
 #include "scene/welded_source.hpp"
 
 namespace faqem {
@@ -73,11 +74,13 @@ void detail::bake_levels(const Asset& source, std::vector<SimplifiedPartsLevel> 
     }
 }
 
-std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& source, const std::vector<Level>& levels,
+std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& given, const std::vector<Level>& levels,
                                                   const Options& options, LevelTextures textures) {
     if (textures == LevelTextures::shared)
-        return made_levels<SimplifiedAssetLevel>(source, levels, options, textures,
+        return made_levels<SimplifiedAssetLevel>(given, levels, options, textures,
                                                  detail::levels_with_shared_texture);
+    const std::optional<Asset> joined = detail::join_touching_parts(given, options);
+    const Asset& source = joined ? *joined : given;
     std::vector<SimplifiedAssetLevel> out;
     std::vector<SimplifiedPartsLevel> made = simplify_parts_levels(source, levels, options);
     detail::keep_only_cancelled(made);

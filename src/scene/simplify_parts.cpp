@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "asset/scene/messages.hpp"
@@ -54,6 +55,17 @@ std::vector<Index> face_groups(const Part& part, const std::optional<MaterialGro
     return one ? std::vector<Index>{} : result;
 }
 
+// The groups of each object that is a part of its own, so that boundaries between objects are those of groups.
+std::vector<Index> separate_objects(const Part& part, std::vector<Index> groups) {
+    if (part.object_parts.empty()) return groups;
+    std::map<std::pair<Index, Index>, Index> number;
+    groups.resize(part.triangles.size(), 0);
+    for (std::size_t f = 0; f < groups.size(); ++f)
+        groups[f] = number.try_emplace({groups[f], part.face_object[f]}, static_cast<Index>(number.size()))
+                        .first->second;
+    return groups;
+}
+
 // A part as the input of the engine. Materials that are baked into one page form one group, so that
 // boundaries between them need no faces and samples can cross them; only coincident faces of different
 // appearance are separated. Otherwise, and if group boundaries are to be preserved, the groups are the materials.
@@ -68,6 +80,7 @@ struct PartInput {
               bool keeps_uvs, std::span<const float> weights, Options& own)
         : groups(face_groups(part, material_groups)) {
         if (material_groups) groups = separate_coincident_faces(part, std::move(groups));
+        groups = separate_objects(part, std::move(groups));
         if (keeps_uvs) attributes = corner_attributes(part);
         if (own.topology.weld != Weld::none)
             welded = welded_by_motion(part, motion_rounding(source, part), settings(own).weld_distance);

@@ -83,29 +83,6 @@ bool has_morph_weights(const Asset& asset) {
     });
 }
 
-/// The part with the given faces, in their order, and with the vertices that they use.
-/// \param number  by vertex of the part: scratch memory, no_index everywhere before and after
-Part with_faces(const Part& part, const std::vector<Index>& faces, std::vector<Index>& number) {
-    std::vector<Index> vertices, corners;
-    number_corners(part, faces, number, vertices, corners);
-    Part result;
-    for (std::size_t c = 0; c < corners.size(); c += 3)
-        result.triangles.push_back({corners[c], corners[c + 1], corners[c + 2]});
-    for (const FaceArray& array : face_arrays) {
-        if (array.values == object_array.values) continue;
-        const std::vector<Index> values = gather(part.*array.values, faces);
-        if (array.names)
-            set_face_names(result, array, values, part.*array.names);
-        else
-            result.*array.values = values;
-    }
-    select_vertices(part, vertices, result);
-    result.custom_attributes.clear();  // formats that have objects have none
-    result.position_spacing = part.position_spacing;
-    result.file_order = part.file_order;
-    return result;
-}
-
 }  // namespace
 
 Part flatten(const Asset& asset) { return flatten(asset, posed_instances(asset)); }
@@ -168,6 +145,26 @@ bool is_float_representable(const std::vector<Vec3>& positions) {
                    static_cast<double>(static_cast<float>(x)) == x;
         });
     });
+}
+
+Part with_faces(const Part& part, const std::vector<Index>& faces, std::vector<Index>& number) {
+    std::vector<Index> vertices, corners;
+    number_corners(part, faces, number, vertices, corners);
+    Part result;
+    for (std::size_t c = 0; c < corners.size(); c += 3)
+        result.triangles.push_back({corners[c], corners[c + 1], corners[c + 2]});
+    for (const FaceArray& array : face_arrays) {
+        if (array.values == object_array.values) continue;
+        const std::vector<Index> values = gather(part.*array.values, faces);
+        if (array.names)
+            set_face_names(result, array, values, part.*array.names);
+        else
+            result.*array.values = values;
+    }
+    select_vertices(part, vertices, result);
+    result.position_spacing = part.position_spacing;
+    result.file_order = part.file_order;
+    return result;
 }
 
 std::optional<DividedAsset> divided_into_objects(const Asset& asset) {

@@ -44,6 +44,10 @@ std::vector<std::string> flattening_losses(const Asset& asset, const std::string
 /// Whether all coordinates are exactly representable as float.
 bool is_float_representable(const std::vector<Vec3>& positions);
 
+/// The part with the given faces, in their order, and with the vertices that they use, without objects, names and source.
+/// \param number  by vertex of the part: scratch memory, no_index everywhere before and after
+FAQEM_EXPORT Part with_faces(const Part& part, const std::vector<Index>& faces, std::vector<Index>& number);
+
 /// An asset whose parts are objects.
 struct DividedAsset {
     Asset asset;

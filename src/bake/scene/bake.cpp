@@ -25,6 +25,7 @@
 #include "scene/part_reports.hpp"
 #include "scene/position_grids.hpp"
 #include "scene/resolved_options.hpp"
+#include "scene/touching_parts.hpp"
 
 namespace faqem::detail {
 
@@ -223,6 +224,7 @@ UnencodedResult run_bake(const Asset& given, const SimplifiedParts& simplified, 
         report.vertices_split += vertices - std::min(vertices, unsplit);
     }
     set_quantization(source, options, out.asset.asset, report);
+    divide_joined_parts(source, out.asset);
     report.seconds.bake = watch.seconds() - report.seconds.map;
     report.seconds.total += watch.seconds();
     return out;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <variant>
@@ -27,6 +28,7 @@
 #include "result/simplify_file.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/scene_size.hpp"
+#include "scene/touching_parts.hpp"
 
 namespace faqem::cli {
 
@@ -178,8 +180,11 @@ struct LodWriter {
 
     /// Bakes and writes one level at a time, so that only the images of one level are in memory.
     void write_with_separate_textures() {
+        std::optional<Asset> joined;
+        if (arguments.history.empty()) joined = detail::join_touching_parts(source, options);
+        const Asset& given = joined ? *joined : source;
         std::vector<SimplifiedPartsLevel> levels = detail::with_file_in_errors(
-            arguments.in, [&] { return simplify_parts_levels(source, wanted, options); });
+            arguments.in, [&] { return simplify_parts_levels(given, wanted, options); });
         check_reports(levels);
         if (!arguments.history.empty()) {
             const ExitOnInterrupt exit_on_interrupt;
@@ -187,11 +192,11 @@ struct LodWriter {
             write_histories(arguments, levels);
         }
         write_original();
-        detail::with_file_in_errors(arguments.in, [&] { bake_levels(std::move(levels)); });
+        detail::with_file_in_errors(arguments.in, [&] { bake_levels(given, std::move(levels)); });
     }
 
-    void bake_levels(std::vector<SimplifiedPartsLevel> levels) try {
-        detail::bake_levels(source, std::move(levels), options, [&](SimplifiedAssetLevel level) {
+    void bake_levels(const Asset& given, std::vector<SimplifiedPartsLevel> levels) try {
+        detail::bake_levels(given, std::move(levels), options, [&](SimplifiedAssetLevel level) {
             require_not_cancelled(level.result.report);
             write_level(std::move(level.result), level.distance, level.error);
             return Continue::yes;

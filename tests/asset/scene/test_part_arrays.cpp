@@ -46,8 +46,8 @@ Part full_part() {
 std::set<const void*> filled_vertex_arrays(const Part& part) {
     // A new member of Part does not compile here: full_part(), the sets below and part_arrays.hpp need it, too.
     const auto& [name, positions, triangles, face_material, normals, tangents, uvs, colors, joints, weights,
-                 morph_targets, face_object, object_names, face_group, group_names, source, custom_attributes,
-                 position_spacing, file_order] = part;
+                 morph_targets, face_object, object_names, object_parts, face_group, group_names, source,
+                 custom_attributes, position_spacing, file_order] = part;
     std::set<const void*> result = {&positions, &normals, &tangents, &colors, &joints, &weights};
     for (const auto& set : uvs) result.insert(&set);
     for (const auto& [displacements, turns] : morph_targets) result.insert({&displacements, &turns});
