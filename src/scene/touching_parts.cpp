@@ -51,17 +51,17 @@ bool have_equal_arrays(const Part& a, const Part& b) {
 
 // By part: a number that is equal for parts which can be joined; no_index for the others.
 std::vector<Index> joinable_parts(const Asset& source) {
-    using Transforms = std::vector<std::array<double, 16>>;
-    std::vector<Transforms> places(source.parts.size());
-    for (const Instance& instance : instances(source)) places[instance.part].push_back(instance.transform);
-    std::map<Transforms, std::vector<Index>> firsts;  // by place: the first part of each kind
+    const std::vector<std::vector<InstanceMotion>> motions = instance_motions(source);
+    std::map<std::vector<InstanceMotion>, std::vector<Index>>
+        firsts;  // by motion: the first part of each kind
     std::vector<Index> result(source.parts.size(), no_index);
     for (Index p = 0; p < source.parts.size(); ++p) {
         const Part& part = source.parts[p];
-        if (part.triangles.empty() || places[p].empty() || !part.face_object.empty() ||
-            !part.face_group.empty() || !variant_materials(source, part).empty())
+        if (part.triangles.empty() || motions[p].empty() || !part.face_object.empty() ||
+            !part.face_group.empty() || !part.morph_targets.empty() ||
+            !variant_materials(source, part).empty())
             continue;
-        std::vector<Index>& kinds = firsts[places[p]];
+        std::vector<Index>& kinds = firsts[motions[p]];
         const auto kind = std::ranges::find_if(
             kinds, [&](Index first) { return have_equal_arrays(source.parts[first], part); });
         result[p] = kind == kinds.end() ? kinds.emplace_back(p) : *kind;
@@ -139,7 +139,7 @@ Part emptied(const Part& part) {
 std::optional<Asset> join_touching_parts(const Asset& source, const Options& options) {
     check_asset(source);
     if (source.parts.size() < 2 || options.history == Recording::on || options.budget == Budget::mesh ||
-        options.bake.correspondence == Recording::on || is_dynamic(source) || finest_level(source))
+        options.bake.correspondence == Recording::on || finest_level(source))
         return std::nullopt;
     const std::vector<Index> first = connected_parts(source);
     std::optional<Asset> joined;

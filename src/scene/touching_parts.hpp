@@ -12,9 +12,9 @@
 namespace faqem::detail {
 
 /// Joins parts that share a boundary edge, which their faces pass in opposite directions, as objects (Part::object_parts) of the first one of them; the others are empty.
-/// Only parts that are at the same places, with the same vertex attributes, and without objects and material variants are
-/// joined, in scenes without animations, skins, morph targets and levels of detail. Histories and correspondences concern
-/// single parts, as Budget::mesh does: with them nothing is joined.
+/// Only parts that move alike (InstanceMotion), with the same vertex attributes, and without objects, morph targets and
+/// material variants are joined, in scenes without levels of detail. Histories and correspondences concern single parts,
+/// as Budget::mesh does: with them nothing is joined.
 /// \return the scene, in which other parts are copied; nothing if no parts are joined
 /// \throws InputError  as check_asset()
 /// Complexity: O(n log n).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "asset/gltf/source_document.hpp"
 #include "faqem/bake_levels.hpp"
 #include "scene/touching_parts.hpp"
 #include "support/catch.hpp"
@@ -92,6 +93,22 @@ TEST_CASE("meshes that share edges stay in their nodes") {
     const Asset result = from_glb(to_glb(simplify(file, {.target = faces(150)}).asset));
     check_pieces(result, 150);
     CHECK(instances(result).size() == 3);
+}
+
+TEST_CASE("meshes that an animation moves apart stay apart") {
+    const Asset file = from_glb(to_glb(pieces()));
+    const auto joined = [&](const std::vector<Index>& animated_nodes) {
+        SourceDocument document = *file.source;
+        for (const Index node : animated_nodes)
+            document.document["animations"][node]["channels"] = {{{"target", {{"node", node}}}}};
+        Asset asset = file;
+        asset.source = std::make_shared<SourceDocument>(document);
+        return detail::join_touching_parts(asset, {});
+    };
+    REQUIRE(joined({0}));
+    CHECK(joined({0})->parts[0].object_parts.empty());
+    CHECK(joined({0})->parts[1].object_parts == std::vector<Index>{1, 2});
+    CHECK(!joined({0, 1, 2}));
 }
 
 TEST_CASE("histories are those of single meshes") {

@@ -223,6 +223,18 @@ std::optional<Vec3> scene_center(const Asset& asset) {
     return number_array<3>(extension, "center", {0, 0, 0});
 }
 
+std::vector<std::uint8_t> animated_nodes(const Json& document) {
+    std::vector<std::uint8_t> result(array_size(document, "nodes"), 0);
+    for (const Json& animation : member(document, "animations"))
+        for (const Json& channel : member(animation, "channels")) {
+            const Index target = index_member(member(channel, "target"), "node");
+            if (target < result.size()) result[target] = 1;
+            const Index pointed = pointed_node(animated_pointer(channel));
+            if (pointed < result.size()) result[pointed] = 1;
+        }
+    return result;
+}
+
 InverseBinds inverse_binds(const SourceDocument& source, const Json& skin) {
     InverseBinds result;
     result.matrices.assign(member(skin, "joints").size(), identity_transform);

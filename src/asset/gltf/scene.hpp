@@ -80,6 +80,10 @@ std::vector<Matrix4> node_transforms(const Json& document);
 std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNode> nodes,
                                    std::vector<Index>* node_of = nullptr);
 
+/// By node: whether an animation targets it or one of its members.
+/// O(nodes + channels)
+std::vector<std::uint8_t> animated_nodes(const Json& document);
+
 /// The matrices of a skin from the space of the mesh to that of each joint.
 struct InverseBinds {
     std::vector<Matrix4> matrices;  ///< one per joint, column-major

@@ -111,4 +111,25 @@ std::vector<Instance> seen_instances(const Asset& asset) {
     return instances_at(asset, nodes);
 }
 
+std::vector<std::vector<InstanceMotion>> instance_motions(const Asset& asset) {
+    std::vector<std::vector<InstanceMotion>> result(asset.parts.size());
+    if (!asset.source) {
+        for (auto& motions : result) motions.push_back({identity_transform});
+        return result;
+    }
+    const Json& document = asset.source->document;
+    const std::vector<std::uint8_t> is_animated = animated_nodes(document);
+    const std::vector<Index> parents = parents_of(member(document, "nodes"));
+    std::vector<Index> node_of;
+    const std::vector<Instance> all = instances_at(asset, placed_nodes(document), &node_of);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        InstanceMotion& motion = result[all[i].part].emplace_back(InstanceMotion{all[i].transform});
+        Index node = node_of[i];
+        if (node != no_index) motion.skin = index_member(document["nodes"][node], "skin");
+        while (node != no_index && !is_animated[node]) node = parents[node];
+        motion.animated_node = node;
+    }
+    return result;
+}
+
 }  // namespace faqem::detail

@@ -3,6 +3,8 @@
 /// What the file of an asset tells beside parts, materials and images: variants, animations, and how exactly numbers are
 /// stored. Assets without Asset::source have none of these.
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -42,5 +44,17 @@ FAQEM_EXPORT MotionSteps motion_steps(const Asset& asset, const Part& part);
 ///   the scales of the joints, from mesh to world space, weighted by the joint weights of all vertices.
 /// Complexity: O(nodes + keyframes + vertices)
 FAQEM_EXPORT std::vector<Instance> seen_instances(const Asset& asset);
+
+/// What places and moves an instance. Instances for which it is equal keep their places to each other.
+struct InstanceMotion {
+    std::array<double, 16> transform;  ///< Instance::transform
+    Index skin = no_index;             ///< in the source document
+    Index animated_node = no_index;    ///< the node, or the nearest one above it, that an animation moves
+
+    auto operator<=>(const InstanceMotion&) const = default;
+};
+
+/// By part: the motions of its instances, in the order of the scene. O(nodes * depth + channels + instances)
+FAQEM_EXPORT std::vector<std::vector<InstanceMotion>> instance_motions(const Asset& asset);
 
 }  // namespace faqem::detail

@@ -97,3 +97,16 @@ TEST_CASE("without a scene graph every part is seen as it is") {
     REQUIRE(seen.size() == 2);
     CHECK(scale_of(seen[1], 1) == 1);
 }
+
+TEST_CASE("instances move with their skin and the nearest animated node above them") {
+    GltfBuilder builder = growing_square({{1, 1, 1}, {2, 2, 2}}, "LINEAR", {{"node", 0}, {"path", "scale"}});
+    builder.json["nodes"][0]["children"] = {1};
+    for (int node = 1; node <= 2; ++node) builder.add("nodes", {{"mesh", 0}});
+    builder.json["scenes"][0]["nodes"] = {0, 2};
+    const auto motions = detail::instance_motions(load_glb(builder)).at(0);
+    REQUIRE(motions.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(motions[i].animated_node == (i < 2 ? 0 : no_index));
+    CHECK(motions[0].transform == motions[1].transform);
+    CHECK(motions[2].skin == no_index);
+    CHECK(detail::instance_motions(load_glb(skinned_square())).at(0).at(0).skin == 0);
+}

@@ -61,8 +61,4 @@ void place_grids(GltfWriter& writer);
 /// \return the child
 Index move_mesh_to_child(GltfWriter& writer, Index node);
 
-/// By node: whether an animation targets it or one of its members.
-/// O(nodes + channels)
-std::vector<std::uint8_t> animated_nodes(const Json& document);
-
 }  // namespace faqem::detail

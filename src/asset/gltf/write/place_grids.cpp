@@ -138,18 +138,6 @@ void place_skins(GltfWriter& writer) {
 
 }  // namespace
 
-std::vector<std::uint8_t> animated_nodes(const Json& document) {
-    std::vector<std::uint8_t> result(array_size(document, "nodes"), 0);
-    for (const Json& animation : member(document, "animations"))
-        for (const Json& channel : member(animation, "channels")) {
-            const Index target = index_member(member(channel, "target"), "node");
-            if (target < result.size()) result[target] = 1;
-            const Index pointed = pointed_node(animated_pointer(channel));
-            if (pointed < result.size()) result[pointed] = 1;
-        }
-    return result;
-}
-
 Index move_mesh_to_child(GltfWriter& writer, Index node) {
     Json child = Json::object();
     Json& parent = writer.out["nodes"][node];
