@@ -79,7 +79,7 @@ std::vector<SimplifiedAssetLevel> simplify_levels(const Asset& given, const std:
     if (textures == LevelTextures::shared)
         return made_levels<SimplifiedAssetLevel>(given, levels, options, textures,
                                                  detail::levels_with_shared_texture);
-    const std::optional<Asset> joined = detail::join_touching_parts(given, options);
+    const std::optional<Asset> joined = detail::join_touching_parts(given, levels, options);
     const Asset& source = joined ? *joined : given;
     std::vector<SimplifiedAssetLevel> out;
     std::vector<SimplifiedPartsLevel> made = simplify_parts_levels(source, levels, options);

@@ -13,12 +13,17 @@
 #include "asset/scene/messages.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "asset/scene/source_traits.hpp"
+#include "faqem/detail/measure/removed_components.hpp"
+#include "faqem/detail/simplify/run.hpp"
 #include "faqem/engine/mesh/boundary_edges.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 #include "scene/check_asset.hpp"
 
 namespace faqem::detail {
 namespace {
+
+// Where components of parts have fewer faces than this in the result, on average, borders between them take too many.
+constexpr double least_faces = 32;
 
 // A boundary edge, its lexicographically smaller end first.
 struct PlacedEdge {
@@ -136,15 +141,30 @@ Part emptied(const Part& part) {
 
 }  // namespace
 
+std::optional<Asset> join_touching_parts(const Asset& source, std::span<const Level> levels,
+                                         Options options) {
+    for (const Level& level : levels)
+        if (const auto* target = std::get_if<Target>(&level)) options.target = *target;
+    return join_touching_parts(source, options);
+}
+
 std::optional<Asset> join_touching_parts(const Asset& source, const Options& options) {
     check_asset(source);
     if (source.parts.size() < 2 || options.history == Recording::on || options.budget == Budget::mesh ||
         options.bake.correspondence == Recording::on || finest_level(source))
         return std::nullopt;
     const std::vector<Index> first = connected_parts(source);
+    const auto all = static_cast<double>(face_count(source));
+    const double share = static_cast<double>(target_face_count(options.target, all)) / all;
+    std::vector<double> spare_faces(first.size(), 0);  // by first part: beyond those that joining needs
+    for (Index p = 0; p < first.size(); ++p) {
+        const Part& part = source.parts[p];
+        spare_faces[first[p]] += share * static_cast<double>(part.triangles.size()) -
+                                 least_faces * face_components(part.positions, part.triangles).count;
+    }
     std::optional<Asset> joined;
     for (Index p = 0; p < first.size(); ++p) {
-        if (first[p] == p) continue;
+        if (first[p] == p || !(spare_faces[first[p]] >= 0)) continue;
         if (!joined) joined = source;
         Part& to = joined->parts[first[p]];
         if (to.object_parts.empty()) {

@@ -122,3 +122,9 @@ TEST_CASE("meshes that lie on each other stay apart") {
     CHECK(!detail::join_touching_parts(asset, {}));
     CHECK(detail::join_touching_parts(pieces(), {}));
 }
+
+TEST_CASE("meshes with few faces stay apart") {
+    // Three components need 32 faces each.
+    CHECK(detail::join_touching_parts(pieces(), {.target = faces(97)}));
+    CHECK(!detail::join_touching_parts(pieces(), {.target = faces(95)}));
+}

@@ -181,7 +181,7 @@ struct LodWriter {
     /// Bakes and writes one level at a time, so that only the images of one level are in memory.
     void write_with_separate_textures() {
         std::optional<Asset> joined;
-        if (arguments.history.empty()) joined = detail::join_touching_parts(source, options);
+        if (arguments.history.empty()) joined = detail::join_touching_parts(source, wanted, options);
         const Asset& given = joined ? *joined : source;
         std::vector<SimplifiedPartsLevel> levels = detail::with_file_in_errors(
             arguments.in, [&] { return simplify_parts_levels(given, wanted, options); });
