@@ -150,17 +150,15 @@ FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<con
     replay.bounds.resize(replay.corners.size());
     replay.patch_component.resize(replay.corners.size());
     replay.mean_edge.resize(history.patch_count());
-    parallel_blocks(history.patch_count(), 1024, context, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) {
-            const std::uint64_t begin = replay.first_entry(history, k),
-                                size = replay.first_entry(history, k + 1) - begin;
-            const std::span<const Triangle> corners = std::span(replay.corners).subspan(begin, size);
-            for (std::size_t e = 0; e < size; ++e)
-                replay.bounds[begin + e] = bounding_sphere(replay.positions, corners[e]);
-            const auto surface_patch = [&](std::size_t e) { return surface_patches[history.patch(k)[e]]; };
-            label_components(corners, surface_patch, std::span(replay.patch_component).subspan(begin, size));
-            replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
-        }
+    parallel_each(history.patch_count(), 1024, context, [&](std::size_t k) {
+        const std::uint64_t begin = replay.first_entry(history, k),
+                            size = replay.first_entry(history, k + 1) - begin;
+        const std::span<const Triangle> corners = std::span(replay.corners).subspan(begin, size);
+        for (std::size_t e = 0; e < size; ++e)
+            replay.bounds[begin + e] = bounding_sphere(replay.positions, corners[e]);
+        const auto surface_patch = [&](std::size_t e) { return surface_patches[history.patch(k)[e]]; };
+        label_components(corners, surface_patch, std::span(replay.patch_component).subspan(begin, size));
+        replay.mean_edge[k] = mean_edge_length(replay.positions, corners);
     });
 }
 

@@ -138,9 +138,8 @@ inline void set_scale(Mesh& mesh) {
 /// \return root_of() of all faces
 inline std::vector<Vector> sum_planes(Mesh& mesh, const RunContext& context) {
     std::vector<Vector> roots(mesh.faces.size());
-    parallel_blocks(roots.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t f = first; f < end; ++f) roots[f] = root_of(mesh, mesh.faces[f]);
-    });
+    parallel_each(roots.size(), elements_per_block, context,
+                  [&](std::size_t f) { roots[f] = root_of(mesh, mesh.faces[f]); });
     mesh.area = 0;
     for (const auto& n : roots) mesh.area += static_cast<double>(dot(n, n));
     mesh.area *= mesh.unit * mesh.unit;
@@ -151,27 +150,23 @@ inline std::vector<Vector> sum_planes(Mesh& mesh, const RunContext& context) {
             ++at.degree;
         }
     }
-    parallel_blocks(mesh.vertices.size(), elements_per_block, context,
-                    [&](std::size_t first, std::size_t end) {
-                        for (std::size_t v = first; v < end; ++v) {
-                            Vertex& at = mesh.vertices[v];
-                            at.planes = {};
-                            bool is_fit = true;
-                            Corner c = at.lock ? no_index : at.cell;
-                            while (c != no_index) {
-                                --at.degree;
-                                add_square(roots[c >> 2], at.planes);
-                                const Corner across = mesh.faces[c >> 2].o[next(c & 3)];
-                                if (across != no_index && is_unfit(roots[c >> 2], roots[across >> 2]))
-                                    is_fit = false;
-                                c = across == no_index ? no_index : (across & ~3u) | next(across & 3);
-                                if (c == at.cell) break;
-                            }
-                            // Without a last corner there is a border; with corners left there are several fans.
-                            if (!at.lock && (c == no_index || at.degree > 0 || !is_fit)) at.lock = unfit;
-                            at.degree = 0;
-                        }
-                    });
+    parallel_each(mesh.vertices.size(), elements_per_block, context, [&](std::size_t v) {
+        Vertex& at = mesh.vertices[v];
+        at.planes = {};
+        bool is_fit = true;
+        Corner c = at.lock ? no_index : at.cell;
+        while (c != no_index) {
+            --at.degree;
+            add_square(roots[c >> 2], at.planes);
+            const Corner across = mesh.faces[c >> 2].o[next(c & 3)];
+            if (across != no_index && is_unfit(roots[c >> 2], roots[across >> 2])) is_fit = false;
+            c = across == no_index ? no_index : (across & ~3u) | next(across & 3);
+            if (c == at.cell) break;
+        }
+        // Without a last corner there is a border; with corners left there are several fans.
+        if (!at.lock && (c == no_index || at.degree > 0 || !is_fit)) at.lock = unfit;
+        at.degree = 0;
+    });
     return roots;
 }
 
@@ -259,11 +254,9 @@ inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit,
     mesh.faces.resize(mesh.alive);
     std::atomic<bool> lacks_links = false;  // because of windings or groups
     const auto set_faces = [&] {
-        parallel_blocks(mesh.alive, elements_per_block, context, [&](std::size_t first, std::size_t end) {
-            for (std::size_t f = first; f < end; ++f) {
-                mesh.faces[f] = face_of(static_cast<Index>(f), input, mesh.reversed);
-                if (mesh.reversed.empty() && mesh.faces[f].o != input.links[f]) lacks_links = true;
-            }
+        parallel_each(mesh.alive, elements_per_block, context, [&](std::size_t f) {
+            mesh.faces[f] = face_of(static_cast<Index>(f), input, mesh.reversed);
+            if (mesh.reversed.empty() && mesh.faces[f].o != input.links[f]) lacks_links = true;
         });
     };
     set_faces();
@@ -275,16 +268,13 @@ inline std::optional<Mesh> load(const RoundInput& input, std::size_t most_unfit,
     release(input.triangles);
     mesh.vertices.resize(input.positions.size());
     const bool has_borders = input.borders && !input.borders->at.empty();
-    parallel_blocks(mesh.vertices.size(), elements_per_block, context,
-                    [&](std::size_t first, std::size_t end) {
-                        for (std::size_t v = first; v < end; ++v) {
-                            Vertex& at = mesh.vertices[v];
-                            at.p = engine::to_array(input.positions[v]);
-                            if (has_borders && input.borders->at[v] != no_index) at.lock = unfit;
-                            if (input.locked[v]) at.lock |= user_lock;
-                            at.slot = at.source = static_cast<Index>(v);
-                        }
-                    });
+    parallel_each(mesh.vertices.size(), elements_per_block, context, [&](std::size_t v) {
+        Vertex& at = mesh.vertices[v];
+        at.p = engine::to_array(input.positions[v]);
+        if (has_borders && input.borders->at[v] != no_index) at.lock = unfit;
+        if (input.locked[v]) at.lock |= user_lock;
+        at.slot = at.source = static_cast<Index>(v);
+    });
     set_scale(mesh);
     const std::vector<Vector> roots = sum_planes(mesh, context);
     mesh.unfit = static_cast<std::size_t>(std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
@@ -310,13 +300,11 @@ inline void compact(Mesh& mesh, const RunContext& context) {
         if (v.slot != no_index) v.cell = vertices++;
     for (Face& f : mesh.faces)
         if (f.v[0] != no_index) f.place = faces++;
-    parallel_blocks(mesh.faces.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-            Face& f = mesh.faces[i];
-            if (f.v[0] == no_index) continue;
-            for (Index& v : f.v) v = mesh.vertices[v].cell;
-            for (Corner& c : f.o) c = c == no_index ? c : 4 * mesh.faces[c >> 2].place + (c & 3);
-        }
+    parallel_each(mesh.faces.size(), elements_per_block, context, [&](std::size_t i) {
+        Face& f = mesh.faces[i];
+        if (f.v[0] == no_index) return;
+        for (Index& v : f.v) v = mesh.vertices[v].cell;
+        for (Corner& c : f.o) c = c == no_index ? c : 4 * mesh.faces[c >> 2].place + (c & 3);
     });
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
         const Vertex moved = mesh.vertices[v];

@@ -51,18 +51,15 @@ inline std::size_t assign_cells(Mesh& mesh, double area, std::uint64_t round, co
     // The diagonal is 1 and the centre 0; new vertices may be a little outside.
     const double per_side = 1 / side;
     const auto cells = static_cast<std::uint32_t>(1.25 * per_side) + 2;
-    parallel_blocks(mesh.vertices.size(), elements_per_block, context,
-                    [&](std::size_t first, std::size_t end) {
-                        for (std::size_t v = first; v < end; ++v) {
-                            std::uint32_t cell = 0;
-                            for (unsigned k = 0; k < 3; ++k) {
-                                const double at = (mesh.vertices[v].p[k] + 0.625) * per_side + shift[k];
-                                const auto most = static_cast<double>(cells - 1);
-                                cell = cell * cells + static_cast<std::uint32_t>(std::clamp(at, 0.0, most));
-                            }
-                            mesh.vertices[v].cell = cell;
-                        }
-                    });
+    parallel_each(mesh.vertices.size(), elements_per_block, context, [&](std::size_t v) {
+        std::uint32_t cell = 0;
+        for (unsigned k = 0; k < 3; ++k) {
+            const double at = (mesh.vertices[v].p[k] + 0.625) * per_side + shift[k];
+            const auto most = static_cast<double>(cells - 1);
+            cell = cell * cells + static_cast<std::uint32_t>(std::clamp(at, 0.0, most));
+        }
+        mesh.vertices[v].cell = cell;
+    });
     return std::size_t{cells} * cells * cells;
 }
 

@@ -29,9 +29,8 @@ inline std::vector<Index> vertices_in_morton_order(const std::vector<Vector3>& p
     const double side = box.isEmpty() ? 0 : box.sizes().maxCoeff();
     const double per_side = side > 0 ? 1 / side : 0;
     std::vector<std::uint64_t> code(positions.size());
-    parallel_blocks(code.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t v = first; v < end; ++v) code[v] = morton<21>((positions[v] - box.min()) * per_side);
-    });
+    parallel_each(code.size(), elements_per_block, context,
+                  [&](std::size_t v) { code[v] = morton<21>((positions[v] - box.min()) * per_side); });
     // The vertices with the same first bits are sorted side by side.
     const auto first_bits = std::min(static_cast<unsigned>(std::bit_width(code.size() / 64)), 15u);
     Buckets<std::pair<std::uint64_t, Index>> keys(std::size_t{1} << first_bits, [&](auto&& put) {
@@ -57,31 +56,25 @@ FAQEM_INLINE ReorderedMesh reorder(const PreprocessedMesh& prepared, const RunCo
     out.vertex = vertices_in_morton_order(positions, triangles, context);
     std::vector<Index> slot(positions.size(), no_index);
     out.positions.resize(out.vertex.size());
-    parallel_blocks(out.vertex.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-            slot[out.vertex[i]] = static_cast<Index>(i);
-            out.positions[i] = positions[out.vertex[i]];
-        }
+    parallel_each(out.vertex.size(), elements_per_block, context, [&](std::size_t i) {
+        slot[out.vertex[i]] = static_cast<Index>(i);
+        out.positions[i] = positions[out.vertex[i]];
     });
     std::vector<Vector3>().swap(positions);
     // Faces are sorted by the smallest slot of their corners, then by index.
     std::vector<Index> first_slot(triangles.size());
-    parallel_blocks(triangles.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t f = first; f < end; ++f) {
-            const Triangle& t = triangles[f];
-            first_slot[f] = t[0] == no_index ? no_index : std::min({slot[t[0]], slot[t[1]], slot[t[2]]});
-        }
+    parallel_each(triangles.size(), elements_per_block, context, [&](std::size_t f) {
+        const Triangle& t = triangles[f];
+        first_slot[f] = t[0] == no_index ? no_index : std::min({slot[t[0]], slot[t[1]], slot[t[2]]});
     });
     out.face = std::move(Buckets<Index>(out.vertex.size(), [&](auto&& put) {
                              for (Index f = 0; f < first_slot.size(); ++f)
                                  if (first_slot[f] != no_index) put(first_slot[f], f);
                          }).items());
     out.triangles.resize(out.face.size());
-    parallel_blocks(out.face.size(), elements_per_block, context, [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-            const Triangle& t = triangles[out.face[i]];
-            out.triangles[i] = {slot[t[0]], slot[t[1]], slot[t[2]]};
-        }
+    parallel_each(out.face.size(), elements_per_block, context, [&](std::size_t i) {
+        const Triangle& t = triangles[out.face[i]];
+        out.triangles[i] = {slot[t[0]], slot[t[1]], slot[t[2]]};
     });
     return out;
 }
