@@ -50,10 +50,6 @@ std::string attempt_name() {
            "-" + std::to_string(std::random_device()());
 }
 
-std::string key_text(const std::string& id, const std::string& hash, const std::string& options) {
-    return Json::array({id, hash, options}).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 /// The files of the attempts at a shard, the oldest first.
 std::vector<fs::path> attempts_in(const fs::path& folder) {
     std::vector<fs::path> files;
@@ -92,7 +88,7 @@ Ledger::Ledger(const fs::path& out_folder, const std::string& name, bool reads) 
 /// \param open  models that the attempt has begun and not ended
 void Ledger::read_line(const Json& json, std::vector<std::string>& open) {
     const std::string key =
-        key_text(json.value("id", ""), json.value("sha256", ""), json.value("options", ""));
+        json_line(Json::array({json.value("id", ""), json.value("sha256", ""), json.value("options", "")}));
     const std::string event = json.value("event", "");
     EarlierResult& result = results_[json.value("result", "")];
     if (event == "started") {
@@ -115,7 +111,7 @@ void Ledger::read_line(const Json& json, std::vector<std::string>& open) {
 }
 
 ModelHistory Ledger::history(const BatchFile& model) const {
-    const auto found = histories_.find(key_text(model.name, model.hash, model.options_id));
+    const auto found = histories_.find(json_line(Json::array({model.name, model.hash, model.options_id})));
     return found == histories_.end() ? ModelHistory() : found->second;
 }
 

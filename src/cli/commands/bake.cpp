@@ -60,9 +60,8 @@ int run(const BakeArguments& arguments) {
         baked = detail::with_file_in_errors(arguments.source + " onto " + arguments.target,
                                             [&] { return bake_onto(source, target, options, onto); });
         baked.report.seconds.load = loaded;
-        for (std::string& idle :
-             detail::idle_options(target, options, typed_names(arguments.options), detail::command_spelling))
-            baked.report.warnings.push_back(std::move(idle));
+        append(baked.report.warnings, detail::idle_options(target, options, typed_names(arguments.options),
+                                                           detail::command_spelling));
     }
     require_not_cancelled(baked.report);
     const ExitOnInterrupt exit_on_interrupt;
@@ -101,7 +100,7 @@ CommandInfo bake_command() {
     const OptionInfo uvs = text_option("--uvs", "auto|keep|new", arguments->uvs,
                                        "UVs of the result; auto (keep if they are in [0, 1] and do not "
                                        "overlap), keep, new");
-    add_options(command.options, {source, uvs, max_distance});
+    append(command.options, {source, uvs, max_distance});
     // Those of truncate about the appearance, except for what the target determines.
     std::vector<OptionInfo> baking = table_options(detail::in_truncate, arguments->options);
     std::erase_if(baking, [](const OptionInfo& option) {
@@ -115,9 +114,9 @@ CommandInfo bake_command() {
                 "Kind of the new texture; auto (atlas, or per-triangle if that does not fit), "
                 "atlas (charts), per-triangle";
         }
-    add_options(command.options, std::move(baking));
-    add_options(command.options, {report_option(arguments->report), strict_option(arguments->strict),
-                                  force_option(arguments->force), quiet_option(arguments->quiet)});
+    append(command.options, std::move(baking));
+    append(command.options, {report_option(arguments->report), strict_option(arguments->strict),
+                             force_option(arguments->force), quiet_option(arguments->quiet)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -188,7 +188,7 @@ CommandInfo batch_command() {
     command.positionals = {dir};
     add_output(command, "OUTDIR", arguments->out, "Directory for the results; created if necessary");
     command.options.back().is_required = false;  // with --list it is the only directory
-    add_options(
+    append(
         command.options,
         {format_option(arguments->format),
          number_option("-j,--jobs", "N", arguments->jobs, {.max = 1024},
@@ -215,13 +215,12 @@ CommandInfo batch_command() {
                             "Indices of an array of --missing are below N; default: 1000")),
          rare(flag_option("--merge", arguments->merge,
                           "Write what became of each model of OUTDIR; to its batch.jsonl and batch.html"))});
-    add_options(command.options, table_options(detail::in_batch, arguments->options));
+    append(command.options, table_options(detail::in_batch, arguments->options));
     for (OptionInfo& option : command.options)
         if (option.names.back() == "--threads")
             option.description = "Maximum number of threads per model; 0: all, divided by the jobs (default)";
-    add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
-    add_options(command.options,
-                {profile_option(), builtin_profile_option(), force_option(arguments->force)});
+    append(command.options, strict_options(arguments->strict, arguments->strict_target));
+    append(command.options, {profile_option(), builtin_profile_option(), force_option(arguments->force)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

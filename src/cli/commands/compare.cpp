@@ -94,7 +94,7 @@ CommandInfo compare_command() {
          positional("B", arguments->b, "The other model")},
         compare_options(arguments->options),
         [arguments] { return run(*arguments); }};
-    add_options(command.options, {flag_option("--json", arguments->json, "Print JSON instead of text")});
+    append(command.options, {flag_option("--json", arguments->json, "Print JSON instead of text")});
     return command;
 }
 

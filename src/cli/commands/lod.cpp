@@ -161,16 +161,14 @@ struct LodWriter {
             write_with_shared_texture();
         else
             write_with_separate_textures();
-        if (outputs.is_file) {
-            const ExitOnInterrupt exit_on_interrupt;
-            const detail::CollectWrites collect(set);
-            append(warnings, save_levels(std::move(one_file_levels), outputs.models[0], arguments.overwrite));
-        }
-        Json manifest = lod_manifest(arguments.in, size.diagonal, arguments.view_settings, written);
-        manifest["warnings"] = warnings;
         {
             const ExitOnInterrupt exit_on_interrupt;
             const detail::CollectWrites collect(set);
+            if (outputs.is_file)
+                append(warnings,
+                       save_levels(std::move(one_file_levels), outputs.models[0], arguments.overwrite));
+            Json manifest = lod_manifest(arguments.in, size.diagonal, arguments.view_settings, written);
+            manifest["warnings"] = warnings;
             write_output(outputs.manifest,
                          manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
                          arguments.overwrite);
@@ -229,10 +227,6 @@ struct LodWriter {
     void write_level(SimplifiedAsset simplified, double distance, double error) {
         append(simplified.report.warnings, write(std::move(simplified.asset), distance, error));
         written.back().report = std::move(simplified.report);
-    }
-
-    static void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
-        all.insert(all.end(), more.begin(), more.end());
     }
 
     /// Saves one level, or stores it for the file of all. \return warnings about data that the format cannot store
@@ -324,11 +318,11 @@ CommandInfo lod_command() {
     add_output(command, "OUT", arguments->out,
                "Directory for NAME_LOD0 ... and NAME_LOD.json, or a file for all levels: " +
                    detail::listed_extensions(detail::FormatUse::write_levels));
-    add_options(command.options, chain_options(*arguments));
-    add_options(command.options, table_options(detail::in_lod, arguments->options));
-    add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
-    add_options(command.options, {profile_option(), builtin_profile_option(), force_option(arguments->force),
-                                  quiet_option(arguments->quiet)});
+    append(command.options, chain_options(*arguments));
+    append(command.options, table_options(detail::in_lod, arguments->options));
+    append(command.options, strict_options(arguments->strict, arguments->strict_target));
+    append(command.options, {profile_option(), builtin_profile_option(), force_option(arguments->force),
+                             quiet_option(arguments->quiet)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -128,15 +128,15 @@ CommandInfo report_command() {
     command.positionals = {positional("A", arguments->a, "The original"),
                            positional("B", arguments->b, "The other model")};
     add_output(command, "PAGE", arguments->out, ".html or .htm");
-    add_options(command.options, {number_option("--size", "N", arguments->size, {.min = 16, .max = 2048},
-                                                "Side of one view of a picture, pixels (default 320)"),
-                                  number_option("--views", "N", arguments->views, from_one(16),
-                                                "Views of a picture (default 4)"),
-                                  up_option(arguments->up),
-                                  flag_option("--without-view", arguments->without_view,
-                                              "Figures and pictures only, without the 3D view")});
-    add_options(command.options, compare_options(arguments->options));
-    add_options(command.options, {force_option(arguments->force)});
+    append(command.options,
+           {number_option("--size", "N", arguments->size, {.min = 16, .max = 2048},
+                          "Side of one view of a picture, pixels (default 320)"),
+            number_option("--views", "N", arguments->views, from_one(16), "Views of a picture (default 4)"),
+            up_option(arguments->up),
+            flag_option("--without-view", arguments->without_view,
+                        "Figures and pictures only, without the 3D view")});
+    append(command.options, compare_options(arguments->options));
+    append(command.options, {force_option(arguments->force)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -137,7 +137,7 @@ SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, cons
         require_memory(arguments.in, process_memory() + detail::estimated_simplify_memory(source, options),
                        allowed);
     });
-    result.report.warnings.insert(result.report.warnings.end(), idle.begin(), idle.end());
+    append(result.report.warnings, std::move(idle));
     return result;
 }
 
@@ -207,9 +207,9 @@ CommandInfo simplify_command() {
     command.positionals = {
         positional("IN", arguments->in, detail::listed_extensions(detail::FormatUse::read))};
     add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write));
-    add_options(command.options, table_options(detail::in_simplify, arguments->options));
-    add_options(command.options, strict_options(arguments->strict, arguments->strict_target));
-    add_options(command.options, run_options(*arguments));
+    append(command.options, table_options(detail::in_simplify, arguments->options));
+    append(command.options, strict_options(arguments->strict, arguments->strict_target));
+    append(command.options, run_options(*arguments));
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -92,14 +92,11 @@ int run(const TruncateArguments& arguments) {
                                        : baked_model(arguments, simplified_parts, options);
     std::vector<std::string> warnings = result.report.warnings;
     if (arguments.source.empty()) options.bake.kind = Bake::none;
-    for (std::string& idle :
-         detail::idle_options(options, typed_names(arguments.options), detail::command_spelling))
-        warnings.push_back(std::move(idle));
+    append(warnings, detail::idle_options(options, typed_names(arguments.options), detail::command_spelling));
     detail::FileSet set;
     {
         const detail::CollectWrites collect(set);
-        for (std::string& loss : save(result.asset, arguments.out, overwrite))
-            warnings.push_back(std::move(loss));
+        append(warnings, save(result.asset, arguments.out, overwrite));
     }
     commit_outputs(set);
     if (arguments.quiet) return exit_ok;
@@ -121,12 +118,12 @@ CommandInfo truncate_command() {
     add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write));
     OptionInfo faces = number_option("--faces", "N", arguments->faces, from_one(), "Maximum number of faces");
     faces.is_required = true;
-    add_options(command.options, {faces, text_option("--source", "FILE", arguments->source,
-                                                     "The original model, for the appearance; without it: "
-                                                     "geometry only. The options of baking are about it")});
-    add_options(command.options, table_options(detail::in_truncate, arguments->options));
-    add_options(command.options, {strict_option(arguments->strict), force_option(arguments->force),
-                                  quiet_option(arguments->quiet)});
+    append(command.options, {faces, text_option("--source", "FILE", arguments->source,
+                                                "The original model, for the appearance; without it: "
+                                                "geometry only. The options of baking are about it")});
+    append(command.options, table_options(detail::in_truncate, arguments->options));
+    append(command.options, {strict_option(arguments->strict), force_option(arguments->force),
+                             quiet_option(arguments->quiet)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

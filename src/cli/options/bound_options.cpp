@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "cli/files/output_file.hpp"
@@ -104,10 +103,6 @@ std::vector<OptionInfo> compare_options(CompareOptions& options) {
 OptionInfo rare(OptionInfo option) {
     option.group.clear();
     return option;
-}
-
-void add_options(std::vector<OptionInfo>& options, std::vector<OptionInfo> more) {
-    options.insert(options.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
 }  // namespace faqem::cli

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -78,7 +79,10 @@ std::vector<OptionInfo> compare_options(CompareOptions& options);
 /// The option without a group: --help omits it.
 OptionInfo rare(OptionInfo option);
 
-/// Appends options to those of a command.
-void add_options(std::vector<OptionInfo>& options, std::vector<OptionInfo> more);
+/// Appends to a list, for example options to those of a command.
+template <class T>
+void append(std::vector<T>& all, std::type_identity_t<std::vector<T>> more) {
+    all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
 
 }  // namespace faqem::cli
