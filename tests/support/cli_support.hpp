@@ -3,14 +3,16 @@
 /// Runs the faqem command in a temporary folder, and creates small models for it.
 
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -66,15 +68,26 @@ inline bool handles(pid_t process, int number) {
     return false;
 }
 
+/// Starts `faqem WORDS` in the folder. Its output is in the file `lines` there.
+template <class... Words>
+pid_t start(const Folder& folder, Words... words) {
+    const pid_t process = fork();
+    if (process < 0) throw std::runtime_error("cannot fork");
+    if (process > 0) return process;
+    if (chdir(folder.path().c_str()) == 0 && std::freopen("lines", "w", stdout))
+        execl(tool_path, "faqem", words..., nullptr);
+    _exit(99);
+}
+
 /// Sends a signal to a running command as soon as it has a handler for it, and waits for its end.
-/// \return the status of waitpid()
+/// \return its exit code, -1 if it was ended by the signal
 inline int signal_and_wait(pid_t process, int number) {
     int status = 0;
     // Also stops if the process has ended before it installed its handler.
     while (!handles(process, number) && waitpid(process, &status, WNOHANG) == 0) std::this_thread::yield();
     kill(process, number);
     waitpid(process, &status, 0);
-    return status;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 /// An image whose left half is red and right half is blue.

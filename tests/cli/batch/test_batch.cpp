@@ -1,7 +1,4 @@
-#include <unistd.h>
-
 #include <chrono>
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -277,17 +274,7 @@ TEST_CASE("batch exits with 8 after a signal and can be resumed") {
     const Folder folder;
     fs::create_directory(folder / "in");
     for (const char* name : {"in/a.glb", "in/b.glb", "in/c.glb"}) faqem::save(sheet(150), folder / name);
-    const pid_t process = fork();
-    REQUIRE(process >= 0);
-    if (process == 0) {
-        const bool ready = chdir(folder.path().c_str()) == 0 && std::freopen("lines", "w", stdout) != nullptr;
-        if (!ready) _exit(99);
-        execl(tool_path, "faqem", "batch", "in", "out", "--bake", "none", nullptr);
-        _exit(99);
-    }
-    const int status = signal_and_wait(process, SIGTERM);
-    REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 8);
+    CHECK(signal_and_wait(start(folder, "batch", "in", "out", "--bake", "none"), SIGTERM) == 8);
     // Cancelled models have a line, too.
     CHECK(lines_of({0, read(folder / "lines"), ""}).size() == 3);
     const Outcome outcome = run(folder, "batch in out --bake none --resume");

@@ -6,7 +6,6 @@
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
 #include "support/format_support.hpp"
-#include "support/sanitizers.hpp"
 
 using namespace tool_test;
 using faqem::testing::contains;
@@ -292,17 +291,8 @@ TEST_CASE("a shard that is ended by a signal exits with 75, and the next attempt
     fs::create_directory(folder / "in");
     for (const char* name : {"in/a.glb", "in/b.glb", "in/c.glb"}) faqem::save(sheet(150), folder / name);
     REQUIRE(run(folder, "list in -o models.jsonl").code == 0);
-    const pid_t process = fork();
-    REQUIRE(process >= 0);
-    if (process == 0) {
-        const bool ready = chdir(folder.path().c_str()) == 0 && std::freopen("lines", "w", stdout) != nullptr;
-        if (ready)
-            execl(tool_path, "faqem", "batch", "--list", "models.jsonl", "out", "--bake", "none", nullptr);
-        _exit(99);
-    }
-    const int status = signal_and_wait(process, SIGTERM);
-    REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 75);
+    const pid_t process = start(folder, "batch", "--list", "models.jsonl", "out", "--bake", "none");
+    CHECK(signal_and_wait(process, SIGTERM) == 75);
     CHECK(run(folder, "batch --missing out").out ==
           "--array=0 --export=ALL,FAQEM_SHARD_COUNT=1,FAQEM_SHARD_OFFSET=0\n");
     CHECK(run(folder, "batch --list models.jsonl out --bake none").code == 0);

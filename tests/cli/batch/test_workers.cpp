@@ -112,13 +112,7 @@ TEST_CASE("the processes of a batch that is killed end with it, in the middle of
     const Folder folder;
     make_models_with_bad(folder);
     const BadFile bad("hang");
-    const pid_t process = fork();
-    REQUIRE(process >= 0);
-    if (process == 0) {
-        const bool ready = chdir(folder.path().c_str()) == 0 && std::freopen("lines", "w", stdout) != nullptr;
-        if (ready) execl(tool_path, "faqem", "batch", "in", "out", "--jobs", "1", nullptr);
-        _exit(99);
-    }
+    const pid_t process = start(folder, "batch", "in", "out", "--jobs", "1");
     pid_t worker = 0;
     while (worker == 0 && waitpid(process, nullptr, WNOHANG) == 0) worker = child_of(process);
     REQUIRE(worker != 0);
