@@ -162,12 +162,10 @@ private:
                 speculative_merges_.push_back({merge, work, work, {}});
         }
         for (const MergeCandidate& merge : later) queue_.push(merge);
-        parallel_blocks(
-            speculative_merges_.size() - known, 1, context_, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = known + begin; i < known + end; ++i)
-                    speculative_merges_[i].parametrization =
-                        parametrize_merge(speculative_merges_[i].merge, speculative_merges_[i].left);
-            });
+        parallel_each(speculative_merges_.size() - known, 1, context_, [&](std::size_t i) {
+            SpeculativeMerge& made = speculative_merges_[known + i];
+            made.parametrization = parametrize_merge(made.merge, made.left);
+        });
     }
 
     Parametrization parametrize_merge(const MergeCandidate& merge, std::uint64_t& work) const {

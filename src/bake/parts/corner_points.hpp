@@ -2,14 +2,155 @@
 /// \file
 /// Points of the source near the corners of the simplified mesh, without a SurfaceMap.
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "bake/parts/corners.hpp"
+#include "bake/source/source_normals.hpp"
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/parallel.hpp"
+#include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/detail/geometry/triangle.hpp"
+#include "faqem/forward_map.hpp"
 #include "faqem/surface_map.hpp"
+#include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
+
+/// Minimum cosine between the normals of a simplified face and of a face of the source on the same side; as for
+/// SuccessiveProjection.
+inline constexpr double min_facing_cosine = 0.17;
+
+/// The faces of the source around each vertex of the simplified mesh: those with a corner that was collapsed into it.
+inline Buckets<Index> faces_around(const CollapseHistory& history, std::size_t vertices) {
+    const std::vector<Index> vertex = vertex_map(history);
+    return Buckets<Index>(vertices, [&](auto&& put) {
+        for (Index f = 0; f < history.triangles.size(); ++f) {
+            const Triangle& t = history.triangles[f];
+            if (t[0] == no_index) continue;
+            const Index a = vertex[t[0]], b = vertex[t[1]], c = vertex[t[2]];
+            if (a != no_index) put(a, f);
+            if (b != no_index && b != a) put(b, f);
+            if (c != no_index && c != a && c != b) put(c, f);
+        }
+    });
+}
+
+class Search {
+public:
+    Search(const BakePart& part, double inset)
+        : mesh_(part.simplified->mesh),
+          history_(part.simplified->history),
+          inset_(inset),
+          corners_(vertex_corners(mesh_)),
+          faces_(faces_around(history_, mesh_.positions.size())) {}
+
+    // Calls visit(corner, point) for the corners of a vertex.
+    template <class Visit>
+    void search_vertex(Index v, const RunContext& context, const Visit& visit) const {
+        const std::span<const Index> candidates = faces_[v];
+        const std::span<const std::uint64_t> corners = corners_[v];
+        const auto search = [&](const auto& closest) {
+            for (const std::uint64_t corner : corners) {
+                context.count(map_query_cost);
+                const SurfacePoint point = closest(query(corner));
+                if (point.face != no_index) visit(corner, point);
+            }
+        };
+        if (candidates.size() * corners.size() > max_comparisons) {
+            const FaceTree tree(history_, candidates, context);
+            return search([&](const Query& q) {
+                return tree.closest(q.p, [&](Index f) { return is_accepted(f, q); });
+            });
+        }
+        const Vector3 centre = to_eigen(mesh_.positions[v]);
+        std::vector<double> distances;
+        distances.reserve(candidates.size());
+        for (const Index f : candidates)
+            distances.push_back(std::sqrt(on_source(f, centre).distance_squared));
+        search([&](const Query& q) { return compare_all(q, candidates, distances, (q.p - centre).norm()); });
+    }
+
+private:
+    // Vertices with more comparisons of corners and faces use a tree: otherwise the work would be quadratic.
+    static constexpr std::size_t max_comparisons = 1 << 14;
+
+    struct Query {
+        Vector3 p, normal;  // of the simplified face by its winding
+        Index face;         // simplified
+    };
+
+    // The faces around a vertex.
+    struct FaceTree {
+        FaceTree(const CollapseHistory& history, std::span<const Index> all, const RunContext& context)
+            : faces(all) {
+            std::vector<Triangle> triangles;
+            triangles.reserve(faces.size());
+            for (const Index f : faces) triangles.push_back(history.triangles[f]);
+            tree = Bvh(history.positions, triangles, context);
+        }
+
+        template <class Filter>
+        SurfacePoint closest(const Vector3& p, const Filter& filter) const {
+            constexpr std::size_t max_rejections = 512;  // as for SuccessiveProjection
+            const Bvh::Hit hit = tree.closest_if(
+                to_array(p), [&](const Bvh::Corners& t) { return filter(faces[t.face]); },
+                std::numeric_limits<double>::infinity(), max_rejections);
+            if (hit.face == no_index) return {};
+            return {faces[hit.face], hit.barycentric, MapStep::history};
+        }
+
+        std::span<const Index> faces;
+        Bvh tree;
+    };
+
+    Query query(std::uint64_t corner) const {
+        const Triangle& t = mesh_.triangles[corner / 3];
+        const Vec3 w = barycentrics_near_corner(corner % 3, inset_);
+        Vector3 p = Vector3::Zero();
+        for (std::size_t i = 0; i < 3; ++i) p += w[i] * to_eigen(mesh_.positions[t[i]]);
+        return {p, winding_normal(mesh_.positions, t), static_cast<Index>(corner / 3)};
+    }
+
+    // distances: of the candidates from a point that is `away` from the query's
+    SurfacePoint compare_all(const Query& q, std::span<const Index> candidates,
+                             std::span<const double> distances, double away) const {
+        ClosestPoint best;
+        Index found = no_index;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            const double least = distances[i] - away * (1 + 1e-9);  // distances change by at most the way
+            if (least > 0 && least * least > best.distance_squared) continue;
+            const ClosestPoint at = on_source(candidates[i], q.p);
+            if (!(at.distance_squared < best.distance_squared) || !is_accepted(candidates[i], q)) continue;
+            best = at;
+            found = candidates[i];
+        }
+        return {found, to_array(best.barycentric), MapStep::history};
+    }
+
+    ClosestPoint on_source(Index f, const Vector3& p) const {
+        const auto [a, b, c] = corners_of(history_.positions, history_.triangles[f]);
+        return closest_point_on_triangle(p, a, b, c);
+    }
+
+    bool is_accepted(Index candidate, const Query& q) const {
+        const std::vector<Index>& groups = history_.face_groups;
+        if (!groups.empty() && groups[candidate] != groups[history_.remaining_faces[q.face]]) return false;
+        if (q.normal.isZero(0)) return true;
+        const Vector3 area = area_vector(history_.positions, history_.triangles[candidate]);
+        return area.dot(q.normal) >= min_facing_cosine * area.norm();
+    }
+
+    const TriangleMesh& mesh_;
+    const CollapseHistory& history_;
+    double inset_;
+    VertexCorners corners_;
+    Buckets<Index> faces_;
+};
 
 /// Finds the point of the source that is closest to a point near each corner of the simplified mesh, as
 /// barycentrics_near_corner() gives it. It is on a face with a corner that was collapsed into the vertex of the
@@ -20,7 +161,14 @@ namespace faqem::detail {
 /// \param visit         called once for each corner that has a point, concurrently
 /// \throws whatever `context` throws
 /// O(n log n) in the faces of both meshes
-void visit_corner_points(const BakePart& part, double inset, const RunContext& context,
-                         const std::function<void(std::uint64_t corner, const SurfacePoint& point)>& visit);
+inline void visit_corner_points(const BakePart& part, double inset, const RunContext& context,
+                                const std::function<void(std::uint64_t, const SurfacePoint&)>& visit) {
+    const Search search(part, inset);
+    parallel_blocks(part.simplified->mesh.positions.size(), 64, context,
+                    [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
+                        for (std::size_t v = begin; v < end; ++v)
+                            search.search_vertex(static_cast<Index>(v), block_context, visit);
+                    });
+}
 
 }  // namespace faqem::detail
