@@ -1,6 +1,5 @@
 #include "faqem/detail/base/morton.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "support/catch.hpp"

@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
-#include <utility>
-#include <vector>
 
 namespace faqem::bench {
 

@@ -2,7 +2,6 @@
 /// \file
 /// Measurements of time and memory, which pass their rows, one JSON object each, to a function.
 
-#include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,6 +1,5 @@
 #include "faqem/report_json.hpp"
 
-#include <clocale>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>

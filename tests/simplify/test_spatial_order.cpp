@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "faqem/options.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 

@@ -3,7 +3,6 @@
 /// Points on a simplified mesh and on the original, for tests of the map between them.
 
 #include <cmath>
-#include <vector>
 
 #include "faqem/surface_map.hpp"
 #include "support/meshes.hpp"

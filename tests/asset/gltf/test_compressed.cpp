@@ -1,6 +1,5 @@
 #include "asset/gltf/read/compressed.hpp"
 
-#include "asset/image/image.hpp"
 #include "support/catch.hpp"
 #include "support/gltf_compressed_builder.hpp"
 

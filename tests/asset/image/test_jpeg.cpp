@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "asset/image/codecs.hpp"
-#include "asset/image/image.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 #include "support/image_builder.hpp"

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "asset/image/codecs.hpp"
-#include "asset/image/image.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 #include "support/image_builder.hpp"

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "asset/image/image.hpp"
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 #include "support/image_builder.hpp"

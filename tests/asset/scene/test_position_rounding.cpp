@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "asset/formats/formats.hpp"
-#include "faqem/error.hpp"
 #include "support/catch.hpp"
 
 using namespace faqem;

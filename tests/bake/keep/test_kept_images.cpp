@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "asset/gltf/source_document.hpp"
-#include "asset/image/image.hpp"
 #include "bake/keep/kept_images.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"

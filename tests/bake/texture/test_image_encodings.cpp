@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 
-#include "asset/image/image.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
