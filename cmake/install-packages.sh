@@ -50,7 +50,7 @@ libwebp-dev:arm64 libdeflate-dev:arm64 zlib1g-dev:arm64 libdraco-dev:arm64 libmd
             packages="python3-venv libx11-6 libxrender1 libxfixes3 libxi6 libxkbcommon0 libsm6 libgl1"
             ;;
         ktx2) packages="$packages libzstd-dev python3-venv" ;;
-        windows) packages="$packages g++-mingw-w64-x86-64-posix wine64" ;;
+        windows) packages="$packages g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64" ;;
         web)
             packages="cmake ninja-build libeigen3-dev nlohmann-json3-dev emscripten nodejs $npm"
             ;;

@@ -19,7 +19,8 @@ set_target_properties(draco::draco PROPERTIES IMPORTED_LOCATION ${FAQEM_DRACO_LI
 
 set(faqem_meshoptimizer ${PROJECT_BINARY_DIR}/meshoptimizer)
 if(NOT EXISTS ${faqem_meshoptimizer}/src/meshoptimizer.h)
-    execute_process(COMMAND sh ${faqem_native}/fetch_meshoptimizer.sh ${faqem_meshoptimizer} COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND ${PROJECT_SOURCE_DIR}/cmake/fetch-sources.sh ${PROJECT_BINARY_DIR} meshoptimizer
+                    COMMAND_ERROR_IS_FATAL ANY)
 endif()
 file(GLOB faqem_meshoptimizer_files ${faqem_meshoptimizer}/src/*.cpp)
 add_library(faqem_meshoptimizer STATIC ${faqem_meshoptimizer_files})
