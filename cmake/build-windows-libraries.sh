@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds the libraries that faqem needs for x86-64 Windows, as static archives, from Debian's source packages: those of
-# PNG, JPEG and WebP images, libdeflate, libmd (SHA-256 only), Draco and meshoptimizer. Each is built once. Those that are
-# headers alone are linked to: /usr/include also has the headers of glibc.
+# PNG, JPEG and WebP images, libdeflate and meshoptimizer. Each is built once. Those that are headers alone are linked to:
+# /usr/include also has the headers of glibc.
 # Usage: build-windows-libraries.sh PREFIX
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -46,10 +46,4 @@ if fetched libdeflate; then
     cp "$source/libdeflatestatic.lib" "$prefix/lib/libdeflate.a"
     cp "$source/libdeflate.h" "$prefix/include"
     touch "$prefix/built-libdeflate"
-fi
-if fetched libmd; then
-    touch "$source/config.h"
-    (cd "$source" && $compiler -O2 -I. -Iinclude -c src/sha2.c src/sha256hl.c && ar rcs "$prefix/lib/libmd.a" sha2.o sha256hl.o)
-    cp "$source/include/sha2.h" "$prefix/include"
-    touch "$prefix/built-libmd"
 fi

@@ -30,6 +30,10 @@ function(faqem_compile_options target)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
     target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                                              -Woverloaded-virtual)
+    if(WIN32)
+        # Windows 10; sizes of files in 64 bits.
+        target_compile_definitions(${target} PRIVATE _WIN32_WINNT=0x0A00 _FILE_OFFSET_BITS=64)
+    endif()
     if(FAQEM_WERROR)
         # The false alarms of this warning depend on what is inlined, and differ between versions of g++.
         target_compile_options(${target} PRIVATE -Werror -Wno-error=array-bounds)

@@ -47,9 +47,6 @@ Image write_png(const Pixels& pixels, const std::string& name, int) {
 Pixels read_jpeg(const Image& image) { fail_kind(image.name, "JPEG"); }
 Pixels read_webp(const Image& image) { fail_kind(image.name, "WebP"); }
 Image write_jpeg(const Pixels&, const std::string& name, const JpegRounding&) { fail_kind(name, "JPEG"); }
-const ImagePlugin& image_plugin() { throw Error("this build has no plugins"); }
-const ImagePlugin& ktx2_plugin() { return image_plugin(); }
-bool reads_ktx2() { return false; }
 
 }  // namespace detail
 

@@ -65,6 +65,10 @@ void check_header(const Image& image) {
 
 }  // namespace
 
+#ifndef FAQEM_WITH_KTX2
+bool reads_ktx2() { return false; }
+#endif
+
 std::string sniff_mime_type(std::span<const std::uint8_t> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     for (const FileSignature& kind : file_signatures)
@@ -135,7 +139,9 @@ Pixels decode(const Image& image) {
 #else
     if (!format.empty()) return detail::image_plugin().decode(image, format);
 #endif
+#ifdef FAQEM_WITH_KTX2
     if (type == detail::ktx2_media_type) return detail::ktx2_plugin().decode(image, "ktx2");
+#endif
     if (type == "image/png") return detail::read_png(image);
     if (type == "image/jpeg") return detail::read_jpeg(image);
     return detail::read_webp(image);

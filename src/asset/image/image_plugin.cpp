@@ -67,8 +67,6 @@ bool reads_ktx2() {
     static const bool is_installed = exists(plugin_path(ktx2_plugin_file));
     return is_installed;
 }
-#else
-bool reads_ktx2() { return false; }
 #endif
 
 const ImagePlugin& ktx2_plugin() {

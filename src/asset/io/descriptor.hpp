@@ -2,7 +2,9 @@
 /// \file
 /// File descriptors, writing to them, errors of writing, and locks that end with the process that holds them.
 
+#ifndef _WIN32
 #include <sys/file.h>
+#endif
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -39,19 +41,6 @@ private:
     int number_ = -1;
 };
 
-/// Writes all bytes to an opened file. Returns false and sets errno on failure; a part may be written then.
-inline bool write_all(int file, std::span<const std::uint8_t> bytes) {
-    while (!bytes.empty()) {
-        const std::size_t chunk_size = std::min(bytes.size(), std::size_t{1} << 30);
-        const ssize_t written = ::write(file, bytes.data(), chunk_size);
-        if (written < 0 && errno == EINTR) continue;
-        if (written == 0) errno = EIO;
-        if (written <= 0) return false;
-        bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-    return true;
-}
-
 /// \param action  what cannot be done, e.g. "write"
 /// \param error   value of errno
 /// \throws WriteError  `FILE: cannot ACTION: REASON`
@@ -65,6 +54,20 @@ enum class Lock {
     held,        ///< by another process, or by another descriptor of this one
     unsupported  ///< the file system has no locks
 };
+
+#ifndef _WIN32
+/// Writes all bytes to an opened file. Returns false and sets errno on failure; a part may be written then.
+inline bool write_all(int file, std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+        const std::size_t chunk_size = std::min(bytes.size(), std::size_t{1} << 30);
+        const ssize_t written = ::write(file, bytes.data(), chunk_size);
+        if (written < 0 && errno == EINTR) continue;
+        if (written == 0) errno = EIO;
+        if (written <= 0) return false;
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return true;
+}
 
 /// Locks a file with flock() without waiting. The lock ends with the process, however that ends.
 /// \param kind  LOCK_EX or LOCK_SH
@@ -83,5 +86,6 @@ inline bool is_same_file(int file, const char* path) {
     return ::fstat(file, &opened) == 0 && ::lstat(path, &named) == 0 && opened.st_dev == named.st_dev &&
            opened.st_ino == named.st_ino;
 }
+#endif
 
 }  // namespace faqem::detail

@@ -43,7 +43,11 @@ bool has_scheme(std::string_view text) {
 
 std::vector<std::uint8_t> read_file(const fs::path& file, std::uint64_t max_bytes) {
     check_completely_replaced(file);
+#ifdef _WIN32
+    const Descriptor in(::_wopen(file.c_str(), _O_RDONLY | _O_BINARY | _O_NOINHERIT));
+#else
     const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+#endif
     if (!in) fail_read(file, errno);
     struct stat status = {};
     if (::fstat(in.get(), &status) != 0) fail_read(file, errno);

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "faqem/detail/base/lower_case.hpp"
@@ -23,6 +25,10 @@ namespace faqem::detail {
 ///                    files that an interrupted run replaced only in part (check_completely_replaced())
 FAQEM_EXPORT std::vector<std::uint8_t> read_file(const std::filesystem::path& file,
                                                  std::uint64_t max_bytes = std::uint64_t{1} << 34);
+
+/// Identifies an existing file by its volume and its number there; links are followed. Nothing if there is no such file.
+using FileId = std::pair<std::uint64_t, std::uint64_t>;
+FAQEM_EXPORT std::optional<FileId> file_id(const std::filesystem::path& file);
 
 /// The names in a folder, in the order of the file system. \param folder  empty: the current directory
 std::vector<std::string> file_names(const std::filesystem::path& folder, std::error_code& error);
@@ -58,6 +64,11 @@ std::filesystem::path resolve_inside(const std::filesystem::path& folder, std::s
 /// \param kind       syntax of the reference
 std::filesystem::path referenced_path(const std::filesystem::path& folder, std::string_view reference,
                                       ReferenceSyntax kind);
+
+/// The folder of a file; "." if its path has none.
+inline std::filesystem::path parent_of(const std::filesystem::path& file) {
+    return file.has_parent_path() ? file.parent_path() : ".";
+}
 
 /// Returns the extension of a file name with its dot, in lower case (ASCII).
 inline std::string lower_case_extension(const std::filesystem::path& file) {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "asset/io/encoded_model.hpp"
+#include "asset/io/file.hpp"
 #include "asset/io/set_folder.hpp"
 #include "faqem/error.hpp"
 
@@ -22,29 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path parent_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : "."; }
-
-PendingFile write_temporary_file(const FileContent& content, Overwrite overwrite) {
-    fs::path target = content.file;
-    struct stat old = {};
-    const bool exists = ::stat(target.c_str(), &old) == 0;
-    if (!exists && errno != ENOENT) fail_write(target, "write", errno);
-    if (exists && !S_ISREG(old.st_mode)) throw WriteError(target.string() + ": is not a regular file");
-    if (exists && overwrite == Overwrite::no) fail_write(target, "write without overwriting", EEXIST);
-    if (exists) target = fs::canonical(target);
-
-    std::error_code error;
-    const fs::path folder = fs::canonical(parent_of(target), error);
-    if (error) fail_write(content.file, "open its folder", error.value());
-    const mode_t mode = exists ? old.st_mode & 07777 : 0666;
-    TemporaryFile temporary(folder / target.filename(), mode & 0666, content.file);
-    const int file = temporary.file();
-    if (!write_all(file, content.bytes)) fail_write(content.file, "write", errno);
-    if (exists && ::fchmod(file, mode) != 0) fail_write(content.file, "set the permissions", errno);
-    if (::fsync(file) != 0) fail_write(content.file, "write to the disk", errno);
-    return {folder, target.filename(), std::move(temporary), overwrite};
-}
-
+#ifndef _WIN32
 void require_temporary(const PendingFile& file) {
     if (file.temporary.is_removed()) fail_write(file.target(), "write", EINTR);
 }
@@ -230,11 +209,48 @@ private:
     std::vector<bool> has_old_;  // by file: whether it replaces one
     std::map<fs::path, ReplacedFolder> folders_;
 };
+#endif
 
 WriteCheck write_check = nullptr;
 thread_local FileSet* collecting_set = nullptr;
 
 }  // namespace
+
+#ifndef _WIN32
+std::optional<FileId> file_id(const fs::path& file) {
+    struct stat status = {};
+    if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+    return FileId(status.st_dev, status.st_ino);
+}
+
+PendingFile write_temporary_file(const FileContent& content, Overwrite overwrite) {
+    fs::path target = content.file;
+    struct stat old = {};
+    const bool exists = ::stat(target.c_str(), &old) == 0;
+    if (!exists && errno != ENOENT) fail_write(target, "write", errno);
+    if (exists && !S_ISREG(old.st_mode)) throw WriteError(target.string() + ": is not a regular file");
+    if (exists && overwrite == Overwrite::no) fail_write(target, "write without overwriting", EEXIST);
+    if (exists) target = fs::canonical(target);
+
+    std::error_code error;
+    const fs::path folder = fs::canonical(parent_of(target), error);
+    if (error) fail_write(content.file, "open its folder", error.value());
+    const mode_t mode = exists ? old.st_mode & 07777 : 0666;
+    TemporaryFile temporary(folder / target.filename(), mode & 0666, content.file);
+    const int file = temporary.file();
+    if (!write_all(file, content.bytes)) fail_write(content.file, "write", errno);
+    if (exists && ::fchmod(file, mode) != 0) fail_write(content.file, "set the permissions", errno);
+    if (::fsync(file) != 0) fail_write(content.file, "write to the disk", errno);
+    return {folder, target.filename(), std::move(temporary), overwrite};
+}
+
+void replace_files(std::span<PendingFile> files, void (*completed)() noexcept) {
+    if (files.size() == 1)
+        replace_single_file(files.front(), completed);
+    else
+        Replacement(files).run(completed);
+}
+#endif
 
 void set_write_check(WriteCheck check) { write_check = check; }
 
@@ -264,14 +280,7 @@ void FileSet::add(std::span<const FileContent> files, Overwrite overwrite) {
 }
 
 void FileSet::commit(void (*completed)() noexcept) {
-    if (files_.size() == 1) {
-        replace_single_file(files_.front(), completed);
-    } else if (!files_.empty()) {
-        Replacement(files_).run(completed);
-    } else {
-        const HeldSignals held;
-        if (completed) completed();
-    }
+    replace_files(files_, completed);
     files_.clear();
 }
 

@@ -35,6 +35,12 @@ struct PendingFile {
     std::filesystem::path target() const { return folder / name; }
 };
 
+/// Writes a file under a temporary name in its folder and syncs it; see FileSet::add().
+PendingFile write_temporary_file(const FileContent& content, Overwrite overwrite);
+
+/// Gives files their names; see FileSet::commit().
+void replace_files(std::span<PendingFile> files, void (*completed)() noexcept);
+
 /// A set of files that is replaced all or nothing.
 ///
 /// add() writes temporary files. commit() renames them while signals are held. If an error occurs in between,
@@ -44,6 +50,8 @@ struct PendingFile {
 ///
 /// Files of different folders are replaced together unless the process is killed or the power lost: then the
 /// files of one folder may be the new ones, and those of another the old ones.
+///
+/// Windows: each file is replaced by itself. After an error, or the end of the process, some of them are the new ones.
 class FAQEM_EXPORT FileSet {
 public:
     FileSet() = default;

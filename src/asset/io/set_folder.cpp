@@ -146,7 +146,7 @@ void recover_folder(const fs::path& folder) {
 void check_completely_replaced(const fs::path& file) {
     std::error_code error;
     const fs::path found = fs::canonical(file, error), real = error ? file : found;
-    const fs::path folder = real.has_parent_path() ? real.parent_path() : ".", set = folder / set_folder_name;
+    const fs::path folder = parent_of(real), set = folder / set_folder_name;
     const Descriptor lock(::open((set / "lock").c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (lock && try_lock(lock.get(), LOCK_SH) == Lock::held)
         return;  // the set is being replaced by another process

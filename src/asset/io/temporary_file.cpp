@@ -3,9 +3,7 @@
 #include <fcntl.h>
 
 #include <array>
-#include <cstdio>
 #include <cstring>
-#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -43,13 +41,6 @@ std::atomic<char*>& register_temporary(char* name) {
     }
 }
 
-std::string random_name() {
-    std::random_device random;
-    char base[40];
-    std::snprintf(base, sizeof base, ".faqem-%08x%08x%08x.tmp", random(), random(), random());
-    return base;
-}
-
 /// Removes a temporary file if its lock is free.
 void remove_if_unlocked(const fs::path& file) {
     const Descriptor opened(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
@@ -78,7 +69,7 @@ bool begin_exit() noexcept {
 
 TemporaryFile::TemporaryFile(const fs::path& target, mode_t mode, const fs::path& shown) {
     do {
-        const std::string path = fs::absolute(target.parent_path() / random_name()).string();
+        const std::string path = fs::absolute(target.parent_path() / temporary_name()).string();
         name_ = std::make_unique<char[]>(path.size() + 1);
         std::memcpy(name_.get(), path.c_str(), path.size() + 1);
         // The name is registered before the file is created; removing a file that does not exist is harmless.

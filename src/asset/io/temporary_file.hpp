@@ -7,14 +7,30 @@
 #include <sys/types.h>
 
 #include <atomic>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <random>
+#include <string>
 #include <string_view>
 
 #include "asset/io/descriptor.hpp"
 #include "faqem/export.hpp"
 
 namespace faqem::detail {
+
+/// Name of a new temporary file, with a random number.
+inline std::string temporary_name() {
+    std::random_device random;
+    char name[40];
+    std::snprintf(name, sizeof name, ".faqem-%08x%08x%08x.tmp", random(), random(), random());
+    return name;
+}
+
+#ifdef _WIN32
+/// A handle of a file that is deleted when it is closed, however the process ends, unless it was given its name.
+using TemporaryFile = std::shared_ptr<void>;
+#else
 
 /// A new, locked file `.faqem-N.tmp`, where N is a random number of 24 hexadecimal digits. It is removed on
 /// destruction unless release() was called. On file systems without locks it is not locked.
@@ -50,11 +66,6 @@ private:
 /// Whether a file name is that of a TemporaryFile.
 bool is_temporary_name(std::string_view name);
 
-/// Removes the temporary files of a folder whose lock is free: the processes that wrote them are dead. Files
-/// that cannot be locked or removed remain.
-/// Complexity: lists the folder once.
-FAQEM_EXPORT void remove_leftovers(const std::filesystem::path& folder) noexcept;
-
 /// Renames a file unless the new name exists. Returns false and sets errno on failure; then the file may have both names.
 /// The folders are descriptors, or AT_FDCWD.
 bool rename_if_absent(int from_folder, const char* from, int to_folder, const char* to);
@@ -74,6 +85,12 @@ public:
 private:
     sigset_t before_;
 };
+#endif
+
+/// Removes the temporary files of a folder whose lock is free: the processes that wrote them are dead. Files
+/// that cannot be locked or removed remain.
+/// Complexity: lists the folder once.
+FAQEM_EXPORT void remove_leftovers(const std::filesystem::path& folder) noexcept;
 
 /// Removes the temporary files of all writes in progress. Async-signal-safe: intended for the handler of
 /// SIGINT and SIGTERM, which ends the process afterwards.
