@@ -52,9 +52,12 @@ CommandTree command_tree() {
         "over before there was a result, 75 a shard is not complete.";
     tree.options = help_options();
     tree.options.push_back({{"-V", "--version"}, "", "Print the version", detail::OptionKind::flag});
-    tree.commands = {simplify_command(), lod_command(),    truncate_command(), bake_command(),
-                     batch_command(),    list_command(),   info_command(),     compare_command(),
-                     render_command(),   report_command(), profiles_command(), completion_command()};
+    tree.commands = {simplify_command(), lod_command(),       truncate_command(), bake_command(),
+#ifndef _WIN32
+                     batch_command(),    list_command(),
+#endif
+                     info_command(),     compare_command(),   render_command(),   report_command(),
+                     profiles_command(), completion_command()};
     complete_options(tree);
     return tree;
 }

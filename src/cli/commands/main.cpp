@@ -1,5 +1,7 @@
 // The faqem command. Errors are printed to stderr, data to stdout.
 
+#include <fcntl.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
@@ -11,6 +13,7 @@
 #include "cli/commands/command_line.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/shell/parser.hpp"
+#include "faqem/detail/base/peak_memory.hpp"  // <windows.h>
 #include "faqem/error.hpp"
 
 namespace faqem::cli {
@@ -49,6 +52,9 @@ std::string usage_message(const CLI::App& app, const CommandTree& tree, const CL
     if (app.get_subcommands().empty()) {
         std::string text = "the first word must be a model or a command:";
         for (const CommandInfo& command : tree.commands) text += " " + command.name;
+#ifdef _WIN32
+        text += "; batch and list need Linux";
+#endif
         return text;
     }
     const std::string command = app.get_subcommands().front()->get_name() + ": ";
@@ -56,12 +62,12 @@ std::string usage_message(const CLI::App& app, const CommandTree& tree, const CL
     return command + "not expected: " + CLI::detail::join(app.remaining(true), " ");
 }
 
-int parse_and_run(int argc, char** argv) {
+int parse_and_run(std::vector<std::string> words) {
     CLI::App app;
     Action action;
     const CommandTree tree = command_tree();
     add_to_parser(app, tree, action);
-    const std::vector<std::string> words = without_short_form(tree, {argv + std::min(argc, 1), argv + argc});
+    words = without_short_form(tree, std::move(words));
     try {
         std::vector<std::string> reversed(words.rbegin(), words.rend());  // as CLI11 expects them
         app.parse(std::move(reversed));
@@ -81,4 +87,17 @@ int parse_and_run(int argc, char** argv) {
 
 }  // namespace faqem::cli
 
-int main(int argc, char** argv) { return faqem::cli::parse_and_run(argc, argv); }
+#ifdef _WIN32
+int wmain(int argc, wchar_t** argv) {
+    SetConsoleOutputCP(CP_UTF8);
+    DWORD mode = 0;  // the progress bar uses escape sequences
+    HANDLE const terminal = GetStdHandle(STD_ERROR_HANDLE);
+    if (GetConsoleMode(terminal, &mode)) SetConsoleMode(terminal, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+    for (FILE* stream : {stdout, stderr}) _setmode(_fileno(stream), _O_BINARY);  // no carriage returns
+    std::vector<std::string> words;
+    for (int i = 1; i < argc; ++i) words.push_back(std::filesystem::path(argv[i]).string());
+    return faqem::cli::parse_and_run(std::move(words));
+}
+#else
+int main(int argc, char** argv) { return faqem::cli::parse_and_run({argv + std::min(argc, 1), argv + argc}); }
+#endif

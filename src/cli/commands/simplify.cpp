@@ -124,8 +124,10 @@ SimplifiedAsset simplified_model(const SimplifyCommandArguments& arguments, cons
     require_memory(arguments.in,
                    used + detail::estimated_model_memory(arguments.in, allowed - std::min(allowed, used)),
                    allowed);
+#ifndef _WIN32
     // Image libraries start a thread per hardware thread, besides those of --threads.
     limit_process_memory(allowed, detail::thread_count(options.threads) + detail::thread_count(0));
+#endif
     std::optional<ExitOnInterrupt> exit_on_interrupt(std::in_place);  // load() cannot be cancelled
     std::vector<std::string> idle;
     SimplifiedAsset result = detail::simplify_file(arguments.in, options, [&](const Asset& source) {

@@ -1,10 +1,10 @@
 #include "cli/files/output_file.hpp"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/StringTools.hpp>
 #include <algorithm>
+#include <chrono>
 #include <ctime>
 #include <iomanip>
 #include <iostream>
@@ -42,17 +42,19 @@ void clean_folder_once(const fs::path& folder) {
 /// Asks at a terminal, once for all files, whether those that exist may be overwritten. Files that are protected are not
 /// asked about.
 bool user_allows_overwriting(const std::vector<fs::path>& files) {
-    if (isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1) return false;
+    if (isatty(STDIN_FILENO) == 0 || isatty(STDERR_FILENO) == 0) return false;
     const std::set<fs::path> different(files.begin(), files.end());
     std::vector<std::string> existing;
     for (const fs::path& file : different) {
-        struct stat status = {};
-        if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+        std::error_code error;
+        if (!fs::is_regular_file(file, error)) continue;
         check_unprotected(file);
-        struct tm time = {};
+        const auto changed = std::chrono::file_clock::to_sys(fs::last_write_time(file));
+        const auto time =
+            std::chrono::system_clock::to_time_t(std::chrono::floor<std::chrono::seconds>(changed));
         std::ostringstream text;
-        text << file.string() << " exists (" << shown_bytes(static_cast<std::uint64_t>(status.st_size))
-             << ", " << std::put_time(localtime_r(&status.st_mtime, &time), "%Y-%m-%d %H:%M") << ")";
+        text << file.string() << " exists (" << shown_bytes(fs::file_size(file)) << ", "
+             << std::put_time(std::localtime(&time), "%Y-%m-%d %H:%M") << ")";
         existing.push_back(text.str());
     }
     if (existing.empty()) return false;
@@ -92,8 +94,10 @@ void check_output(const fs::path& file, Overwrite overwrite, const std::string& 
         throw WriteError(file.string() + ": is not a regular file");
     if (overwrite == Overwrite::no && fs::exists(fs::symlink_status(file, error)))
         throw WriteError(file.string() + ": the file exists; " + advice);
+#ifndef _WIN32
     if (access(folder.c_str(), W_OK) != 0)
         throw WriteError(file.string() + ": the directory is not writable");
+#endif
 }
 
 Overwrite check_outputs(std::vector<fs::path> files, bool force) {

@@ -1,7 +1,5 @@
 #include "cli/files/protected_files.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <map>
 #include <mutex>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "asset/file_format.hpp"
+#include "asset/io/file.hpp"
 #include "asset/io/file_set.hpp"
 #include "asset/model_files.hpp"
 #include "faqem/error.hpp"
@@ -20,15 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Device and inode.
-using FileId = std::pair<dev_t, ino_t>;
-
-/// Returns nothing if the file does not exist. Links are followed.
-std::optional<FileId> file_id(const fs::path& file) {
-    struct stat status = {};
-    if (::stat(file.c_str(), &status) != 0) return std::nullopt;
-    return FileId(status.st_dev, status.st_ino);
-}
+using detail::file_id, detail::FileId;
 
 struct ProtectedFiles {
     std::mutex mutex;

@@ -1,9 +1,11 @@
 #include "cli/memory/memory_limit.hpp"
 
+#ifndef _WIN32
 #include <malloc.h>
 #include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,9 +18,33 @@
 
 #include "asset/io/temporary_file.hpp"
 #include "cli/process/exit_code.hpp"
+#include "faqem/detail/base/peak_memory.hpp"
 
 namespace faqem::cli {
 
+namespace {
+
+std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; }
+
+}  // namespace
+
+void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed) {
+    if (needed <= allowed) return;
+    throw CommandError(exit_no_memory, file.string() + ": may need " + megabytes(needed) +
+                                           " of memory, but only " + megabytes(allowed) +
+                                           " are allowed (--max-memory)");
+}
+
+#ifdef _WIN32
+std::uint64_t machine_memory() {
+    MEMORYSTATUSEX status = {};
+    status.dwLength = sizeof status;
+    GlobalMemoryStatusEx(&status);
+    return status.ullTotalPhys;
+}
+
+std::uint64_t process_memory() { return detail::peak_memory_bytes(); }
+#else
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,8 +120,6 @@ std::uint64_t stack_bytes(std::uint64_t limit, std::uint64_t threads) {
     std::abort();
 }
 
-std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; }
-
 }  // namespace
 
 std::uint64_t cgroup_memory_limit(const fs::path& membership, const fs::path& mounts) {
@@ -125,13 +149,6 @@ std::uint64_t machine_memory() {
 
 std::uint64_t process_memory() { return status_bytes("VmHWM:"); }
 
-void require_memory(const std::filesystem::path& file, std::uint64_t needed, std::uint64_t allowed) {
-    if (needed <= allowed) return;
-    throw CommandError(exit_no_memory, file.string() + ": may need " + megabytes(needed) +
-                                           " of memory, but only " + megabytes(allowed) +
-                                           " are allowed (--max-memory)");
-}
-
 void limit_process_memory(std::uint64_t bytes, std::uint64_t threads) {
     bytes = std::max(bytes, min_process_memory);
     rlimit limit{};
@@ -154,5 +171,6 @@ void return_freed_memory() {
 }
 
 void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
+#endif
 
 }  // namespace faqem::cli

@@ -34,7 +34,7 @@ std::uint64_t process_memory();
 /// process with its image libraries already needs a good part of this.
 inline constexpr std::uint64_t min_process_memory = 500'000'000;
 
-/// Limits the writable private memory of the process (RLIMIT_DATA), so that an allocation above the limit
+/// Not on Windows. Limits the writable private memory of the process (RLIMIT_DATA), so that an allocation above the limit
 /// fails with std::bad_alloc. A sixteenth is left for program code, which is not writable. Memory that is
 /// mapped but not in use, and the stacks of threads, are added to the limit, because they need no physical
 /// memory. A lower limit that the process had before the first call is kept. If memory is exhausted where no exception

@@ -8,6 +8,7 @@
 
 #include "asset/io/temporary_file.hpp"
 #include "cli/process/exit_code.hpp"
+#include "faqem/detail/base/peak_memory.hpp"  // <windows.h>
 
 namespace faqem::cli {
 
@@ -29,11 +30,6 @@ void exit_unless_replacing() {
     _exit(exit_cancelled);
 }
 
-void on_worker_signal(int number) {
-    signal_count = 1;
-    if (number == worker_end_signal) exit_unless_replacing();
-}
-
 void on_signal(int) {
     const int before = signal_count.exchange(1);
     if (outputs_are_complete) {
@@ -43,14 +39,26 @@ void on_signal(int) {
     if (exit_requests != 0 || before != 0) exit_unless_replacing();
 }
 
+#ifndef _WIN32
+void on_worker_signal(int number) {
+    signal_count = 1;
+    if (number == worker_end_signal) exit_unless_replacing();
+}
+
 void set_handler(std::initializer_list<int> signals, void (*handler)(int)) {
     struct sigaction action = {};
     action.sa_handler = handler;
     for (const int number : signals) sigaction(number, &action, nullptr);
 }
+#endif
 
 }  // namespace
 
+#ifdef _WIN32
+void install_signal_handlers() {
+    SetConsoleCtrlHandler([](DWORD) -> BOOL { return on_signal(SIGINT), TRUE; }, TRUE);
+}
+#else
 void install_signal_handlers() {
     set_handler({SIGINT, SIGTERM}, on_signal);
     // Ignored, so that a file larger than the limit of the shell (ulimit -f) is a failed write with an error
@@ -62,6 +70,7 @@ void install_worker_signal_handlers() {
     set_handler({worker_cancel_signal, worker_end_signal}, on_worker_signal);
     set_handler({SIGINT, SIGTERM}, SIG_IGN);
 }
+#endif
 
 bool is_interrupted() { return signal_count != 0; }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Handling of SIGINT and SIGTERM, and of the signals for the workers of a batch.
+/// Handling of SIGINT and SIGTERM, on Windows of Ctrl-C, and of the signals for the workers of a batch.
 
 #include <signal.h>
 
@@ -13,12 +13,14 @@ namespace faqem::cli {
 /// file larger than the shell's limit is a failed write.
 void install_signal_handlers();
 
+#ifndef _WIN32
 /// Sent to a worker of a batch: is_interrupted() becomes true; the process ends.
 inline constexpr int worker_cancel_signal = SIGUSR1, worker_end_signal = SIGHUP;
 
 /// Installs the handlers of a worker of a batch, for the signals above. The process ends as after a second signal:
 /// without its temporary files, but never while files are being renamed. Ignores SIGINT and SIGTERM.
 void install_worker_signal_handlers();
+#endif
 
 /// Returns whether a signal was received. May be called from any thread.
 bool is_interrupted();

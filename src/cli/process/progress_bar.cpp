@@ -18,7 +18,7 @@ constexpr int width = 40;
 
 }  // namespace
 
-ProgressBar::ProgressBar(Bar bar) : shown_(bar == Bar::shown && isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(Bar bar) : shown_(bar == Bar::shown && isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() { hide(); }
 

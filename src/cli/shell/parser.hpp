@@ -73,6 +73,7 @@ inline void add_to_parser(CLI::App& app, const CommandTree& tree, Action& action
     app.set_version_flag("-V,--version", "faqem " + std::string(version()));
     app.set_help_all_flag("--help-all");
     app.require_subcommand(1);
+    app.allow_windows_style_options(false);  // "/" begins paths
     app.formatter_fn([&tree](const CLI::App* shown, const std::string&, CLI::AppFormatMode mode) {
         for (const CommandInfo& command : tree.commands)
             if (command.name == shown->get_name())
