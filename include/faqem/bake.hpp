@@ -93,8 +93,8 @@ FAQEM_EXPORT SimplifiedParts simplify_parts(const Asset& source, const Options& 
 FAQEM_EXPORT SimplifiedAsset bake(const Asset& source, const SimplifiedParts& simplified,
                                   const Options& options);
 
-/// Simplifies an asset and bakes its appearance: simplify_parts(), then bake(). Options::max_seconds holds for both
-/// together. With Options::max_bytes several results are made, see docs/assets.md, "Size of results".
+/// Simplifies an asset and bakes its appearance: simplify_parts(), then bake(), with parts that share boundary edges as
+/// one (docs/method.md). Options::max_seconds holds for both. Options::max_bytes: docs/assets.md, "Size of results".
 /// \throws OptionError, InputError, UnsupportedError, TimeLimitError  as both stages
 /// \throws ByteLimitError  no result has at most Options::max_bytes
 FAQEM_EXPORT SimplifiedAsset simplify(const Asset& source, const Options& options = {});

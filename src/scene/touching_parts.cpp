@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "faqem/detail/measure/removed_components.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/engine/mesh/boundary_edges.hpp"
+#include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 #include "scene/check_asset.hpp"
 
@@ -94,12 +94,7 @@ std::vector<Index> connected_parts(const Asset& source) {
     const std::vector<Index> kinds = joinable_parts(source);
     for (Index p = 0; p < kinds.size(); ++p)
         if (kinds[p] != no_index) of_kind[kinds[p]].push_back(p);
-    std::vector<Index> first(source.parts.size());
-    std::iota(first.begin(), first.end(), Index(0));
-    const auto root = [&](Index p) {
-        while (first[p] != p) p = first[p];
-        return p;
-    };
+    engine::UnionFind joined(source.parts.size());
     for (const auto& [kind, parts] : of_kind) {
         std::vector<PlacedEdge> edges;
         for (const Index p : parts)
@@ -107,13 +102,12 @@ std::vector<Index> connected_parts(const Asset& source) {
         std::ranges::sort(edges);
         for (std::size_t i = 1; i < edges.size(); ++i) {
             // Faces that pass an edge in the same direction lie on each other.
-            if (edges[i].ends != edges[i - 1].ends || edges[i].is_reversed == edges[i - 1].is_reversed)
-                continue;
-            const auto [low, high] = std::minmax({root(edges[i].part), root(edges[i - 1].part)});
-            first[high] = low;
+            if (edges[i].ends == edges[i - 1].ends && edges[i].is_reversed != edges[i - 1].is_reversed)
+                joined.unite(edges[i].part, edges[i - 1].part);
         }
     }
-    for (Index p = 0; p < first.size(); ++p) first[p] = root(p);
+    std::vector<Index> first;
+    for (Index p = 0; p < kinds.size(); ++p) first.push_back(joined.find(p));
     return first;
 }
 
@@ -156,9 +150,12 @@ std::optional<Asset> join_touching_parts(const Asset& source, const Options& opt
     const std::vector<Index> first = connected_parts(source);
     const auto all = static_cast<double>(face_count(source));
     const double share = static_cast<double>(target_face_count(options.target, all)) / all;
+    std::vector<Index> members(first.size(), 0);  // by first part
+    for (const Index p : first) ++members[p];
     std::vector<double> spare_faces(first.size(), 0);  // by first part: beyond those that joining needs
     for (Index p = 0; p < first.size(); ++p) {
         const Part& part = source.parts[p];
+        if (members[first[p]] < 2) continue;
         spare_faces[first[p]] += share * static_cast<double>(part.triangles.size()) -
                                  least_faces * face_components(part.positions, part.triangles).count;
     }
