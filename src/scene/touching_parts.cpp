@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -189,6 +190,9 @@ void divide_joined_parts(const Asset& joined, SimplifiedAsset& result) {
             to = with_faces(whole, faces[object], number);
             to.name = joined.parts[p].object_names[object];
             to.source = joined.parts[objects[object]].source;
+            for (std::vector<std::string>* list : {&result.report.kept_uvs, &result.report.untouched_parts})
+                if (object > 0 && std::ranges::count(*list, part_title(joined, p)) > 0)
+                    list->push_back(part_title(joined, objects[object]));
             if (faces[object].empty())
                 result.report.warnings.push_back(part_title(result.asset, objects[object]) + " has no faces");
         }

@@ -117,6 +117,10 @@ TEST_CASE("histories are those of single meshes") {
         CHECK(result.histories.at(p).triangles.size() == pieces().parts[p].triangles.size());
 }
 
+TEST_CASE("the report names each of the meshes that were simplified as one") {
+    CHECK(simplify(pieces(), {.target = ratio(1)}).report.untouched_parts.size() == 3);
+}
+
 TEST_CASE("meshes that lie on each other stay apart") {
     const Asset asset = asset_with({part_of(grid(8)), part_of(grid(8))});
     CHECK(!detail::join_touching_parts(asset, {}));
