@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,9 @@ struct PlacedEdge {
     bool is_reversed;  // whether its face passes it from the second end to the first one
     Index part;
 
-    auto operator<=>(const PlacedEdge&) const = default;
+    bool operator<(const PlacedEdge& other) const {
+        return std::tie(ends, is_reversed, part) < std::tie(other.ends, other.is_reversed, other.part);
+    }
 };
 
 // Whether the arrays of two parts can be appended to each other.
@@ -100,7 +103,7 @@ std::vector<Index> connected_parts(const Asset& source) {
         std::vector<PlacedEdge> edges;
         for (const Index p : parts)
             if (parts.size() > 1) add_boundary_edges(source.parts[p], p, edges);
-        std::ranges::sort(edges);
+        std::sort(edges.begin(), edges.end());
         for (std::size_t i = 1; i < edges.size(); ++i) {
             // Faces that pass an edge in the same direction lie on each other.
             if (edges[i].ends == edges[i - 1].ends && edges[i].is_reversed != edges[i - 1].is_reversed)

@@ -4,8 +4,8 @@
 /// stored. Assets without Asset::source have none of these.
 
 #include <array>
-#include <compare>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "faqem/asset.hpp"
@@ -51,7 +51,10 @@ struct InstanceMotion {
     Index skin = no_index;             ///< in the source document
     Index animated_node = no_index;    ///< the node, or the nearest one above it, that an animation moves
 
-    auto operator<=>(const InstanceMotion&) const = default;
+    bool operator<(const InstanceMotion& other) const {
+        return std::tie(transform, skin, animated_node) <
+               std::tie(other.transform, other.skin, other.animated_node);
+    }
 };
 
 /// By part: the motions of its instances, in the order of the scene. O(nodes * depth + channels + instances)

@@ -122,7 +122,7 @@ bool is_separated(const Triangle2& a, const Box2& box_a, const Triangle2& b, con
     return has_separating_edge(a, b, slack) || has_separating_edge(b, a, slack);
 }
 
-constexpr double max_distance = 1.5;  // texels
+constexpr double max_overlap_distance = 1.5;  // texels
 
 // A boundary edge of the chart, on the page and on the surface.
 struct ChartBoundaryEdge {
@@ -155,7 +155,7 @@ std::vector<ChartBoundaryEdge> boundary_edges(std::span<const PageTriangle> all,
 }
 
 // Whether points of s are about as far from t on the surface as on the page. Tests the ends of s and, if only
-// one of them is closer to t than max_distance, the point in between where the distance reaches max_distance.
+// one of them is closer to t than max_overlap_distance, the point in between where the distance reaches max_overlap_distance.
 bool has_clearance(const ChartBoundaryEdge& s, const ChartBoundaryEdge& t) {
     const auto distance = [&](double at) {
         const Point2 p = s.page_point(at);
@@ -166,10 +166,10 @@ bool has_clearance(const ChartBoundaryEdge& s, const ChartBoundaryEdge& t) {
         return on_surface * std::min(s.density, t.density) <= 1.5 * flat + 0.5;
     };
     const double a = distance(0), b = distance(1);
-    if (a < max_distance && !has_clearance_at(0, a)) return false;
-    if (b < max_distance && !has_clearance_at(1, b)) return false;
-    if ((a < max_distance) == (b < max_distance)) return true;
-    const double last = (max_distance - a) / (b - a);
+    if (a < max_overlap_distance && !has_clearance_at(0, a)) return false;
+    if (b < max_overlap_distance && !has_clearance_at(1, b)) return false;
+    if ((a < max_overlap_distance) == (b < max_overlap_distance)) return true;
+    const double last = (max_overlap_distance - a) / (b - a);
     return has_clearance_at(last, distance(last));
 }
 
@@ -190,7 +190,7 @@ bool has_boundary_clearance(std::span<const PageTriangle> all, const Chart& char
     std::vector<Box2> boxes;
     boxes.reserve(edges.size());
     for (const ChartBoundaryEdge& s : edges)
-        boxes.push_back(bounding_box(std::array{s.a, s.b}).expanded(max_distance / 2));
+        boxes.push_back(bounding_box(std::array{s.a, s.b}).expanded(max_overlap_distance / 2));
     return all_pairs(boxes, work, [&](Index a, Index b) {
         return has_clearance(edges[a], edges[b]) && has_clearance(edges[b], edges[a]);
     });
