@@ -7,7 +7,7 @@
 #            them; in a build tree of its own (preset module)
 #        tests/run.sh --module FILE [CATCH2-OPTION...]
 #            the same for the tests of one file, for example options/test_validate.cpp
-#        tests/run.sh --suite fresh|wheel|engines|blender|comfyui|ktx2|windows|web [OPTION...]
+#        tests/run.sh --suite fresh|wheel|engines|blender|comfyui|ktx2|windows|aarch64|web [OPTION...]
 #            tests/fresh/run.sh, tests/wheel/run.sh and so on
 set -eu
 cd "$(dirname "$0")/.."
@@ -24,8 +24,8 @@ case ${1:-} in
     --suite)
         suite=${2:-}
         case $suite in
-            fresh | wheel | engines | blender | comfyui | ktx2 | windows | web) ;;
-            *) echo "tests/run.sh: there is no suite '$suite' (known: fresh, wheel, engines, blender, comfyui, ktx2, windows, web)" >&2 && exit 2 ;;
+            fresh | wheel | engines | blender | comfyui | ktx2 | windows | aarch64 | web) ;;
+            *) echo "tests/run.sh: there is no suite '$suite' (known: fresh, wheel, engines, blender, comfyui, ktx2, windows, aarch64, web)" >&2 && exit 2 ;;
         esac
         shift 2
         exec "tests/$suite/run.sh" "$@"

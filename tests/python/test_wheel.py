@@ -93,7 +93,7 @@ class Backend(unittest.TestCase):
     def test_files_that_need_other_libraries_get_no_portable_tag(self):
         import binaries
 
-        command = os.environ["FAQEM_COMMAND"]
+        command = pathlib.Path(os.environ["FAQEM_COMMAND"])
         with self.assertRaisesRegex(binaries.BinaryError, r"faqem needs .*lib.+\.so"):
             binaries.platform_tag(command, command)
 

@@ -3,8 +3,9 @@
 import re
 import subprocess
 
-# Libraries that PEP 600 allows; every system with glibc has them.
-ALLOWED = {"ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1", "libc.so.6", "libgcc_s.so.1", "libm.so.6"}
+# Libraries that PEP 600 allows, since every system with glibc has them, and those of Windows.
+ALLOWED = {"ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1", "libc.so.6", "libgcc_s.so.1", "libm.so.6",
+           "KERNEL32.dll", "msvcrt.dll"}
 # Processors in platform tags, by their names in headers of files.
 PROCESSORS = {"Advanced Micro Devices X86-64": "x86_64", "AArch64": "aarch64"}
 NEWEST_GLIBC = (2, 34)
@@ -16,7 +17,7 @@ class BinaryError(Exception):
 
 def needed(file):
     """Returns the names of the shared libraries that a file needs."""
-    return set(re.findall(r"\(NEEDED\).*\[(.+)\]", _output("readelf", "-dW", file)))
+    return set(re.findall(r"(?:NEEDED|DLL Name:) +(.+)", _output("objdump", "-p", file)))
 
 
 def processor(file):
@@ -34,17 +35,25 @@ def glibc_versions(file):
 
 def exported(file):
     """Returns the names that a file defines for others."""
+    if file.suffix == ".dll":
+        return set(re.findall(r"^\t\[ *\d+\] (\w+)$", _output("objdump", "-p", file), re.MULTILINE))
     lines = _output("nm", "-D", "--defined-only", file).splitlines()
     return {line.split()[-1] for line in lines}
 
 
 def platform_tag(library, command):
     """Returns the true platform tag of two files. Raises BinaryError if one would not run on other systems."""
-    newest = (2, 17)
     for file in (library, command):
         others = needed(file) - ALLOWED
         if others:
             raise BinaryError(f"{file} needs {', '.join(sorted(others))}")
+    others = [name for name in exported(library) if not name.startswith("faqem_")]
+    if others:
+        raise BinaryError(f"{library} exports {', '.join(sorted(others)[:5])}")
+    if library.suffix == ".dll":
+        return "win_amd64"
+    newest = (2, 17)
+    for file in (library, command):
         if "TEXTREL" in _output("readelf", "-dW", file):
             raise BinaryError(f"{file} has relocations in its code")
         versions = glibc_versions(file)
@@ -52,9 +61,6 @@ def platform_tag(library, command):
             if version > NEWEST_GLIBC:
                 raise BinaryError(f"{file} needs glibc {version[0]}.{version[1]}: {', '.join(versions[version])}")
             newest = max(newest, version)
-    others = [name for name in exported(library) if not name.startswith("faqem_")]
-    if others:
-        raise BinaryError(f"{library} exports {', '.join(sorted(others)[:5])}")
     return f"manylinux_{newest[0]}_{newest[1]}_{processor(library)}"
 
 

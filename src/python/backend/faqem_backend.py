@@ -4,6 +4,7 @@ The wheel holds compiled files of a CMake build at the root of the repository, w
 as much code, and it must have the same bytes wherever it is built.
 
 Usage: faqem_backend.py wheel FOLDER [--preset PRESET]            libraries linked statically, for all systems
+       faqem_backend.py wheel FOLDER --build BUILD                with the files that such a preset has built there
        faqem_backend.py wheel FOLDER --library SO --command FILE  with these files of another build, for this system
        faqem_backend.py sdist FOLDER
 """
@@ -40,23 +41,29 @@ def build_static(preset="wheel"):
     """Builds the library and the command by a preset. Returns their files, tag and licences."""
     subprocess.run(["cmake", "--preset", preset], cwd=ROOT, check=True)
     subprocess.run(["cmake", "--build", "--preset", preset], cwd=ROOT, check=True)
-    build = ROOT / "build" / preset
-    library, command = build / "src/capi/libfaqem_c.so", build / "bin/faqem"
-    return library, command, binaries.platform_tag(library, command), licences.bundled(build)
+    return static_build(ROOT / "build" / preset)
+
+
+def static_build(build):
+    """Returns the library and the command of such a build, their platform tag and licences."""
+    for_windows = (build / "bin/faqem.exe").exists()
+    library = build / "src/capi" / ("libfaqem_c.dll" if for_windows else "libfaqem_c.so")
+    command = build / "bin" / ("faqem.exe" if for_windows else "faqem")
+    return library, command, binaries.platform_tag(library, command), licences.bundled(build, for_windows)
 
 
 def write_wheel(folder, library, command, platform, bundled):
     """Writes the wheel of two compiled files, and the image plugin beside the library, if any. Returns its path.
 
-    library, command  libfaqem_c.so and the program faqem
+    library, command  the library libfaqem_c and the program faqem
     platform          platform tag
     bundled           texts of licences by file name
     """
     info = f"faqem-{version()}.dist-info"
     tag = f"py3-none-{platform}"
     files = {f"faqem/{file.name}": file.read_bytes() for file in (SOURCE / "faqem").iterdir() if file.is_file()}
-    files["faqem/libfaqem_c.so"] = library.read_bytes()
-    files["faqem/faqem"] = command.read_bytes()
+    files["faqem/libfaqem_c" + (".dll" if library.suffix == ".dll" else ".so")] = library.read_bytes()
+    files[f"faqem/{command.name}"] = command.read_bytes()
     plugin = library.with_name("faqem-images.so")
     if plugin.exists():
         files[f"faqem/{plugin.name}"] = plugin.read_bytes()
@@ -117,6 +124,7 @@ def main():
     parser.add_argument("kind", choices=["wheel", "sdist"])
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--preset", default="wheel")
+    parser.add_argument("--build", type=pathlib.Path)
     parser.add_argument("--library", type=pathlib.Path)
     parser.add_argument("--command", type=pathlib.Path)
     given = parser.parse_args()
@@ -127,7 +135,7 @@ def main():
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
         print(write_wheel(given.folder, given.library, given.command, platform, {}))
     else:
-        print(write_wheel(given.folder, *build_static(given.preset)))
+        print(write_wheel(given.folder, *(static_build(given.build) if given.build else build_static(given.preset))))
 
 
 if __name__ == "__main__":

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import pathlib
 import subprocess
 import sys
 import tempfile
@@ -12,6 +11,7 @@ from typing import Any, Union
 
 from numpy.typing import ArrayLike
 
+from .__main__ import program
 from ._levels import Path
 from ._library import exceptions
 from ._model import Model, as_model, save
@@ -19,11 +19,6 @@ from ._options import checked_integer, names_keywords, parse_length
 from .errors import Error, InternalError, OptionError
 
 Comparable = Union[Model, "tuple[ArrayLike, ArrayLike]", Path]
-
-
-def program() -> str:
-    """Returns the file of the command."""
-    return str(pathlib.Path(__file__).with_name("faqem"))
 
 
 def raise_unless_ok(code: int, said: str) -> None:

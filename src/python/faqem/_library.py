@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import pathlib
 import weakref
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint8, c_uint16, c_uint32, c_uint64, c_void_p
@@ -102,7 +103,8 @@ _signatures: list[tuple[Any, list[Any], str]] = [
 
 def _open() -> ctypes.CDLL:
     # CDLL releases the interpreter lock while a function runs.
-    opened = ctypes.CDLL(str(pathlib.Path(__file__).with_name("libfaqem_c.so")))
+    name = "libfaqem_c.dll" if os.name == "nt" else "libfaqem_c.so"
+    opened = ctypes.CDLL(str(pathlib.Path(__file__).with_name(name)))
     for result, arguments, names in _signatures:
         for name in names.split():
             function = getattr(opened, "faqem_" + name)
