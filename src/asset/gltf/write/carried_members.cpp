@@ -140,13 +140,6 @@ bool fits_texture(const GltfWriter& writer, const Part& part, const Json& info) 
            unsigned_member(info, "texCoord", 0) < part.uvs.size() && has_source_uvs(writer, part);
 }
 
-bool are_all_vertices(const std::optional<VertexNumbers>& vertices) {
-    if (!vertices) return false;
-    for (Index v = 0; v < vertices->size(); ++v)
-        if ((*vertices)[v] != v) return false;
-    return true;
-}
-
 /// Whether all elements of a list are indices of elements in the list of the same name in the document's extension, for
 /// which `fits` is true.
 template <class Fits>
@@ -184,7 +177,8 @@ bool keep_feature_ids(GltfWriter& writer, const Part& part, const std::optional<
         else if (has_texture)
             is_valid = fits_texture(writer, part, ids["texture"]);
         else
-            is_valid = ids.is_object() && !ids.contains("texture") && are_all_vertices(vertices);
+            is_valid = ids.is_object() && !ids.contains("texture") && vertices &&
+                       *vertices == engine::all_indices(vertices->size());
         if (!is_valid) continue;
         if (has_texture && !ids.contains("attribute"))
             own["texture"]["index"] = copy_texture(writer, ids["texture"]["index"].get<Index>());
@@ -226,16 +220,15 @@ std::vector<const Json*> source_primitives(const GltfWriter& writer, const Part&
     return found;
 }
 
-/// The member `key` of the primitives if it is equal in all of them, else null.
-Json common_member(const std::vector<const Json*>& primitives, const char* key) {
+/// The member `key` of the primitives; null if they have none or, with a warning, if it is not equal in all of them.
+Json common_member(GltfWriter& writer, const Part& part, const std::vector<const Json*>& primitives,
+                   const char* key) {
     const Json& first = member(*primitives.front(), key);
-    for (const Json* primitive : primitives)
-        if (member(*primitive, key) != first) return nullptr;
-    return first;
-}
-
-bool any_has(const std::vector<const Json*>& primitives, const char* key) {
-    return std::ranges::any_of(primitives, [&](const Json* p) { return p->contains(key); });
+    if (std::ranges::all_of(primitives, [&](const Json* p) { return member(*p, key) == first; }))
+        return first;
+    warn_mesh(writer, part.name,
+              std::string(key) + " of primitives that were joined differ and were left out");
+    return nullptr;
 }
 
 /// Names of the extensions that describe vertices or triangles and fit the output primitive. Their references are
@@ -293,19 +286,10 @@ Json carried_primitive_members(GltfWriter& writer, const Part& part, Index mater
     const std::vector<const Json*> from = source_primitives(writer, part, material);
     Json members = Json::object();
     if (from.empty()) return members;
-    if (any_has(from, "extras")) {
-        members["extras"] = common_member(from, "extras");
-        if (members["extras"].is_null()) {
-            members.erase("extras");
-            warn_mesh(writer, part.name, "extras of primitives that were joined differ and were left out");
-        }
-    }
-    if (!any_has(from, "extensions")) return members;
-    Json extensions = common_member(from, "extensions");
-    if (extensions.is_null()) {
-        warn_mesh(writer, part.name, "extensions of primitives that were joined differ and were left out");
-        return members;
-    }
+    if (Json extras = common_member(writer, part, from, "extras"); !extras.is_null())
+        members["extras"] = std::move(extras);
+    Json extensions = common_member(writer, part, from, "extensions");
+    if (extensions.is_null()) return members;
     const std::vector<std::string> fitting = fitting_extensions(writer, part, from, data, extensions);
     const auto fits = [&](const auto& name) { return std::ranges::find(fitting, name) != fitting.end(); };
     for (const std::string name : vertex_extensions)
