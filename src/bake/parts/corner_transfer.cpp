@@ -82,19 +82,11 @@ public:
 
     // Gives corners of a vertex the same values where they differ only because they were read at different places.
     void merge_versions() {
-        const VertexCorners at = vertex_corners(mesh_);
-        std::vector<std::uint64_t> versions;
-        for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-            versions.clear();
-            for (const std::uint64_t corner : at[v]) {
-                const auto same = std::ranges::find_if(
-                    versions, [&](std::uint64_t version) { return is_close(version, corner); });
-                if (same != versions.end())
-                    std::ranges::copy(values(*same), values(corner).begin());
-                else if (versions.size() < max_versions)
-                    versions.push_back(corner);
-            }
-        }
+        join_corners(
+            mesh_, max_versions, [&](std::uint64_t a, std::uint64_t b) { return is_close(a, b); },
+            [&](std::uint64_t from, std::uint64_t to) {
+                std::ranges::copy(values(from), values(to).begin());
+            });
     }
 
 private:

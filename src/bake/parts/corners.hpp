@@ -2,6 +2,7 @@
 /// \file
 /// Welds the corners of a simplified mesh with equal attributes to vertices of an output part.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -49,6 +50,26 @@ using VertexCorners = Buckets<std::uint64_t>;
 
 /// Sorts the corners of a mesh by vertex. Complexity: O(faces + vertices).
 VertexCorners vertex_corners(const TriangleMesh& mesh);
+
+/// Joins each corner of a mesh with the first one of its vertex that is close to it. Calls join(from, to) for them.
+/// \param most      number of corners of a vertex, not joined with others, that are compared with each: it bounds the work
+/// \param is_close  is_close(from, to)
+template <class IsClose, class Join>
+void join_corners(const TriangleMesh& mesh, std::size_t most, const IsClose& is_close, const Join& join) {
+    const VertexCorners at = vertex_corners(mesh);
+    std::vector<std::uint64_t> distinct;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        distinct.clear();
+        for (const std::uint64_t corner : at[v]) {
+            const auto same =
+                std::ranges::find_if(distinct, [&](std::uint64_t other) { return is_close(other, corner); });
+            if (same != distinct.end())
+                join(*same, corner);
+            else if (distinct.size() < most)
+                distinct.push_back(corner);
+        }
+    }
+}
 
 /// Barycentric coordinates of a point near a corner, at the fraction `inset` of the way from the corner to
 /// the midpoint of the opposite edge.

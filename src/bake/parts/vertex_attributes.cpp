@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asset/scene/affine.hpp"
 #include "asset/scene/influences.hpp"
 #include "asset/scene/part_arrays.hpp"
 #include "bake/source/facets.hpp"
@@ -33,11 +34,8 @@ Vec3f blend(const std::vector<Vec3f>& values, const Triangle& t, const Vec3& w) 
 }
 
 double shortest_edge(const TriangleMesh& mesh, std::size_t face) {
-    const Triangle& t = mesh.triangles[face];
-    double least = (to_eigen(mesh.positions[t[0]]) - to_eigen(mesh.positions[t[2]])).norm();
-    for (std::size_t i = 0; i < 2; ++i)
-        least = std::min(least, (to_eigen(mesh.positions[t[i]]) - to_eigen(mesh.positions[t[i + 1]])).norm());
-    return least;
+    const auto [a, b, c] = corners_of(mesh.positions, mesh.triangles[face]);
+    return std::min({(a - c).norm(), (a - b).norm(), (b - c).norm()});
 }
 
 // Sum of premultiplied colours, so that transparent corners do not tint the others. Corners with an alpha of 0
@@ -66,13 +64,6 @@ constexpr double equal_share = 1e-4;  // of the range of an attribute
 
 using Value = std::array<double, 4>;
 
-double largest_value(const CustomAttribute& attribute) {
-    double most = 0;
-    for (const Value& value : attribute.values)
-        for (const double x : value) most = std::max(most, std::abs(x));
-    return most;
-}
-
 bool is_close(const Value& a, const Value& b, double distance) {
     for (std::size_t k = 0; k < 4; ++k)
         if (!(std::abs(a[k] - b[k]) <= distance)) return false;
@@ -81,19 +72,10 @@ bool is_close(const Value& a, const Value& b, double distance) {
 
 // Gives corners of a vertex whose values are close to each other the value of the first of them.
 void join_close_values(const TriangleMesh& mesh, double distance, std::vector<Value>& values) {
-    const VertexCorners at = vertex_corners(mesh);
-    std::vector<Value> distinct;
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        distinct.clear();
-        for (const std::uint64_t c : at[v]) {
-            const auto found = std::ranges::find_if(
-                distinct, [&](const Value& value) { return is_close(value, values[c], distance); });
-            if (found == distinct.end())
-                distinct.push_back(values[c]);
-            else
-                values[c] = *found;
-        }
-    }
+    join_corners(
+        mesh, values.size(),
+        [&](std::uint64_t a, std::uint64_t b) { return is_close(values[a], values[b], distance); },
+        [&](std::uint64_t from, std::uint64_t to) { values[to] = values[from]; });
 }
 
 }  // namespace
@@ -125,7 +107,7 @@ std::vector<CustomAttribute> corner_custom_attributes(const BakePart& part,
     }
     for (std::size_t a = 0; a < from.size(); ++a)
         if (!is_copied(from[a]))
-            join_close_values(mesh, equal_share * largest_value(from[a]), result[a].values);
+            join_close_values(mesh, equal_share * largest_component(from[a].values), result[a].values);
     return result;
 }
 
