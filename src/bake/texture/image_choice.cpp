@@ -128,8 +128,8 @@ struct LossyEncoding {
     }
     bool allows(const Image& image) const { return is_within(quality_of(image), quality); }
 
-    // The first of some levels, from coarse to fine, with which encode() gives a sufficient image, and its index;
-    // nothing if none does.
+    // The first of some levels, from coarse to fine, with which encode() gives a sufficient image, which it returns, and
+    // its index; nothing if none does.
     template <class Encode>
     std::optional<std::pair<Image, std::size_t>> least(std::size_t levels, const Encode& encode) const {
         std::optional<std::pair<Image, std::size_t>> best;
@@ -137,8 +137,8 @@ struct LossyEncoding {
         while (begin < end) {
             context.check_now();
             const std::size_t middle = begin + (end - begin) / 2;
-            if (std::optional<Image> image = encode(middle)) {
-                best.emplace(*std::move(image), middle);
+            if (Image image = encode(middle); allows(image)) {
+                best.emplace(std::move(image), middle);
                 end = middle;
             } else {
                 begin = middle + 1;
@@ -167,10 +167,7 @@ std::vector<std::uint32_t> jpeg_steps(double quality) {
 std::optional<Image> smallest_jpeg(const LossyEncoding& lossy, const std::string& name, Content content) {
     const std::vector<std::uint32_t> steps = jpeg_steps(lossy.quality.whole);
     const auto encode = [&](Chroma chroma) {
-        return [&, chroma](std::size_t i) {
-            Image image = write_jpeg(lossy.pixels, name, {steps[i], chroma});
-            return lossy.allows(image) ? std::optional(std::move(image)) : std::nullopt;
-        };
+        return [&, chroma](std::size_t i) { return write_jpeg(lossy.pixels, name, {steps[i], chroma}); };
     };
     std::size_t count = steps.size();
     std::optional<Image> best;
@@ -195,8 +192,7 @@ int png_difference(double quality, std::size_t channels) {
 std::optional<Image> near_lossless_png(const LossyEncoding& lossy, const std::string& name) {
     const int most = png_difference(lossy.quality.whole, lossy.pixels.has_alpha ? 4 : 3);
     auto found = lossy.least(static_cast<std::size_t>(most), [&](std::size_t i) {
-        Image image = write_png(lossy.pixels, name, most - static_cast<int>(i));
-        return lossy.allows(image) ? std::optional(std::move(image)) : std::nullopt;
+        return write_png(lossy.pixels, name, most - static_cast<int>(i));
     });
     return found ? std::optional(std::move(found->first)) : std::nullopt;
 }

@@ -98,18 +98,11 @@ bool may_halve_new_map(const BakeOptions& bake, const PendingImage& image) {
 // Linear value of a constant sRGB channel.
 float linear_factor(float value) { return static_cast<float>(linear_from_srgb(value / 255)); }
 
-// The base colour as a factor, if it is constant.
-std::optional<Vec4f> constant_base_color(const PageImages& images) {
-    const auto [r, g, b, a] = constant_channels(images.base, images.known);
+// The colours of an image as a factor, if they are constant.
+std::optional<Vec4f> constant_color(const Pixels& pixels, std::span<const std::uint8_t> known) {
+    const auto [r, g, b, a] = constant_channels(pixels, known);
     if (!r || !g || !b || !a) return std::nullopt;
     return Vec4f{linear_factor(*r), linear_factor(*g), linear_factor(*b), *a / 255};
-}
-
-// The emitted light as a factor, if it is constant.
-std::optional<Vec3f> constant_emission(const PageImages& images) {
-    const auto [r, g, b, a] = constant_channels(images.plain[emissive_image], images.known);
-    if (!r || !g || !b) return std::nullopt;
-    return Vec3f{linear_factor(*r), linear_factor(*g), linear_factor(*b)};
 }
 
 // Mean roughness over the texels that are shown; without a texture the factor, which a page has in common.
@@ -197,7 +190,7 @@ Material page_material(const Asset& source, const BakeOptions& bake, const Mater
     const auto known = std::make_shared<const std::vector<std::uint8_t>>(images.known);
     list.roughness = mean_roughness(channels, images, group.material);
     if (channels[CoreTexture::base_color]) {
-        const std::optional<Vec4f> constant = constant_base_color(images);
+        const std::optional<Vec4f> constant = constant_color(images.base, images.known);
         result.base_color = constant.value_or(Vec4f{1, 1, 1, 1});
         if (!constant)
             result.base_color_texture =
@@ -210,8 +203,9 @@ Material page_material(const Asset& source, const BakeOptions& bake, const Mater
             uses({&Material::metallic_roughness_texture, &Material::occlusion_texture}), result);
     }
     if (channels[CoreTexture::emissive]) {
-        const std::optional<Vec3f> constant = constant_emission(images);
-        result.emissive = constant.value_or(Vec3f{1, 1, 1});
+        const std::optional<Vec4f> constant = constant_color(images.plain[emissive_image], images.known);
+        const auto [r, g, b, alpha] = constant.value_or(Vec4f{1, 1, 1, 1});
+        result.emissive = {r, g, b};
         if (!constant)
             result.emissive_texture = list.add(std::move(images.plain[emissive_image]), known, "_emissive",
                                                TextureContent::color, uses({&Material::emissive_texture}));
