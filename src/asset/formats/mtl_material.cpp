@@ -44,28 +44,27 @@ bool is_constant(const ScalarImage& image, std::uint8_t value) {
 const char* const hides_everything = "map_d would hide everything, and is left out";
 
 /// Adds materials and their images to an asset.
-class MtlMaterials {
-public:
-    MtlMaterials(Asset& asset, ReferencedImages& images) : asset_(asset), images_(images) {}
+struct MtlMaterials {
+    Asset& asset;
+    ReferencedImages& images;
 
     /// Returns the index of the material in Asset::materials.
     Index add(const MtlMaterial& source) {
         Material material = source.values;
         set_base_color(material, source);
         if (ReferencedImage* image = read(source, source.emissive))
-            material.emissive_texture = placed(source.emissive, images_.use(*image));
+            material.emissive_texture = placed(source.emissive, images.use(*image));
         set_normals(material, source);
         set_roughness_metallic(material, source);
-        asset_.materials.push_back(std::move(material));
-        return static_cast<Index>(asset_.materials.size() - 1);
+        asset.materials.push_back(std::move(material));
+        return static_cast<Index>(asset.materials.size() - 1);
     }
 
-private:
     void set_base_color(Material& to, const MtlMaterial& from) {
         ReferencedImage* color = read(from, from.color);
         ReferencedImage* alpha = read(from, from.alpha);
         if (alpha) attempt(from, "map_d", [&] { set_alpha(to, from, color, *alpha); });
-        if (color && !to.base_color_texture) to.base_color_texture = placed(from.color, images_.use(*color));
+        if (color && !to.base_color_texture) to.base_color_texture = placed(from.color, images.use(*color));
     }
 
     void set_alpha(Material& to, const MtlMaterial& from, ReferencedImage* color, ReferencedImage& alpha) {
@@ -73,7 +72,7 @@ private:
                                                       from.alpha.channel == ScalarChannel::alpha);
         if (is_own_alpha) {
             try {
-                if (is_constant(scalar_image(images_.decode(alpha), ScalarChannel::alpha), 0))
+                if (is_constant(scalar_image(images.decode(alpha), ScalarChannel::alpha), 0))
                     return warn(from, hides_everything);
             } catch (const InputError&) {  // reported when its pixels are needed
             }
@@ -82,13 +81,13 @@ private:
         }
         if (color && !has_same_placement(from.color, from.alpha))
             return warn(from, "map_d left out: its options differ from those of map_Kd");
-        const ScalarImage values = scalar_image(images_.decode(alpha), from.alpha.channel);
+        const ScalarImage values = scalar_image(images.decode(alpha), from.alpha.channel);
         if (is_constant(values, 0)) return warn(from, hides_everything);
         if (is_constant(values, 255)) return;
         const std::string key =
             "alpha|" + (color ? color->image.uri : std::string()) + "|" + value_key(&alpha, from.alpha);
-        const Index image = images_.derive(key, color ? color->image.name : alpha.image.name, [&] {
-            return with_alpha(color ? images_.decode(*color) : Pixels{1, 1, {255, 255, 255, 255}, false},
+        const Index image = images.derive(key, color ? color->image.name : alpha.image.name, [&] {
+            return with_alpha(color ? images.decode(*color) : Pixels{1, 1, {255, 255, 255, 255}, false},
                               values);
         });
         to.base_color_texture = placed(from.alpha, image);
@@ -97,7 +96,7 @@ private:
 
     void set_normals(Material& to, const MtlMaterial& from) {
         if (ReferencedImage* image = read(from, from.normal)) {
-            to.normal_texture = placed(from.normal, images_.use(*image));
+            to.normal_texture = placed(from.normal, images.use(*image));
             to.normal_scale = from.normal.multiplier;
             if (!from.bump.file.empty() && from.bump.file != from.normal.file)
                 warn(from, "bump left out beside norm");
@@ -110,16 +109,16 @@ private:
     void set_bump(Material& to, const MtlMaterial& from, ReferencedImage& image) {
         const MtlTexture& bump = from.bump;
         if (bump.channel == ScalarChannel::automatic) {
-            if (!image.is_normal_map) image.is_normal_map = is_normal_map(images_.decode(image));
+            if (!image.is_normal_map) image.is_normal_map = is_normal_map(images.decode(image));
             if (*image.is_normal_map) {
-                to.normal_texture = placed(bump, images_.use(image));
+                to.normal_texture = placed(bump, images.use(image));
                 to.normal_scale = bump.multiplier;
                 return;
             }
         }
         const std::string key = "bump|" + value_key(&image, bump) + "|" + std::to_string(bump.multiplier);
-        const Index normals = images_.derive(key, image.image.name, [&] {
-            const ScalarImage heights = scalar_image(images_.decode(image), data_channel(bump));
+        const Index normals = images.derive(key, image.image.name, [&] {
+            const ScalarImage heights = scalar_image(images.decode(image), data_channel(bump));
             if (is_constant(heights, heights.values.front())) return Pixels{};
             return normals_of_heights(heights, bump.multiplier * bump_depth);
         });
@@ -143,15 +142,15 @@ private:
         attempt(from, "map_Pr and map_Pm", [&] {
             const std::string key =
                 "metal|" + value_key(roughness, from.roughness) + "|" + value_key(metallic, from.metallic);
-            Index image = images_.derive(key, (roughness ? roughness : metallic)->image.name, [&] {
+            Index image = images.derive(key, (roughness ? roughness : metallic)->image.name, [&] {
                 const auto values = [&](const ReferencedImage* source, const MtlTexture& of) {
-                    return source ? scalar_image(images_.decode(*source), data_channel(of)) : ScalarImage{};
+                    return source ? scalar_image(images.decode(*source), data_channel(of)) : ScalarImage{};
                 };
-                if (is_packed || (may_be_packed && !is_grey(images_.decode(*roughness)))) return Pixels{};
+                if (is_packed || (may_be_packed && !is_grey(images.decode(*roughness)))) return Pixels{};
                 const ScalarImage r = values(roughness, from.roughness), m = values(metallic, from.metallic);
                 return roughness_metallic(r, m);
             });
-            if (image == no_index) image = images_.use(*roughness);
+            if (image == no_index) image = images.use(*roughness);
             to.metallic_roughness_texture = placed(texture, image);
             if (roughness) to.roughness = 1;
             if (metallic) to.metallic = 1;
@@ -160,7 +159,7 @@ private:
 
     ReferencedImage* read(const MtlMaterial& material, const MtlTexture& texture) {
         if (texture.file.empty()) return nullptr;
-        return images_.read("material '" + material.values.name + "'", texture.file, material.folder);
+        return images.read("material '" + material.values.name + "'", texture.file, material.folder);
     }
 
     /// Sets textures, or warns that images of them are damaged.
@@ -174,17 +173,14 @@ private:
     }
 
     void warn(const MtlMaterial& material, const std::string& what) {
-        asset_.warnings.push_back("material '" + material.values.name + "': " + what);
+        asset.warnings.push_back("material '" + material.values.name + "': " + what);
     }
-
-    Asset& asset_;
-    ReferencedImages& images_;
 };
 
 }  // namespace
 
 Index add_mtl_material(Asset& asset, ReferencedImages& images, const MtlMaterial& material) {
-    return MtlMaterials(asset, images).add(material);
+    return MtlMaterials{asset, images}.add(material);
 }
 
 }  // namespace faqem::detail

@@ -48,19 +48,21 @@ void for_each_block(const fs::path& file, const Visit& visit) {
 }
 
 /// Collects the libraries and textures of one model.
-class LibraryReferences {
-public:
-    LibraryReferences(const fs::path& model, ReferenceList& files) : model_(model), files_(files) {}
+struct LibraryReferences {
+    const fs::path& model;
+    ReferenceList& files;
+    std::set<std::string> names = {};
+    std::set<fs::path> libraries = {};
 
     /// Adds a library and its textures, which are relative to its folder.
     void add(const std::string& name) {
-        if (!names_.insert(name).second) return;
-        files_.add(name, ReferenceSyntax::file_name, Readable::yes);
+        if (!names.insert(name).second) return;
+        files.add(name, ReferenceSyntax::file_name, Readable::yes);
         try {
-            const fs::path library = find_library(name, model_, files_.finder()).file;
-            files_.add_found(library);
-            if (!libraries_.insert(library).second) return;
-            const fs::path& folder = files_.finder().folder();
+            const fs::path library = find_library(name, model, files.finder()).file;
+            files.add_found(library);
+            if (!libraries.insert(library).second) return;
+            const fs::path& folder = files.finder().folder();
             const fs::path root = fs::canonical(folder.empty() ? "." : folder);
             const fs::path subfolder = library.parent_path().lexically_relative(root);
             const std::vector<std::uint8_t> text = read_file(library);
@@ -71,30 +73,24 @@ public:
         }
     }
 
-private:
     void add_texture(const std::string& name, const fs::path& subfolder) {
         for (std::uint32_t tile = first_tile; tile <= last_tile; ++tile) {
             const std::string file = tile_file_name(name, tile);
-            files_.add(file, ReferenceSyntax::file_name, Readable::yes, subfolder);
+            files.add(file, ReferenceSyntax::file_name, Readable::yes, subfolder);
             if (file == name) break;  // it has no tiles
         }
     }
-
-    const fs::path& model_;
-    ReferenceList& files_;
-    std::set<std::string> names_;
-    std::set<fs::path> libraries_;
 };
 
 }  // namespace
 
 void list_library_references(const fs::path& library, ReferenceList& files) {
-    LibraryReferences(library, files).add(library.filename().string());
+    LibraryReferences{library, files}.add(library.filename().string());
 }
 
 void list_obj_references(const fs::path& model, ReferenceList& files) {
     static constexpr std::array<std::string_view, 4> others = {"maplib", "shadow_obj", "trace_obj", "call"};
-    LibraryReferences libraries(model, files);
+    LibraryReferences libraries{model, files};
     for_each_block(model, [&](TextScanner in) {
         for (; in.skip_to_content(); in.next_line()) {
             const std::string_view key = in.word();

@@ -52,28 +52,19 @@ private:
     std::map<std::string, std::size_t> next_number_;
 };
 
-/// An image to be written to the folder of the library.
-struct MtlImage {
-    std::string name;        ///< file name
-    Index image = no_index;  ///< index into Asset::images
-};
-
-/// A material library and its images.
-struct MtlLibrary {
-    std::string text;
-    std::vector<std::string> names;  ///< unique names of the materials, in the given order
-    std::vector<MtlImage> images;
-};
-
-/// Writes materials to the text of a library and collects their images.
-class MtlWriter {
-public:
-    MtlWriter(const Asset& asset, const std::string& stem) : asset_(asset), stem_(stem) {}
+/// A material library and its images: writes materials to its text, and collects the images.
+struct MtlWriter {
+    const Asset& asset;
+    const std::string& stem;  ///< image i gets the file name `stem`_i with the extension of its type
+    std::string text = {};
+    std::vector<std::string> names = {};   ///< unique names of the materials, in the given order
+    std::vector<EncodedFile> images = {};  ///< for the folder of the library
+    std::map<Index, std::string> image_names = {};
+    UniqueNames unique = {};
 
     void add(const Material& material) {
-        std::string& text = library_.text;
-        library_.names.push_back(unique_(sanitized_name(material.name, "material")));
-        text += "newmtl " + library_.names.back() + "\n";
+        names.push_back(unique(sanitized_name(material.name, "material")));
+        text += "newmtl " + names.back() + "\n";
         color("Kd", {material.base_color[0], material.base_color[1], material.base_color[2]});
         const bool transparent = material.alpha_mode != AlphaMode::opaque;
         if (transparent && material.base_color[3] < 1) number("d", material.base_color[3]);
@@ -95,36 +86,30 @@ public:
         texture(norm, material.normal_texture);
     }
 
-    MtlLibrary finish() { return std::move(library_); }
-
-private:
-    void number(const char* key, float value) { append_line(library_.text, key, std::array{value}); }
+    void number(const char* key, float value) { append_line(text, key, std::array{value}); }
 
     void color(const char* key, const Vec3f& linear) {
         Vec3 srgb;
         for (std::size_t k = 0; k < 3; ++k) srgb[k] = round_to_six_decimals(srgb_from_linear(linear[k]));
-        append_line(library_.text, key, srgb);
+        append_line(text, key, srgb);
     }
 
     /// \param key  with options
     void texture(const std::string& key, const TextureRef& ref) {
         if (!ref) return;
         const bool clamps = ref.wrap_u == Wrap::clamp && ref.wrap_v == Wrap::clamp;
-        library_.text += key + (clamps ? " -clamp on " : " ") + image_name(ref.image) + "\n";
+        text += key + (clamps ? " -clamp on " : " ") + image_name(ref.image) + "\n";
     }
 
-    std::string image_name(Index image) {
-        for (const MtlImage& known : library_.images)
-            if (known.image == image) return known.name;
-        const std::string extension = file_extension(asset_.images[image].mime_type);
-        library_.images.push_back({image_file_name(stem_, library_.images.size(), extension), image});
-        return library_.images.back().name;
+    const std::string& image_name(Index index) {
+        const auto [known, is_new] = image_names.try_emplace(index);
+        if (is_new) {
+            const Image& image = asset.images[index];
+            known->second = image_file_name(stem, images.size(), file_extension(image.mime_type));
+            images.push_back(encoded_image(known->second, image));
+        }
+        return known->second;
     }
-
-    const Asset& asset_;
-    const std::string& stem_;
-    UniqueNames unique_;
-    MtlLibrary library_;
 };
 
 bool has_same_uvs(const TextureRef& a, const TextureRef& b) {
@@ -183,19 +168,18 @@ void add_losses(const std::vector<Material>& materials, std::vector<std::string>
 
 /// Converts materials to a library: the inverse of read_mtl(), with Pr for roughness and Pm for metallic.
 /// \param used    indices into asset.materials; no_index is the default material
-/// \param stem    image i gets the file name `stem`_i with the extension of its type
 /// \param losses  receives what a library cannot hold, one sentence each
-MtlLibrary make_mtl(const Asset& asset, const std::vector<Index>& used, const std::string& stem,
-                    std::vector<std::string>& losses) {
+MtlWriter make_mtl(const Asset& asset, const std::vector<Index>& used, const std::string& stem,
+                   std::vector<std::string>& losses) {
     std::vector<Material> materials;
     for (const Index m : used) {
         materials.push_back(m == no_index ? Material{} : asset.materials[m]);
         if (m == no_index) materials.back().name = "default";
     }
     add_losses(materials, losses);
-    MtlWriter writer(asset, stem);
-    for (const Material& material : materials) writer.add(material);
-    return writer.finish();
+    MtlWriter library{asset, stem};
+    for (const Material& material : materials) library.add(material);
+    return library;
 }
 
 /// The materials used by the faces, in the order of their first use; empty if no face has a material.
@@ -337,7 +321,7 @@ std::vector<ObjObject> objects_of(const Asset& asset, const std::vector<Instance
 }
 
 std::string faces_text(const Part& part, VertexLines& lines, const std::vector<Index>& used,
-                       const MtlLibrary& library, const std::vector<ObjObject>& objects) {
+                       const MtlWriter& library, const std::vector<ObjObject>& objects) {
     std::string text;
     text.reserve(40 * part.triangles.size());  // as long as most files need, since growing copies the text
     std::optional<Index> current;
@@ -378,7 +362,7 @@ EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
     const Part flat = flatten_for_file(parts);
     const std::string stem = file.stem().string();
     const std::vector<Index> used = used_materials(flat);
-    MtlLibrary library = make_mtl(asset, used, stem, losses);
+    MtlWriter library = make_mtl(asset, used, stem, losses);
     if (std::ranges::any_of(flat.colors, [](const Vec4f& c) { return c[3] != 1; }))
         losses.push_back("OBJ cannot hold the alpha of vertex colours");
 
@@ -395,8 +379,7 @@ EncodedModel encode_obj(const Asset& asset, const std::filesystem::path& file) {
         text += asset.smoothing == Smoothing::on ? "s 1\n" : "s off\n";
     text += faces;
 
-    for (const MtlImage& image : library.images)
-        model.files.push_back(encoded_image(image.name, asset.images[image.image]));
+    model.files = std::move(library.images);
     if (!used.empty()) model.files.push_back(encoded_file(library_file_name(stem), std::move(library.text)));
     model.files.push_back(encoded_file(file.filename().string(), std::move(text)));
     return model;
