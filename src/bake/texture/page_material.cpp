@@ -22,39 +22,33 @@ using TextureMember = TextureRef Material::*;
 constexpr std::uint32_t min_new_map_side = 64;
 
 // Adds the images of one page to the result, to be encoded later.
-class PageImageList {
-public:
-    PageImageList(const Asset& source, const BakeOptions& bake, std::string name, UnencodedResult& out)
-        : source_(source), bake_(bake), name_(std::move(name)), out_(out) {}
+struct PageImageList {
+    const Asset& source;
+    const BakeOptions& bake;
+    std::string name;
+    UnencodedResult& out;
+    double roughness = 1;  ///< mean of the page
 
     /// \param known  by texel: nonzero if it shows a triangle
     /// \param from   textures of the source that the image is baked from
     TextureRef add(Pixels pixels, std::shared_ptr<const std::vector<std::uint8_t>> known,
                    const std::string& suffix, TextureContent content, const std::vector<TextureRef>& from) {
-        std::vector<Image>& images = out_.asset.asset.images;
+        std::vector<Image>& images = out.asset.asset.images;
         const TextureRef ref = {
             .image = static_cast<Index>(images.size()), .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp};
         images.emplace_back();
         // A density that was asked for is kept, as is the resolution that a correspondence has.
-        const bool may_shrink = !bake_.texel_density && bake_.correspondence == Recording::off;
-        out_.pending.push_back({ref.image, std::move(pixels), std::move(known), name_ + suffix, content,
-                                roughness, may_shrink, is_from_jpeg(from), false, tries_webp(source_)});
+        const bool may_shrink = !bake.texel_density && bake.correspondence == Recording::off;
+        out.pending.push_back({ref.image, std::move(pixels), std::move(known), name + suffix, content,
+                               roughness, may_shrink, is_from_jpeg(from), false, tries_webp(source)});
         return ref;
     }
 
-    double roughness = 1;  ///< mean of the page
-
-private:
     bool is_from_jpeg(const std::vector<TextureRef>& from) const {
         return !from.empty() && std::all_of(from.begin(), from.end(), [&](const TextureRef& texture_ref) {
-            return source_.images[texture_ref.image].mime_type == "image/jpeg";
+            return source.images[texture_ref.image].mime_type == "image/jpeg";
         });
     }
-
-    const Asset& source_;
-    const BakeOptions& bake_;
-    std::string name_;
-    UnencodedResult& out_;
 };
 
 // "sheenColorTexture" -> "_sheenColor"
@@ -183,10 +177,10 @@ Material page_material(const Asset& source, const BakeOptions& bake, const Mater
     const auto uses = [&](std::initializer_list<TextureMember> slots) {
         return textures_of_group(source, group, slots);
     };
-    PageImageList list(
+    PageImageList list{
         source, bake,
         result.name.empty() ? "material" + std::to_string(out.asset.asset.materials.size()) : result.name,
-        out);
+        out};
     const auto known = std::make_shared<const std::vector<std::uint8_t>>(images.known);
     list.roughness = mean_roughness(channels, images, group.material);
     if (channels[CoreTexture::base_color]) {

@@ -12,10 +12,9 @@ namespace faqem::detail {
 namespace {
 
 /// Decoder of one Draco mesh. Errors name the file and the primitive.
-class DracoReader {
-public:
-    DracoReader(std::span<const std::uint8_t> bytes, std::string file, std::string where)
-        : bytes_(bytes), file_(std::move(file)), where_(std::move(where)) {}
+struct DracoReader {
+    std::span<const std::uint8_t> bytes;
+    const std::string &file, &where;
 
     /// Compares the counts in the header with those of the accessors. Draco allocates memory according to the
     /// header, so this is checked before decoding.
@@ -27,7 +26,7 @@ public:
         buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
         if (buffer.bitstream_version() < DRACO_BITSTREAM_VERSION(2, 2))
             throw UnsupportedError(
-                file_, where_, std::string(draco_name) + ": bitstream versions before 2.2 are not supported");
+                file, where, std::string(draco_name) + ": bitstream versions before 2.2 are not supported");
         if (header.flags & METADATA_FLAG_MASK) {
             draco::GeometryMetadata metadata;
             if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
@@ -59,18 +58,14 @@ public:
     }
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw InputError(file_, where_, std::string(draco_name) + ": " + what);
+        throw InputError(file, where, std::string(draco_name) + ": " + what);
     }
 
-private:
     draco::DecoderBuffer open() const {
         draco::DecoderBuffer buffer;
-        buffer.Init(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
+        buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         return buffer;
     }
-
-    std::span<const std::uint8_t> bytes_;
-    std::string file_, where_;
 };
 
 /// Reads the values of an attribute by point of the mesh, converted to T. Returns false if one is missing or
@@ -95,7 +90,7 @@ bool convert(const draco::Mesh& mesh, const draco::PointAttribute& from, DracoAt
 std::vector<std::uint32_t> decode_draco(std::span<const std::uint8_t> bytes, std::uint64_t vertices,
                                         std::uint64_t corners, std::vector<DracoAttribute>& attributes,
                                         const std::string& file, const std::string& where) {
-    const DracoReader reader(bytes, file, where);
+    const DracoReader reader{bytes, file, where};
     reader.check_counts(vertices, corners);
     const std::unique_ptr<draco::Mesh> mesh = reader.decode();
     if (mesh->num_points() != vertices || std::uint64_t{mesh->num_faces()} * 3 != corners)
