@@ -83,16 +83,9 @@ Asset from_glb(std::span<const std::uint8_t> bytes) {
 }
 
 std::vector<Instance> instances(const Asset& asset) {
-    if (asset.source) return detail::gltf_instances(asset);
+    if (asset.source) return detail::instances_at(asset, detail::placed_nodes(asset.source->document));
     std::vector<Instance> all;
     for (Index i = 0; i < asset.parts.size(); ++i) all.push_back({i, detail::identity_transform});
-    return all;
-}
-
-std::vector<detail::PosedInstance> detail::posed_instances(const Asset& asset) {
-    if (asset.source) return detail::gltf_posed_instances(asset);
-    std::vector<PosedInstance> all;
-    for (const Instance& instance : instances(asset)) all.push_back({instance.part, instance.transform});
     return all;
 }
 

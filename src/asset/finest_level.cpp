@@ -27,18 +27,6 @@ void erase_levels(Json& object) {
     if (erase_extension(object, lod_name)) erase_from(object, "extras", coverage_name);
 }
 
-/// Marks a node and its descendants, without recursion: nodes may be nested deeper than the call stack allows.
-void mark_with_descendants(const Json& nodes, Index root, Marks& marks) {
-    std::vector<Index> open = {root};
-    while (!open.empty()) {
-        const Index node = open.back();
-        open.pop_back();
-        if (marks[node]) continue;
-        marks[node] = 1;
-        for (const Json& child : member(nodes[node], "children")) open.push_back(child.get<Index>());
-    }
-}
-
 /// The coarser levels of nodes or materials.
 struct CoarserLevels {
     Marks marks;                // by object: it is a coarser level of another one
@@ -84,8 +72,9 @@ public:
     /// \param keeps_numbers  whether nodes and skins keep their indices, so that empty nodes stay
     NodeRemover(Json& document, const Marks& levels, bool keeps_numbers)
         : document_(document), keeps_numbers_(keeps_numbers), removed_(levels.size(), 0) {
+        const auto children = [&](Index n) -> const Json& { return member(node(n), "children"); };
         for (Index n = 0; n < levels.size(); ++n)
-            if (levels[n]) mark_with_descendants(member(document, "nodes"), n, removed_);
+            if (levels[n]) mark_reachable(n, removed_, children);
     }
 
     /// \return by mesh: whether only removed nodes had it

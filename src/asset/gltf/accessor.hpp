@@ -44,7 +44,7 @@ std::span<const std::uint8_t> view_bytes(const SourceDocument& source, const Jso
 
 /// Reads the elements of an accessor as contiguous bytes, with sparse substitution applied. Elements are zero
 /// if the accessor has no buffer view.
-/// \pre validate_gltf() and check_sparse() passed
+/// \pre parse_gltf() and check_sparse() passed
 std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index accessor);
 
 /// Reads the elements of an accessor as vectors. Normalised integers are converted to [0, 1] or [-1, 1].
@@ -58,7 +58,7 @@ std::vector<std::array<T, N>> read_vectors(const SourceDocument& source, Index a
 std::vector<Index> read_indices(const SourceDocument& source, Index accessor);
 
 /// Checks that the indices of each sparse accessor are strictly increasing and less than its count. This
-/// needs the buffers and is therefore separate from validate_gltf().
+/// needs the buffers and is therefore separate from parse_gltf().
 /// \param file  path for messages
 /// \throws InputError  if they are not
 void check_sparse(const SourceDocument& source, const std::string& file);

@@ -48,10 +48,4 @@ std::uint64_t gltf_decoding_memory(const std::filesystem::path& model, std::uint
 /// \throws WriteError  if the GLB exceeds 4 GiB, or a position exceeds the range of float
 EncodedModel encode_gltf(const Asset& asset, const std::filesystem::path& file);
 
-/// Lists the instances in the default scene: the first scene if no default is set, all root nodes if there is no
-/// scene. Those of EXT_mesh_gpu_instancing follow each other. Parts without a source mesh follow, with the identity
-/// transform.
-/// \pre asset.source is set
-std::vector<Instance> gltf_instances(const Asset& asset);
-
 }  // namespace faqem::detail

@@ -1,7 +1,6 @@
 #include "asset/gltf/json.hpp"
 
 #include <charconv>
-#include <vector>
 
 namespace faqem::detail {
 namespace {

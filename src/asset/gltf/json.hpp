@@ -11,6 +11,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "faqem/mesh.hpp"
 
@@ -137,6 +139,20 @@ void for_each_material(const Json& document, const Visit& visit) {
             for (const Json& mapping : member(primitive, "extensions", "KHR_materials_variants", "mappings"))
                 visit_in(mapping);
         }
+}
+
+/// Marks an object and all to which it leads, without recursion: objects may be nested deeper than the call stack allows.
+/// \param marks  by object; what is marked already leads to nothing new
+/// \param next   next(index): the JSON array of the indices to which a newly marked object leads, or null
+template <class Next>
+void mark_reachable(Index first, std::vector<std::uint8_t>& marks, const Next& next) {
+    std::vector<Index> open = {first};
+    while (!open.empty()) {
+        const Index object = open.back();
+        open.pop_back();
+        if (std::exchange(marks[object], std::uint8_t{1})) continue;
+        for (const Json& other : next(object)) open.push_back(other.get<Index>());
+    }
 }
 
 /// Appends a step to a JSON pointer: "/accessors" and 3 give "/accessors/3".

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "asset/gltf/accessor.hpp"
-#include "asset/gltf/gltf.hpp"
 #include "asset/gltf/scene.hpp"
 #include "asset/scene/affine.hpp"
 #include "asset/scene/repair.hpp"
@@ -212,10 +211,6 @@ std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNod
     return instances;
 }
 
-std::vector<Instance> gltf_instances(const Asset& asset) {
-    return instances_at(asset, placed_nodes(asset.source->document));
-}
-
 std::optional<Vec3> scene_center(const Asset& asset) {
     if (!asset.source) return std::nullopt;
     const Json& extension = member(asset.source->document, "extensions", center_name);
@@ -254,12 +249,17 @@ InverseBinds inverse_binds(const SourceDocument& source, const Json& skin) {
     return result;
 }
 
-std::vector<PosedInstance> gltf_posed_instances(const Asset& asset) {
+std::vector<PosedInstance> posed_instances(const Asset& asset) {
+    std::vector<PosedInstance> posed;
+    if (!asset.source) {
+        for (const Instance& instance : instances(asset))
+            posed.push_back({instance.part, instance.transform});
+        return posed;
+    }
     const Json& document = asset.source->document;
     std::vector<Index> node_of;
     const std::vector<Instance> all = instances_at(asset, placed_nodes(document), &node_of);
     std::vector<Matrix4> worlds;
-    std::vector<PosedInstance> posed;
     posed.reserve(all.size());
     Index node = no_index;
     std::shared_ptr<const RestPose> pose;

@@ -26,11 +26,11 @@ inline constexpr std::uint64_t max_instances = std::uint64_t{1} << 22;
 Matrix4 transform_matrix(const Vec3& translation, const std::array<double, 4>& rotation, const Vec3& scale);
 
 /// The transforms of the instances of a node's mesh to the space of the node; empty if the node has no such extension.
-/// \pre validate_gltf() passed
+/// \pre parse_gltf() passed
 std::vector<Matrix4> instance_matrices(const SourceDocument& source, const Json& node);
 
 /// Checks that all numbers of the instances are finite. This needs the buffers and is therefore separate from
-/// validate_gltf().
+/// parse_gltf().
 /// \param file  path for messages
 /// \throws InputError  if one is not
 void check_instances(const SourceDocument& source, const std::string& file);
@@ -72,8 +72,8 @@ std::vector<PlacedNode> placed_nodes(const Json& document, std::span<const std::
 /// Complexity: O(nodes)
 std::vector<Matrix4> node_transforms(const Json& document);
 
-/// Lists the instances of parts at the nodes that have meshes. Parts without a source mesh follow, with the identity
-/// transform.
+/// Lists the instances of parts at the nodes that have meshes. Those of EXT_mesh_gpu_instancing follow each other. Parts
+/// without a source mesh follow, with the identity transform.
 /// \param nodes    as placed_nodes() lists them
 /// \param node_of  if not null: receives the node of each instance, no_index for parts without a source mesh
 /// \pre asset.source is set
@@ -91,13 +91,7 @@ struct InverseBinds {
 };
 
 /// Reads the inverse bind matrices of a skin; the identity for joints without one, and if they are no MAT4 of floats.
-/// \pre validate_gltf() and check_sparse() passed
+/// \pre parse_gltf() and check_sparse() passed
 InverseBinds inverse_binds(const SourceDocument& source, const Json& skin);
-
-/// Lists the instances of gltf_instances() with their poses. A skin poses the parts that have joint weights, wherever
-/// its joints are, and replaces the transform of the node. Morph weights are those of the node, else of the mesh;
-/// numbers only. Skins of nodes with EXT_mesh_gpu_instancing are ignored.
-/// \pre asset.source is set
-std::vector<PosedInstance> gltf_posed_instances(const Asset& asset);
 
 }  // namespace faqem::detail

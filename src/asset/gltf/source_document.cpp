@@ -48,16 +48,11 @@ private:
     }
 
     void mark_material(Index first) {
-        std::vector<Index> open = {first};
-        while (!open.empty()) {
-            const Index material = open.back();
-            open.pop_back();
-            if (materials_[material]) continue;
-            materials_[material] = 1;
+        mark_reachable(first, materials_, [&](Index material) -> const Json& {
             const Json& json = member(document_, "materials")[material];
             mark_textures_in(json);
-            for (const Json& level : level_ids(json)) open.push_back(level.get<Index>());
-        }
+            return level_ids(json);
+        });
     }
 
     /// Marks the images of all texture infos in a value: objects with an index, whatever extension they belong to. The

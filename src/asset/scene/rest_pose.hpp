@@ -25,8 +25,9 @@ struct PosedInstance {
     std::shared_ptr<const RestPose> pose = nullptr;  ///< null for instances that the transform alone places
 };
 
-/// Lists the instances in the order of instances(), with their poses. Instances of EXT_mesh_gpu_instancing have no
-/// skin. Complexity: O(nodes + instances).
+/// Lists the instances in the order of instances(), with their poses. A skin poses the parts that have joint weights,
+/// wherever its joints are, and replaces the transform of the node. Morph weights are those of the node, else of the mesh;
+/// numbers only. Instances of EXT_mesh_gpu_instancing have no skin. Complexity: O(nodes + instances).
 FAQEM_EXPORT std::vector<PosedInstance> posed_instances(const Asset& asset);
 
 /// The part in world space, in its pose: each position is displaced by the morph targets and then multiplied by the sum

@@ -75,12 +75,4 @@ void CheckedJson::check_number_array(const char* key, std::uint64_t size) const 
         if (!value.is_number()) values.fail("contains an element that is not a number");
 }
 
-void validate_gltf(const Json& document, const std::string& file) {
-    const CheckedJson checked{document, file, document, ""};
-    check_document(checked);
-    check_accessors(checked);
-    check_meshes_and_materials(checked);
-    check_scene(checked);
-}
-
 }  // namespace faqem::detail

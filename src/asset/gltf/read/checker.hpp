@@ -107,9 +107,4 @@ void check_meshes_and_materials(const CheckedJson& document);
 /// \throws InputError
 void check_scene(const CheckedJson& document);
 
-/// Calls all of the above functions in this order.
-/// \param file  path for messages
-/// \throws InputError, UnsupportedError
-void validate_gltf(const Json& document, const std::string& file);
-
 }  // namespace faqem::detail

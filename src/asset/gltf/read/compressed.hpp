@@ -78,7 +78,7 @@ struct DecompressionLimit {
 /// Decompresses all views and primitives that have no uncompressed data into new buffers, and removes the
 /// extensions from the document.
 /// \param file  path for messages
-/// \pre validate_gltf() passed
+/// \pre parse_gltf() passed
 /// \throws InputError  if the data is damaged or the decompressed size exceeds the limit
 void decompress(SourceDocument& source, const std::string& file);
 

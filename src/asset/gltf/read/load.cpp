@@ -183,7 +183,11 @@ Json parse_gltf(std::string_view json, const std::string& file) {
         throw InputError(file, "JSON", error.what());
     }
     remove_null_members(document);
-    validate_gltf(document, file);
+    const CheckedJson checked{document, file, document, ""};
+    check_document(checked);
+    check_accessors(checked);
+    check_meshes_and_materials(checked);
+    check_scene(checked);
     return document;
 }
 

@@ -116,7 +116,8 @@ void GltfBufferBuilder::append_view(const Group& group, std::vector<std::uint8_t
     buffer.insert(buffer.end(), bytes.begin(), bytes.end());
     if (is_vertex_attribute(group.use)) view["byteStride"] = group.stride;
     if (is_vertex_attribute(group.use)) view["target"] = array_buffer;
-    if (is_index(group.use)) view["target"] = element_array_buffer;
+    if (group.use == AccessorUse::indices || group.use == AccessorUse::triangles)
+        view["target"] = element_array_buffer;
     views.push_back(std::move(view));
 }
 

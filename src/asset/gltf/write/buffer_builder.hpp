@@ -34,11 +34,6 @@ constexpr bool is_vertex_attribute(AccessorUse use) {
            use == AccessorUse::short_directions || use == AccessorUse::texture_coordinates;
 }
 
-/// Whether the accessor has vertex indices.
-constexpr bool is_index(AccessorUse use) {
-    return use == AccessorUse::indices || use == AccessorUse::triangles;
-}
-
 /// Bits to which compression rounds vertices; 0: the usual ones of the encoder.
 struct VertexBits {
     std::uint32_t normals = 0;  ///< of the two octahedral coordinates of AccessorUse::short_directions

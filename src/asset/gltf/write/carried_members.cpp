@@ -144,12 +144,11 @@ bool fits_texture(const GltfWriter& writer, const Part& part, const Json& info) 
 /// which `fits` is true.
 template <class Fits>
 bool all_fit(const GltfWriter& writer, const Json& metadata, const char* list, const Fits& fits) {
-    const Json& of_document = member(source_array(writer, "extensions"), metadata_name, list);
+    const Json& of_document = member(source_array(writer, "extensions"), metadata_name);
     for (const Json& reference : member(metadata, list)) {
-        const std::optional<Index> index =
-            valid_index(reference, of_document.is_array() ? of_document.size() : 0);
+        const std::optional<Index> index = valid_index(reference, array_size(of_document, list));
         if (!index) return false;
-        for (const Json& property : member(of_document[*index], "properties"))
+        for (const Json& property : member(of_document[list][*index], "properties"))
             if (!fits(property)) return false;
     }
     return true;

@@ -201,9 +201,8 @@ void write_extension_lists(GltfWriter& writer) {
     for (const Json& name : source_array(writer, "extensionsRequired"))
         if (name != draco_name && name != quantization_name && used.count(name.get<std::string>()) != 0)
             required.push_back(name);
-    for (const char* key : {"extensionsUsed", "extensionsRequired"}) writer.out.erase(key);
-    if (!used.empty()) writer.out["extensionsUsed"] = Json(used);
-    if (!required.empty()) writer.out["extensionsRequired"] = std::move(required);
+    set_or_erase(writer.out, "extensionsUsed", Json(used));
+    set_or_erase(writer.out, "extensionsRequired", std::move(required));
 }
 
 }  // namespace faqem::detail
