@@ -64,16 +64,12 @@ int run(const BakeArguments& arguments) {
                                                            detail::command_spelling));
     }
     require_not_cancelled(baked.report);
-    const ExitOnInterrupt exit_on_interrupt;
-    detail::FileSet set;
-    {
-        const detail::CollectWrites collect(set);
+    write_together([&] {
         detail::save_result(baked, arguments.out, options, overwrite);
         baked.report.little_saved.reset();  // new textures add bytes
         baked.report.seconds.total = watch.seconds();
         if (!arguments.report.empty()) write_output(arguments.report, to_json(baked.report), overwrite);
-    }
-    commit_outputs(set);
+    });
     if (arguments.quiet) return exit_ok;
     std::cout << arguments.source << " onto " << arguments.target << " -> " << arguments.out << "\n"
               << "largest distance: " << baked.report.coverage->largest_distance

@@ -96,13 +96,11 @@ void print_summary(const SimplifyCommandArguments& arguments, const Report& repo
     std::cout << out.str();
 }
 
-/// Adds the model, the history and the correspondence to the set of files. The model is first: save() rejects
-/// names of images that would overwrite files of the input. The report is added later, because it has the
+/// Writes the model, the history and the correspondence. The model is first: save() rejects
+/// names of images that would overwrite files of the input. The report is written later, because it has the
 /// time that saving took.
 void save_files(const SimplifyCommandArguments& arguments, const Options& options,
-                SimplifiedAsset& simplified, detail::FileSet& set) {
-    const ExitOnInterrupt exit_on_interrupt;
-    const detail::CollectWrites collect(set);
+                SimplifiedAsset& simplified) {
     detail::save_result(simplified, arguments.out, options, arguments.overwrite);
     if (!arguments.history.empty()) {
         std::ostringstream out;
@@ -166,16 +164,13 @@ int run(SimplifyCommandArguments arguments) {
         simplified = simplified_model(arguments, options, diagonal);
         require_not_cancelled(simplified.report);
     }
-    detail::FileSet set;
-    if (rejection_code(simplified.report, arguments.strict_target) == exit_ok)
-        save_files(arguments, options, simplified, set);
-    simplified.report.seconds.total = watch.seconds();
-    if (!arguments.report.empty()) {
-        const ExitOnInterrupt exit_on_interrupt;
-        const detail::CollectWrites collect(set);
-        write_output(arguments.report, to_json(simplified.report), arguments.overwrite);
-    }
-    commit_outputs(set);
+    write_together([&] {
+        if (rejection_code(simplified.report, arguments.strict_target) == exit_ok)
+            save_files(arguments, options, simplified);
+        simplified.report.seconds.total = watch.seconds();
+        if (!arguments.report.empty())
+            write_output(arguments.report, to_json(simplified.report), arguments.overwrite);
+    });
     if (!arguments.quiet) print_summary(arguments, simplified.report, diagonal);
     require_accepted(simplified.report, arguments.strict_target, arguments.in, arguments.out);
     return exit_ok;

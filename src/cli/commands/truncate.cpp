@@ -93,12 +93,7 @@ int run(const TruncateArguments& arguments) {
     std::vector<std::string> warnings = result.report.warnings;
     if (arguments.source.empty()) options.bake.kind = Bake::none;
     append(warnings, detail::idle_options(options, typed_names(arguments.options), detail::command_spelling));
-    detail::FileSet set;
-    {
-        const detail::CollectWrites collect(set);
-        append(warnings, save(result.asset, arguments.out, overwrite));
-    }
-    commit_outputs(set);
+    write_together([&] { append(warnings, save(result.asset, arguments.out, overwrite)); });
     if (arguments.quiet) return exit_ok;
     std::cout << arguments.history << " -> " << arguments.out << "\n"
               << simplified_parts.report.faces_in << " -> " << simplified_parts.report.faces_out << " faces\n"

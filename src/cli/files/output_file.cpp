@@ -155,13 +155,18 @@ void commit_outputs(detail::FileSet& set) {
     set.commit(outputs_complete);
 }
 
-void write_only_output(const fs::path& file, std::string_view content, Overwrite overwrite) {
+void write_together(const std::function<void()>& write) {
+    const ExitOnInterrupt exit_on_interrupt;
     detail::FileSet set;
     {
         const detail::CollectWrites collect(set);
-        write_output(file, content, overwrite);
+        write();
     }
     commit_outputs(set);
+}
+
+void write_only_output(const fs::path& file, std::string_view content, Overwrite overwrite) {
+    write_together([&] { write_output(file, content, overwrite); });
 }
 
 }  // namespace faqem::cli

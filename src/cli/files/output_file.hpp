@@ -3,6 +3,7 @@
 /// Checks of output files before the work starts, and writing of files.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,10 @@ void write_output(const std::filesystem::path& file, std::string_view content, O
 /// before ends the process, a later one no longer changes the exit code. \throws WriteError  no file is
 /// replaced
 void commit_outputs(detail::FileSet& set);
+
+/// Calls `write`, and gives the files that it writes, with write_output() or save(), their names: commit_outputs(). A
+/// signal before ends the process, too.
+void write_together(const std::function<void()>& write);
 
 /// Writes the only file of a command, with write_output() and commit_outputs().
 void write_only_output(const std::filesystem::path& file, std::string_view content, Overwrite overwrite);
