@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "bake/atlas/occupancy_grid.hpp"
+#include "faqem/engine/mesh/index_lists.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -197,8 +198,7 @@ public:
             texels += static_cast<std::uint64_t>(blocks) * raster.block_size * raster.block_size;
         }
         if (texels > std::uint64_t{width_} * height_) return false;
-        std::vector<std::size_t> order(rasters_.size());
-        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+        std::vector<Index> order = engine::all_indices(rasters_.size());
         std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t i) {
             const ChartRaster& raster = rasters_[i];
             return std::tuple(raster.block_size, std::max(raster.mask.columns, raster.mask.rows),

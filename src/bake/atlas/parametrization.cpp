@@ -109,6 +109,7 @@ public:
     std::size_t size() const { return faces_.size(); }
     Index vertices() const { return vertices_; }
     Index vertex(std::size_t i, std::size_t c) const { return corner_[3 * i + c]; }
+    const PageTriangle& face(std::size_t i) const { return all_[faces_[i]]; }
     const LocalTriangle& local(std::size_t i) const { return locals_[i]; }
     double area() const { return area_; }
     std::vector<Index>& faces() { return faces_; }
@@ -122,20 +123,19 @@ public:
         Vector3 normal = Vector3::Zero();
         double weight = 0, density = 0;
         for (std::size_t i = 0; i < size(); ++i) {
-            const PageTriangle& face = all_[faces_[i]];
-            normal += area_vector(face);
+            normal += area_vector(face(i));
             weight += locals_[i].area;
-            density += locals_[i].area * face.density;
+            density += locals_[i].area * face(i).density;
         }
         std::vector<ComplexPoint> result(vertices_);
         if (!(normal.norm() > 0)) return result;
         normal.normalize();
         const Vector3 right = normal.unitOrthogonal(), up = normal.cross(right);
         const double scale = density / weight;
-        const Vector3 origin = to_eigen(all_[faces_[0]].corners[0]);
+        const Vector3 origin = to_eigen(face(0).corners[0]);
         for (std::size_t i = 0; i < size(); ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
-                const Vector3 p = scale * (to_eigen(all_[faces_[i]].corners[c]) - origin);
+                const Vector3 p = scale * (to_eigen(face(i).corners[c]) - origin);
                 result[vertex(i, c)] = {p.dot(right), p.dot(up)};
             }
         }
@@ -194,18 +194,17 @@ double stretch_of(const ChartMesh& chart_mesh, const std::vector<ComplexPoint>& 
 
 // The two vertices with the smallest and the largest coordinate along the longest axis of the bounding box,
 // each with this coordinate in texels.
-std::array<std::pair<Index, double>, 2> pinned_vertices(const ChartMesh& chart_mesh,
-                                                        std::span<const PageTriangle> all,
-                                                        const std::vector<Index>& faces) {
+std::array<std::pair<Index, double>, 2> pinned_vertices(const ChartMesh& chart_mesh) {
     Eigen::AlignedBox3d box;
-    for (Index f : faces)
-        for (const Vec3& p : all[f].corners) box.extend(to_eigen(p));
+    for (std::size_t i = 0; i < chart_mesh.size(); ++i)
+        for (const Vec3& p : chart_mesh.face(i).corners) box.extend(to_eigen(p));
     Eigen::Index axis = 0;
     box.sizes().maxCoeff(&axis);
     std::array<std::pair<Index, double>, 2> result = {{{0, HUGE_VAL}, {0, -HUGE_VAL}}};
-    for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t i = 0; i < chart_mesh.size(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const double x = all[faces[i]].corners[c][static_cast<std::size_t>(axis)] * all[faces[0]].density;
+            const double x =
+                chart_mesh.face(i).corners[c][static_cast<std::size_t>(axis)] * chart_mesh.face(0).density;
             if (x < result[0].second) result[0] = {chart_mesh.vertex(i, c), x};
             if (x > result[1].second) result[1] = {chart_mesh.vertex(i, c), x};
         }
@@ -214,10 +213,8 @@ std::array<std::pair<Index, double>, 2> pinned_vertices(const ChartMesh& chart_m
 }
 
 // Least squares conformal map with two pinned vertices; empty if the linear system cannot be solved.
-std::vector<ComplexPoint> least_squares_conformal_map(const ChartMesh& chart_mesh,
-                                                      std::span<const PageTriangle> all,
-                                                      const std::vector<Index>& faces) {
-    const auto pinned = pinned_vertices(chart_mesh, all, faces);
+std::vector<ComplexPoint> least_squares_conformal_map(const ChartMesh& chart_mesh) {
+    const auto pinned = pinned_vertices(chart_mesh);
     if (pinned[0].first == pinned[1].first) return {};
     std::vector<Eigen::Triplet<ComplexPoint>> entries;
     Eigen::VectorXcd right = Eigen::VectorXcd::Zero(chart_mesh.vertices());
@@ -340,7 +337,7 @@ Parametrization parametrize(std::span<const PageTriangle> all, std::vector<Index
     work -= cost;
     std::vector<ComplexPoint> z = chart_mesh.planar_projection(), best;
     if (!flipped_faces_of(chart_mesh, z).empty()) {
-        z = least_squares_conformal_map(chart_mesh, all, chart_mesh.faces());
+        z = least_squares_conformal_map(chart_mesh);
         if (z.empty()) return result;
     }
     double least = HUGE_VAL;

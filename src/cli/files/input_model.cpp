@@ -9,6 +9,7 @@
 #include "asset/scene/messages.hpp"
 #include "asset/scene/rounding_weld.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
+#include "faqem/engine/mesh/index_lists.hpp"
 #include "faqem/error.hpp"
 #include "result/simplify_file.hpp"
 
@@ -32,8 +33,7 @@ void require_nonzero_area(const Part& part, const std::string& where) {
 }
 
 void require_no_duplicate_faces(const Part& part, const std::string& where) {
-    std::vector<Index> order(part.triangles.size());
-    for (Index f = 0; f < order.size(); ++f) order[f] = f;
+    std::vector<Index> order = engine::all_indices(part.triangles.size());
     const auto key = [&](Index f) {
         return std::pair(corner_positions(part, part.triangles[f]),
                          part.face_material.empty() ? no_index : part.face_material[f]);

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "asset/file_format.hpp"
 #include "cli/report/error_surface.hpp"
 #include "cli/report/model_comparison.hpp"
 
@@ -43,9 +42,7 @@ inline std::vector<std::uint8_t> viewer_glb(const FlattenedModel& model, const E
         part.file_order = FileOrder::for_gpu;  // which takes few bytes
     }
     asset.compression = Compression::meshopt;
-    const detail::EncodedModel encoded = detail::encode_model(asset, "viewer.glb");
-    const std::span<const std::uint8_t> bytes = encoded.files.back().bytes;
-    return {bytes.begin(), bytes.end()};
+    return to_glb(asset);
 }
 
 /// Returns the error surface with vertex colours by distance, for the rasterizer.
