@@ -64,7 +64,7 @@ void add_options(CLI::App& app, Arguments& a) {
         ->check(CLI::Range(0.0, 1.0));
     app.add_option("--simplifiers", a.simplifiers,
                    "names of peers, packages, presets (faqem-NAME) and presets with options "
-                   "(faqem-NAME:key=value:...), "
+                   "(faqem-NAME:option=value:...), "
                    "or peers, packages or presets for all of them")
         ->delimiter(',');
     app.add_option("--out", a.out, "output, JSON lines; existing rows are not measured again");

@@ -49,10 +49,9 @@ std::vector<NamedSimplifier> packages();
 /// Returns faqem's presets with the names `faqem-NAME`.
 std::vector<NamedSimplifier> presets();
 
-/// Returns a simplifier by name: a peer, a package, or `faqem-PRESET[:key=value]...` with the keys area, boundary,
-/// normal, uv, plane_area, virtual (maximum length of virtual edges / diagonal), weld (distance), link (off,
-/// by-size, on, strict), border (free, locked) and threads.
-/// \throws OptionError  there is no such simplifier, key or value
+/// Returns a simplifier by name: a peer, a package, or `faqem-PRESET[:option=value]...` with the names of options in C,
+/// for example `w-area` and `boundary`.
+/// \throws OptionError  there is no such simplifier, option or value
 NamedSimplifier simplifier_named(std::string_view text);
 
 }  // namespace faqem::bench

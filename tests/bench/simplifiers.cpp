@@ -1,7 +1,6 @@
 #include "simplifier.hpp"
 
-#include <charconv>
-
+#include "faqem/detail/options/option_table.hpp"
 #include "faqem/error.hpp"
 #include "faqem/report_json.hpp"
 #include "faqem/simplify.hpp"
@@ -12,49 +11,6 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view text, const char* why) {
     throw OptionError("simplifier " + std::string(text) + ": " + why);
-}
-
-double number(std::string_view text, std::string_view spec) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) refuse(spec, "not a number");
-    return value;
-}
-
-LinkCondition link_named(std::string_view value, std::string_view spec) {
-    if (value == "off") return LinkCondition::off;
-    if (value == "by-size") return LinkCondition::by_size;
-    if (value == "on") return LinkCondition::on;
-    if (value == "strict") return LinkCondition::strict;
-    refuse(spec, "link must be off, by-size, on or strict");
-}
-
-void set(Options& options, std::string_view key, std::string_view value, std::string_view spec) {
-    if (key == "link") {
-        options.topology.link = link_named(value, spec);
-    } else if (key == "border") {
-        if (value != "free" && value != "locked") refuse(spec, "border must be free or locked");
-        options.topology.boundary = value == "locked" ? Boundary::locked : Boundary::free;
-    } else if (key == "area") {
-        options.weights.area = number(value, spec);
-    } else if (key == "boundary") {
-        options.weights.boundary = number(value, spec);
-    } else if (key == "normal") {
-        options.weights.normal = number(value, spec);
-    } else if (key == "uv") {
-        options.weights.uv = number(value, spec);
-    } else if (key == "plane_area") {
-        options.weights.plane_area = number(value, spec);
-    } else if (key == "virtual") {
-        options.topology.virtual_edges = VirtualEdges::on;
-        options.topology.virtual_edge_distance = number(value, spec);
-    } else if (key == "weld") {
-        options.topology.weld_distance = number(value, spec);
-    } else if (key == "threads") {
-        options.threads = static_cast<std::uint32_t>(number(value, spec));
-    } else {
-        refuse(spec, "unknown key");
-    }
 }
 
 Outcome run(const TriangleMesh& mesh, std::size_t target_faces, Options options) {
@@ -74,8 +30,9 @@ NamedSimplifier faqem_named(std::string_view spec) {
     while (!rest.empty()) {
         const std::string_view word = next();
         const std::size_t equals = word.find('=');
-        if (equals == std::string_view::npos) refuse(spec, "expected key=value");
-        set(options, word.substr(0, equals), word.substr(equals + 1), spec);
+        if (equals == std::string_view::npos) refuse(spec, "expected option=value");
+        detail::set_option(options, detail::named_option(word.substr(0, equals)), word.substr(equals + 1),
+                           detail::name_spelling);
     }
     validate(options);
     return {std::string(spec), [options](const TriangleMesh& mesh, std::size_t target_faces) {

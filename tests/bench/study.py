@@ -30,7 +30,7 @@ PRINTED_RANKING = {"faqem-qem": (0.13, 0.46, 0.57, 1.37), "faqem-stmw": (0.10, 0
 
 def spec(**weights):
     """Returns the name of the preset `paper` with other weights, as a simplifier of faqem-bench."""
-    return "".join(["faqem-paper"] + [f":{term}={value:g}" for term, value in weights.items()
+    return "".join(["faqem-paper"] + [f":w-{term.replace('_', '-')}={value:g}" for term, value in weights.items()
                                       if value != WEIGHTS[term]])
 
 
