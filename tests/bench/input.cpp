@@ -3,30 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
-#include <numeric>
 
 #include "faqem/asset.hpp"
+#include "faqem/engine/mesh/weld.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem::bench {
-
-namespace {
-
-/// Returns, for each position, the smallest index of an equal position. The readers reject NaN; -0 equals 0.
-std::vector<std::size_t> first_of_equal(const std::vector<Vec3>& positions) {
-    std::vector<std::size_t> order(positions.size()), first(positions.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return positions[a] != positions[b] ? positions[a] < positions[b] : a < b;
-    });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-        first[order[i]] = same ? first[order[i - 1]] : order[i];
-    }
-    return first;
-}
-
-}  // namespace
 
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
@@ -51,11 +33,11 @@ TriangleMesh load_welded(const std::filesystem::path& file) {
             triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
         }
     }
-    const std::vector<std::size_t> first = first_of_equal(positions);
+    const std::vector<Index> first = engine::weld_exact(positions);
     TriangleMesh mesh;
     std::vector<Index> number(positions.size(), no_index);
     for (const Triangle& t : triangles) {
-        const std::size_t corners[] = {first[t[0]], first[t[1]], first[t[2]]};
+        const Triangle corners = {first[t[0]], first[t[1]], first[t[2]]};
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
         Triangle& out = mesh.triangles.emplace_back();
         for (std::size_t k = 0; k < 3; ++k) {
