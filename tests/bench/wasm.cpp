@@ -56,7 +56,7 @@ std::string output_of(const std::string& command) {
 
 bool is_wasm(const std::string& name) { return name.starts_with("wasm-"); }
 
-WasmResult run_wasm(const FloatMesh& in, std::size_t target_faces, const std::string& name) {
+Run run_wasm(const FloatMesh& in, std::size_t target_faces, const std::string& name) {
     const std::string update = "-update";
     const bool moves = name.ends_with(update);
     const std::string package = moves ? name.substr(0, name.size() - update.size()) : name;
@@ -75,7 +75,7 @@ WasmResult run_wasm(const FloatMesh& in, std::size_t target_faces, const std::st
     const std::string output =
         output_of("node '" FAQEM_BENCH_WASM "/simplify.mjs' '" + index.string() + "' '" + before + "' '" +
                   after + "' " + std::to_string(target_faces) + (moves ? " update" : ""));
-    WasmResult result;
+    Run result;
     if (std::sscanf(output.c_str(), "%lf %lf", &result.seconds, &result.cpu_seconds) != 2)
         throw OptionError("simplifier " + name + ": unexpected output '" + output + "'");
     result.mesh = read_mesh(after);
