@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "faqem/detail/base/stopwatch.hpp"
@@ -18,39 +19,16 @@ namespace faqem::bench {
 
 namespace {
 
+using nlohmann::json;
+
 /// Limit of the elapsed time as a multiple of the limit of CPU time. On a busy machine a process mostly
 /// waits.
 constexpr unsigned elapsed_time_factor = 10;
-
-/// Fixed part of the data that the child writes; strings and arrays of the given sizes follow.
-struct Header {
-    double seconds, cpu_seconds, core_seconds, peak_mebibytes;
-    std::uint64_t error, report, vertices, faces;
-};
 
 struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, Close>;
-
-void write(std::FILE* file, const void* data, std::size_t bytes) {
-    if (bytes && std::fwrite(data, bytes, 1, file) != 1)
-        throw std::runtime_error("cannot write the result of the child process");
-}
-
-void read(std::FILE* file, void* data, std::size_t bytes) {
-    if (bytes && std::fread(data, bytes, 1, file) != 1)
-        throw std::runtime_error("the result of the child process is truncated");
-}
-
-double cpu_seconds() {
-    rusage usage = {};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 double peak_mebibytes() {
     rusage usage = {};
@@ -72,11 +50,10 @@ void limit(const Limits& limits) {
     dup2(nowhere, STDERR_FILENO);
 }
 
+/// Writes the result as CBOR, or the text of an exception.
 void work(std::FILE* file, const Simplify& simplify, const TriangleMesh& mesh, std::size_t target_faces,
           const Limits& limits) {
-    Header header = {};
-    Outcome best;
-    std::string error;
+    ChildResult result = {"ok", Outcome(), 0, 0, 0};
     const double peak_before = peak_mebibytes();
     try {
         double spent = 0;
@@ -86,46 +63,36 @@ void work(std::FILE* file, const Simplify& simplify, const TriangleMesh& mesh, s
             Outcome outcome = simplify(mesh, target_faces);
             const double seconds = wall.seconds();
             spent += seconds;
-            if (run == 0 || seconds < header.seconds) {
-                header.seconds = seconds;
-                header.cpu_seconds = cpu_seconds() - cpu_before;
-                best = std::move(outcome);
+            if (run == 0 || seconds < result.seconds) {
+                result.seconds = seconds;
+                result.cpu_seconds = cpu_seconds() - cpu_before;
+                result.outcome = std::move(outcome);
             }
         }
     } catch (const std::exception& e) {
-        error = *e.what() ? e.what() : "exception";
+        result.status = std::string("refused: ") + (*e.what() ? e.what() : "exception");
     }
     alarm(0);
-    header.peak_mebibytes = peak_mebibytes() - peak_before;
-    header.core_seconds = best.core_seconds;
-    header.error = error.size();
-    header.report = best.report.size();
-    header.vertices = best.mesh.positions.size();
-    header.faces = best.mesh.triangles.size();
-    write(file, &header, sizeof(header));
-    write(file, error.data(), error.size());
-    write(file, best.report.data(), best.report.size());
-    write(file, best.mesh.positions.data(), header.vertices * sizeof(Vec3));
-    write(file, best.mesh.triangles.data(), header.faces * sizeof(Triangle));
-    std::fflush(file);
+    result.peak_mebibytes = peak_mebibytes() - peak_before;
+    const auto& [out, core_seconds, report] = *result.outcome;
+    const auto bytes =
+        json::to_cbor(json{result.status.substr(0, 209), result.seconds, result.cpu_seconds,
+                           result.peak_mebibytes, core_seconds, report, out.positions, out.triangles});
+    if (std::fwrite(bytes.data(), bytes.size(), 1, file) != 1 || std::fflush(file) != 0)
+        throw std::runtime_error("cannot write the result of the child process");
 }
 
 ChildResult collect(std::FILE* file) {
     std::rewind(file);
-    Header header = {};
-    read(file, &header, sizeof(header));
-    std::string error(header.error, ' ');
-    read(file, error.data(), error.size());
-    if (!error.empty()) return {"refused: " + error.substr(0, 200), {}, 0, 0, 0};
-    Outcome outcome;
-    outcome.core_seconds = header.core_seconds;
-    outcome.report.resize(header.report);
-    read(file, outcome.report.data(), header.report);
-    outcome.mesh.positions.resize(header.vertices);
-    read(file, outcome.mesh.positions.data(), header.vertices * sizeof(Vec3));
-    outcome.mesh.triangles.resize(header.faces);
-    read(file, outcome.mesh.triangles.data(), header.faces * sizeof(Triangle));
-    return {"ok", std::move(outcome), header.seconds, header.cpu_seconds, header.peak_mebibytes};
+    const json all = json::from_cbor(file);
+    ChildResult result = {all[0], {}, 0, 0, 0};
+    if (result.status != "ok") return result;
+    result = {"ok", Outcome(), all[1], all[2], all[3]};
+    result.outcome->core_seconds = all[4];
+    result.outcome->report = all[5];
+    all[6].get_to(result.outcome->mesh.positions);
+    all[7].get_to(result.outcome->mesh.triangles);
+    return result;
 }
 
 }  // namespace

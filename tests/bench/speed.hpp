@@ -14,10 +14,6 @@ namespace faqem::bench {
 using Json = nlohmann::ordered_json;
 using WriteRow = std::function<void(const Json&)>;
 
-/// Returns the CPU time of the process so far, seconds. On a shared machine it is more reproducible than
-/// elapsed time.
-double cpu_now();
-
 /// Returns the median. \pre values is not empty
 double median(std::vector<double> values);
 
@@ -30,6 +26,16 @@ struct FloatMesh {
 
 /// Converts a mesh. Positions are rounded to float.
 FloatMesh float_mesh(const std::string& name, const TriangleMesh& mesh);
+
+/// Measurements and result of one run of a simplifier.
+struct Run {
+    double seconds = 0;      ///< elapsed time of the call, from input arrays to output arrays
+    double cpu_seconds = 0;  ///< CPU time of all threads
+    std::uint64_t bytes =
+        0;  ///< peak memory in addition to the input and preallocated output arrays; 0: unknown
+    TriangleMesh mesh;
+    Json report;
+};
 
 /// Options of measure_simplifiers().
 struct SpeedOptions {

@@ -1,6 +1,5 @@
 #include <benchmark/benchmark.h>
 #include <meshoptimizer.h>
-#include <time.h>
 
 #include <algorithm>
 #include <charconv>
@@ -22,16 +21,6 @@ namespace faqem::bench {
 
 namespace {
 
-/// Measurements and result of one run of a simplifier.
-struct Run {
-    double seconds = 0;      ///< elapsed time of the call, from input arrays to output arrays
-    double cpu_seconds = 0;  ///< CPU time of all threads
-    std::uint64_t bytes =
-        0;  ///< peak memory in addition to the input and preallocated output arrays; 0: unknown
-    TriangleMesh mesh;
-    Json report;
-};
-
 using Simplifier = std::function<Run(const FloatMesh&, std::size_t target_faces)>;
 
 std::vector<Vec3> as_doubles(const std::vector<Vec3f>& positions) {
@@ -48,13 +37,13 @@ Run run_meshoptimizer(const FloatMesh& in, std::size_t target_faces) {
     std::size_t indices = 0;
     {
         const PeakMemory memory;
-        const double cpu = cpu_now();
+        const double cpu = cpu_seconds();
         const detail::Stopwatch watch;
         indices = meshopt_simplify(out, in.triangles.front().data(), 3 * in.triangles.size(),
                                    in.positions.front().data(), in.positions.size(), sizeof(Vec3f),
                                    3 * target_faces, std::numeric_limits<float>::max(), 0, nullptr);
         run.seconds = watch.seconds();
-        run.cpu_seconds = cpu_now() - cpu;
+        run.cpu_seconds = cpu_seconds() - cpu;
         run.bytes = memory.bytes();
     }
     run.mesh.triangles.resize(indices / 3);
@@ -66,12 +55,12 @@ Run run_faqem(const FloatMesh& in, std::size_t target_faces, Options options) {
     options.target = faces(target_faces);
     const MeshView view = {.positions = in.positions, .triangles = in.triangles};
     const PeakMemory memory;
-    const double cpu = cpu_now();
+    const double cpu = cpu_seconds();
     const detail::Stopwatch watch;
     SimplifyResult result = simplify(view, options);
     Run run;
     run.seconds = watch.seconds();
-    run.cpu_seconds = cpu_now() - cpu;
+    run.cpu_seconds = cpu_seconds() - cpu;
     run.bytes = memory.bytes();
     run.report = Json::parse(to_json(result.report));
     run.mesh = std::move(result.mesh);
@@ -81,23 +70,12 @@ Run run_faqem(const FloatMesh& in, std::size_t target_faces, Options options) {
 #ifdef FAQEM_BENCH_CGAL
 Run run_cgal(const FloatMesh& in, std::size_t target_faces) {
     const TriangleMesh mesh = {as_doubles(in.positions), in.triangles, {}, {}};
-    const double cpu = cpu_now();
+    const double cpu = cpu_seconds();
     Outcome outcome = cgal_lindstrom_turk(mesh, target_faces);
     Run run;
     run.seconds = outcome.core_seconds;
-    run.cpu_seconds = cpu_now() - cpu;
+    run.cpu_seconds = cpu_seconds() - cpu;
     run.mesh = std::move(outcome.mesh);
-    return run;
-}
-#endif
-
-#ifdef FAQEM_BENCH_WASM
-Run run_webassembly(const FloatMesh& in, std::size_t target_faces, const std::string& name) {
-    WasmResult result = run_wasm(in, target_faces, name);
-    Run run;
-    run.seconds = result.seconds;
-    run.cpu_seconds = result.cpu_seconds;
-    run.mesh = std::move(result.mesh);
     return run;
 }
 #endif
@@ -106,8 +84,7 @@ Simplifier simplifier_of(const std::string& name) {
     if (name == "meshoptimizer") return run_meshoptimizer;
 #ifdef FAQEM_BENCH_WASM
     if (is_wasm(name)) {
-        return
-            [name](const FloatMesh& mesh, std::size_t target) { return run_webassembly(mesh, target, name); };
+        return [name](const FloatMesh& mesh, std::size_t target) { return run_wasm(mesh, target, name); };
     }
 #endif
 #ifdef FAQEM_BENCH_CGAL
@@ -154,12 +131,6 @@ void add_run(Json& row, const FloatMesh& mesh, const Run& run, bool quality) {
 }
 
 }  // namespace
-
-double cpu_now() {
-    timespec t = {};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
