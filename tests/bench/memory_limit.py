@@ -11,11 +11,8 @@ pixels, and triangles that share one edge; and malicious ones, which are refused
 in a circle, and images without the pixels that their headers claim.
 """
 
-import base64
-import json
 import multiprocessing
 import os
-import struct
 import subprocess
 import sys
 import tempfile
@@ -23,108 +20,51 @@ import time
 import zlib
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "docs/statements"))
+from gltf_rows import textured
+from model import gltf_grid, png_of
+
 LIMITS = (500, 1000, 2000)  # MB
 ALLOWED = 1.2
 EXIT_CODES = (0, 3, 4, 11)
 
 
-def grid(quads):
-    """Returns positions, texture coordinates and indices of a square of quads x quads."""
-    side = quads + 1
-    positions = b"".join(struct.pack("<3f", x, y, (x * y) % 3) for y in range(side) for x in range(side))
-    coordinates = b"".join(struct.pack("<2f", x / quads, y / quads) for y in range(side) for x in range(side))
-    indices = bytearray()
-    for y in range(quads):
-        for x in range(quads):
-            a = y * side + x
-            indices += struct.pack("<6I", a, a + 1, a + side, a + 1, a + side + 1, a + side)
-    return positions, coordinates, bytes(indices)
-
-
-def document(quads):
-    """Returns a glTF document of a grid with texture coordinates, as a dict."""
-    positions, coordinates, indices = grid(quads)
-    count = (quads + 1) ** 2
-    parts = [positions, coordinates, indices]
-    views, offset = [], 0
-    for part in parts:
-        views.append({"buffer": 0, "byteOffset": offset, "byteLength": len(part)})
-        offset += len(part)
-    uri = "data:application/octet-stream;base64," + base64.b64encode(b"".join(parts)).decode()
-    return {
-        "asset": {"version": "2.0"},
-        "buffers": [{"byteLength": offset, "uri": uri}],
-        "bufferViews": views,
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3",
-             "min": [0, 0, 0], "max": [quads, quads, 2]},
-            {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC2"},
-            {"bufferView": 2, "componentType": 5125, "count": 6 * quads * quads, "type": "SCALAR"},
-        ],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2}]}],
-        "nodes": [{"mesh": 0}],
-        "scenes": [{"nodes": [0]}],
-    }
-
-
-def png(width, height, texts=(), rows=None):
+def black(side, texts=(), rows=None):
     """Returns a black grey-scale PNG with compressed texts, and only the given number of rows."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
     compressor = zlib.compressobj(9)
-    row = bytes(width + 1)
-    data = b"".join(compressor.compress(row) for _ in range(height if rows is None else rows)) + compressor.flush()
-    header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
-    text_chunks = b"".join(chunk(b"zTXt", text) for text in texts)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + text_chunks + chunk(b"IDAT", data) + chunk(b"IEND", b"")
-
-
-def textured(image, quads=20):
-    result = document(quads)
-    uri = "data:image/png;base64," + base64.b64encode(image).decode()
-    result["images"] = [{"uri": uri}]
-    result["textures"] = [{"source": 0}]
-    result["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
-    result["meshes"][0]["primitives"][0]["material"] = 0
-    return result
+    row = bytes(side + 1)
+    data = b"".join(compressor.compress(row) for _ in range(side if rows is None else rows)) + compressor.flush()
+    return png_of(side, 0, *((b"zTXt", text) for text in texts), (b"IDAT", data))
 
 
 def write_files(folder):
     """Writes one file of each family."""
     files = {}
-    numbers = document(10)
-    numbers["meshes"][0]["extras"] = {"a": [0] * 20_000_000}
-    files["numbers in extras"] = numbers
-    weights = document(10)
-    weights["meshes"][0]["weights"] = [0] * 20_000_000
-    files["numbers in weights"] = weights
-    targets = document(150)
-    targets["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}] * 4000
-    files["targets of one accessor"] = targets
-    meshes = document(300)
-    meshes["meshes"] *= 2000
-    meshes["nodes"] = [{"mesh": i} for i in range(2000)]
-    meshes["scenes"][0]["nodes"] = list(range(2000))
-    files["meshes of one accessor"] = meshes
-    nodes = document(100)
-    nodes["nodes"] = [{"mesh": 0}] * 100_000
-    nodes["scenes"][0]["nodes"] = list(range(100_000))
-    files["nodes of one mesh"] = nodes
+    files["numbers in extras"] = numbers = gltf_grid()
+    numbers.json["meshes"][0]["extras"] = {"a": [0] * 20_000_000}
+    files["numbers in weights"] = weights = gltf_grid()
+    weights.json["meshes"][0]["weights"] = [0] * 20_000_000
+    files["targets of one accessor"] = targets = gltf_grid(side=150)
+    targets.json["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}] * 4000
+    files["meshes of one accessor"] = meshes = gltf_grid(side=300)
+    meshes.json["meshes"] *= 2000
+    meshes.json["nodes"] = [{"mesh": i} for i in range(2000)]
+    meshes.json["scenes"][0]["nodes"] = list(range(2000))
+    files["nodes of one mesh"] = nodes = gltf_grid(side=100)
+    nodes.json["nodes"] = [{"mesh": 0}] * 100_000
+    nodes.json["scenes"][0]["nodes"] = list(range(100_000))
     text = b"Comment\0\0" + zlib.compress(bytes(1 << 30), 9)
-    files["text of a PNG"] = textured(png(4, 4, [text] * 3))
-    files["image of 16384 x 16384 pixels"] = textured(png(16384, 16384))
+    files["text of a PNG"] = textured(black(4, [text] * 3))
+    files["image of 16384 x 16384 pixels"] = textured(black(16384))
     for side in (16384, 100_000):
-        files[f"image of {side} without pixels"] = textured(png(side, side, rows=0))
-    count = document(10)
-    count["accessors"][0]["count"] = 2**62
-    files["count of 2^62"] = count
-    circle = document(10)
-    circle["nodes"] = [{"children": [1]}, {"children": [2]}, {"children": [0], "mesh": 0}]
-    files["nodes in a circle"] = circle
-    for name, content in files.items():
-        (folder / (name.replace(" ", "_") + ".gltf")).write_text(json.dumps(content))
-    nested = json.dumps(document(10))[:-1] + ', "extras": ' + "[" * 20_000 + "]" * 20_000 + "}"
+        files[f"image of {side} without pixels"] = textured(black(side, rows=0))
+    files["count of 2^62"] = count = gltf_grid()
+    count.json["accessors"][0]["count"] = 2**62
+    files["nodes in a circle"] = circle = gltf_grid()
+    circle.json["nodes"] = [{"children": [1]}, {"children": [2]}, {"children": [0], "mesh": 0}]
+    for name, glb in files.items():
+        (folder / (name.replace(" ", "_") + ".glb")).write_bytes(glb.bytes())
+    nested = '{"asset": {"version": "2.0"}, "extras": ' + "[" * 20_000 + "]" * 20_000 + "}"
     (folder / "nested_brackets.gltf").write_text(nested)
     fan = folder / "triangles_at_one_edge.obj"
     with fan.open("w") as out:

@@ -12,6 +12,7 @@ colours are measured by faqem.compare(). The error of UVs is the difference of c
 """
 
 import argparse
+import functools
 import importlib.metadata
 import json
 import pathlib
@@ -21,6 +22,9 @@ import tempfile
 import time
 
 import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "docs/statements"))
+from model import png
 
 RATIO = 0.1
 TEXTURE_SIZE = 1024
@@ -217,19 +221,10 @@ def write_textured(folder, name, mesh, image, suffix):
     return file
 
 
+@functools.cache
 def uv_picture():
     """Returns a PNG whose red is u and whose green is v, of 1024 x 1024 texels."""
-    import struct
-    import zlib
-
-    ramp = numpy.arange(1024) * 255 // 1023
-    texels = numpy.zeros((1024, 1024, 3), numpy.uint8)
-    texels[..., 0], texels[..., 1] = ramp, ramp[:, None]
-    chunks = ((b"IHDR", struct.pack(">IIBBBBB", 1024, 1024, 8, 2, 0, 0, 0)),
-              (b"IDAT", zlib.compress(b"".join(b"\0" + row.tobytes() for row in texels))), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
-        for kind, content in chunks)
+    return png(lambda x, y: (x * 255 // 1023, y * 255 // 1023, 0), 1024, kind=2)
 
 
 def errors(source, result):

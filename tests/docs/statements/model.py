@@ -42,15 +42,19 @@ def grid(side=SIDE):
     return positions, uvs, triangles
 
 
+def png_of(size, kind, *chunks):
+    """A PNG of size x size pixels of a kind: 0 grey, 2 RGB, 6 RGBA. `chunks`: names and bytes, between the first and last."""
+    header = struct.pack(">IIBBBBB", size, size, 8, kind, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+        for name, data in ((b"IHDR", header), *chunks, (b"IEND", b"")))
+
+
 def png(pixel, size=4, kind=6):
     """A PNG of size x size pixels: bytes of one, or a function of (x, y). `kind`: 0 grey, 2 RGB, 6 RGBA."""
     at = pixel if callable(pixel) else lambda x, y: pixel
     rows = b"".join(b"\0" + b"".join(bytes(at(x, y)) for x in range(size)) for y in range(size))
-
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, kind, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    return png_of(size, kind, (b"IDAT", zlib.compress(rows)))
 
 
 class Runs:
