@@ -3,7 +3,7 @@
 FOLDER has the same module without the plugin.
 """
 
-import json
+import pathlib
 import struct
 import subprocess
 import sys
@@ -12,6 +12,9 @@ import unittest
 import alktx2
 import faqem
 import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "docs" / "statements"))
+from model import Gltf, gltf_grid
 
 WIDTH, HEIGHT = 62, 47
 KINDS = {
@@ -40,40 +43,19 @@ def decoded_by_alktx2(ktx2):
 
 
 def model(image, mime_type="image/ktx2"):
-    """A GLB of a curved square with one texture."""
-    ids = numpy.arange((SIDE + 1) ** 2).reshape(SIDE + 1, SIDE + 1)
-    a, b, c, d = (part.ravel() for part in (ids[:-1, :-1], ids[:-1, 1:], ids[1:, :-1], ids[1:, 1:]))
-    faces = numpy.stack([a, b, d, a, d, c], axis=-1).astype("<u4")
-    v, u = (part.ravel() / SIDE for part in numpy.mgrid[0 : SIDE + 1, 0 : SIDE + 1])
-    arrays = [numpy.stack([u, v, u * u], axis=-1), numpy.stack([u, v], axis=-1)]
-    chunks = [array.astype("<f4").tobytes() for array in arrays] + [faces.tobytes(), image]
-    views, content = [], b""
-    for chunk in chunks:
-        views.append({"buffer": 0, "byteOffset": len(content), "byteLength": len(chunk)})
-        content += chunk + bytes(-len(chunk) % 4)
-    extension = {"KHR_texture_basisu": {"source": 0}}
-    is_ktx2 = mime_type == "image/ktx2"
-    document = {
-        "asset": {"version": "2.0"},
-        "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "buffers": [{"byteLength": len(content)}], "bufferViews": views,
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": ids.size, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]},
-            {"bufferView": 1, "componentType": 5126, "count": ids.size, "type": "VEC2"},
-            {"bufferView": 2, "componentType": 5125, "count": faces.size, "type": "SCALAR"}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
-        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}}],
-        "textures": [{"extensions": extension} if is_ktx2 else {"source": 0}],
-        "images": [{"name": "wood", "bufferView": 3, "mimeType": mime_type}]}
-    if is_ktx2:
-        document["extensionsUsed"] = document["extensionsRequired"] = list(extension)
-    text = json.dumps(document).encode()
-    text += b" " * (-len(text) % 4)
-    parts = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(content), 0x004E4942) + content
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(parts)) + parts
+    """A GLB of a bumpy square with one texture."""
+    glb = gltf_grid({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}}, side=SIDE)
+    glb.add("images", {"name": "wood", "bufferView": glb.view(image), "mimeType": mime_type})
+    if mime_type == "image/ktx2":
+        glb.add("textures", {"extensions": {"KHR_texture_basisu": {"source": 0}}})
+        glb.json["extensionsUsed"] = glb.json["extensionsRequired"] = ["KHR_texture_basisu"]
+    else:
+        glb.add("textures", {"source": 0})
+    return glb.bytes()
 
 
 def document_of(glb):
-    return json.loads(glb[20 : 20 + struct.unpack_from("<I", glb, 12)[0]])
+    return Gltf(glb, {"warnings": []}).json
 
 
 def pixels_of(image, mime_type="image/ktx2"):
