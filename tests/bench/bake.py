@@ -8,34 +8,30 @@ import argparse
 import json
 import os
 import pathlib
-import resource
 import statistics
-import subprocess
 import sys
 import tempfile
+
+from results import models, run
 
 BAKE = ["--bake", "atlas", "--texture-size", "2048", "--normal-map", "off", "--image-format", "png"]
 
 
-def run(program, model, out, ratio, threads, extra):
+def measured(program, model, out, ratio, threads, extra):
     """Runs one command. Returns its seconds by stage, its CPU seconds and texels of pages."""
     report = out.with_suffix(".json")
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    words = [program, "simplify", model, out, "--ratio", ratio, "--threads", threads, "--report", report, "--force",
-             "--quiet", *BAKE, *extra]
-    made = subprocess.run(list(map(str, words)), capture_output=True, text=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    made, cpu = run(program, "simplify", model, out, "--ratio", ratio, "--threads", threads, "--report", report, "--force",
+                    "--quiet", *BAKE, *extra)
     if made.returncode != 0:
         sys.exit(f"{model}: {made.stderr.strip()}")
     content = json.loads(report.read_text(encoding="utf-8"))
     texels = sum(page["width"] * page["height"] for page in content.get("pages", []))
-    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return {"map": content["seconds"]["map"], "bake": content["seconds"]["bake"], "cpu": cpu, "texels": texels}
 
 
 def accepts(program, option):
     """Whether a build knows an option."""
-    return option in subprocess.run([str(program), "simplify", "--help-all"], capture_output=True, text=True).stdout
+    return option in run(program, "simplify", "--help-all")[0].stdout
 
 
 def best(runs):
@@ -50,7 +46,7 @@ def measure(arguments, model, ratio, threads, folder):
     for _ in range(arguments.runs):
         for index, program in enumerate(builds):
             extra = ["--allow-larger"] if accepts(program, "--allow-larger") else []
-            runs[index].append(run(program, model, outs[index], ratio, threads, extra))
+            runs[index].append(measured(program, model, outs[index], ratio, threads, extra))
     return [best(rows) for rows in runs], len({out.read_bytes() for out in outs}) == 1
 
 
@@ -71,14 +67,6 @@ def relative(rows):
     return seconds[0] / seconds[1]
 
 
-def models():
-    """The textured models of a directory."""
-    if "FAQEM_BENCH_TEXTURED" not in os.environ:
-        sys.exit("no models: pass some or set FAQEM_BENCH_TEXTURED")
-    folder = pathlib.Path(os.environ["FAQEM_BENCH_TEXTURED"])
-    return [file for file in sorted(folder.rglob("*")) if file.suffix.lower() in (".glb", ".gltf", ".obj")]
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tool", type=pathlib.Path, help="the command faqem")
@@ -89,6 +77,8 @@ def main():
     parser.add_argument("--threads", type=int, nargs="+", default=[1, os.cpu_count()])
     parser.add_argument("--runs", type=int, default=3)
     arguments = parser.parse_args()
+    if not arguments.models and "FAQEM_BENCH_TEXTURED" not in os.environ:
+        parser.error("no models: pass some or set FAQEM_BENCH_TEXTURED")
     arguments.tool = arguments.tool.resolve()
     arguments.baseline = arguments.baseline and arguments.baseline.resolve()
     columns = ["model", "ratio", "threads", "map s", "bake s", "CPU s", "Mtexels"]
@@ -98,7 +88,7 @@ def main():
     print("|---" + "|---:" * (len(columns) - 1) + "|", flush=True)
     ratios = []
     with tempfile.TemporaryDirectory() as folder:
-        for model in arguments.models or models():
+        for model in arguments.models or models(pathlib.Path(os.environ["FAQEM_BENCH_TEXTURED"])):
             for ratio in arguments.ratios:
                 for threads in dict.fromkeys(arguments.threads):
                     rows, same = measure(arguments, model, ratio, threads, pathlib.Path(folder))

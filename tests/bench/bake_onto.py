@@ -14,12 +14,12 @@ import argparse
 import json
 import math
 import pathlib
-import resource
 import statistics
-import subprocess
+import time
 
 import bpy
 import numpy
+from results import run
 
 DISTANCES = [0.03, 0.01, 0.1]
 ANGLES = [66, 45, 30, 15, 5, 0]
@@ -134,10 +134,10 @@ def bake(sources, target, distance, size):
         if kind in EMITTED:
             emit(sources, EMITTED[kind])
         select([*sources, target], target)
-        before = cpu(resource.RUSAGE_SELF)
+        before = time.process_time()
         bpy.ops.object.bake(type="EMIT" if kind in EMITTED else "NORMAL", use_selected_to_active=True,
                             cage_extrusion=distance, max_ray_distance=2 * distance, margin=16)
-        seconds[kind] = cpu(resource.RUSAGE_SELF) - before
+        seconds[kind] = time.process_time() - before
         node.image.pack()
         between = {"normal": "ShaderNodeNormalMap", "orm": "ShaderNodeSeparateColor"}.get(kind)
         last = tree.nodes.new(between) if between else node
@@ -149,22 +149,13 @@ def bake(sources, target, distance, size):
     return seconds["normal"] + seconds["color"]
 
 
-def cpu(whose):
-    usage = resource.getrusage(whose)
-    return usage.ru_utime + usage.ru_stime
-
-
-def run(*words):
-    return subprocess.run(list(map(str, words)), capture_output=True, text=True)
-
-
 def psnr(arguments, source, tests, folder):
     """Unlit and lit PSNR of each test."""
     pairs = [word for t in tests for word in (t, folder / t.stem)]
     run(arguments.tools / "render/render.mjs", source, folder / "source", *pairs, "--frame-of", source, "--views", 6,
         "--size", 384)
     compare = ["/usr/bin/python3", arguments.tools / "compare/compare.py", folder / "source"]
-    found = {t: json.loads(run(*compare, folder / t.stem).stdout) for t in tests}
+    found = {t: json.loads(run(*compare, folder / t.stem)[0].stdout) for t in tests}
     return {t: [found[t][p]["psnr_fg"]["mean"] for p in ("unlit", "lit")] for t in tests}
 
 
@@ -177,10 +168,8 @@ def measure(arguments, model, kind, folder):
     for angle in ANGLES:
         unwrap(target, angle)
         save(target, bare)
-        before = cpu(resource.RUSAGE_CHILDREN)
-        made = run(arguments.faqem, "bake", bare, own, "--source", model, "--uvs", "keep", "--texture-size",
-                   arguments.size, "--normal-map", "on", "--image-format", "png", "--threads", 1, "--force")
-        own_seconds = cpu(resource.RUSAGE_CHILDREN) - before
+        made, own_seconds = run(arguments.faqem, "bake", bare, own, "--source", model, "--uvs", "keep", "--texture-size",
+                                arguments.size, "--normal-map", "on", "--image-format", "png", "--threads", 1, "--force")
         if "cannot be kept" not in made.stderr:
             break
     tests = [own]
@@ -192,7 +181,7 @@ def measure(arguments, model, kind, folder):
         save(target, tests[-1])
     values = psnr(arguments, model, tests, folder)
     for t in tests:
-        wrong = json.loads(run(arguments.texdist, model, t, "--no-chamfer").stdout)["wrong_side_rate"]
+        wrong = json.loads(run(arguments.texdist, model, t, "--no-chamfer")[0].stdout)["wrong_side_rate"]
         values[t] += [100 * wrong, own_seconds if t == own else seconds[0]]
     best = max(tests[1:], key=lambda t: values[t][0])
     return [value for pair in zip(values[best], values[own]) for value in pair]

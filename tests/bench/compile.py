@@ -3,28 +3,23 @@ the number of lines after preprocessing. Then that of a program that simplifies 
 the decimation of OpenMesh and CGAL if these are installed (libopenmesh-dev, libcgal-dev), and its size without
 symbols. Needs build/release. Usage: compile.py [COMPILER [REPETITIONS]]"""
 import pathlib
-import resource
 import statistics
 import subprocess
 import sys
 import tempfile
+
+from results import run
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 HEADERS = ["mesh.hpp", "simplify.hpp", "levels.hpp", "surface_map.hpp", "forward_map.hpp", "compare.hpp", "asset.hpp",
            "bake.hpp", "faqem.hpp", "openmesh.hpp", "engine/simplify_with.hpp"]
 
 
-def cpu_seconds(command):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, check=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
 def measure_program(compiler, flags, source, libraries, folder):
     """Returns the CPU time to compile and link a program of tests/bench/compile, and its size in bytes."""
     out = pathlib.Path(folder) / "program"
-    seconds = cpu_seconds([compiler, *flags, SOURCE / "tests/bench/compile" / source, "-o", out, *libraries])
+    _, seconds = run(compiler, *flags, SOURCE / "tests/bench/compile" / source, "-o", out, *libraries, check=True,
+                     capture_output=False)
     subprocess.run(["strip", out], check=True)
     return seconds, out.stat().st_size
 
@@ -38,7 +33,8 @@ def main():
         file, out = pathlib.Path(folder) / "header.cpp", pathlib.Path(folder) / "header.o"
         for header in HEADERS:
             file.write_text(f"#include <faqem/{header}>\n", encoding="utf-8")
-            seconds = statistics.median(cpu_seconds([compiler, *flags, "-c", file, "-o", out]) for _ in range(repetitions))
+            seconds = statistics.median(run(compiler, *flags, "-c", file, "-o", out, check=True, capture_output=False)[1]
+                                        for _ in range(repetitions))
             preprocessed = subprocess.run([compiler, *flags, "-E", "-P", file], check=True, capture_output=True).stdout
             print(f"| `faqem/{header}` | {seconds:.2f} | {len(preprocessed.splitlines())} |", flush=True)
         print("\n| program | CPU s | bytes |\n|---|---:|---:|")

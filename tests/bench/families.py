@@ -4,12 +4,12 @@
 Usage: families.py COMMAND [FAMILY ...]
 """
 import itertools
-import resource
 import subprocess
 import sys
 import tempfile
 
 import numpy as np
+from results import run
 
 rng = np.random.default_rng(1)
 
@@ -90,13 +90,11 @@ def write(path, points, faces):
 
 
 def seconds(command, preset, folder):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     try:
-        subprocess.run([command, "simplify", f"{folder}/in.ply", f"{folder}/out.ply", "--ratio", "0.1", "--preset", preset,
-                        "--threads", "1", "--force", "--quiet"], check=True, timeout=300, stderr=subprocess.DEVNULL)
+        return run(command, "simplify", f"{folder}/in.ply", f"{folder}/out.ply", "--ratio", "0.1", "--preset", preset,
+                   "--threads", "1", "--force", "--quiet", check=True, timeout=300)[1]
     except subprocess.TimeoutExpired:
         return float("inf")
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def main(command, *names):

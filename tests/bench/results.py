@@ -3,11 +3,26 @@
 import json
 import math
 import pathlib
+import resource
+import subprocess
 
 # Smaller values are due to rounding. Units: the diagonal, its square, degrees, the diagonal.
 FLOORS = {"hausdorff": 1e-7, "chamfer": 1e-14, "normal_degrees": 1e-2, "border_hausdorff": 1e-7}
 TOLERANCE = 0.01
 ONE_COLLAPSE = 4  # faces removed by one collapse: two, or more at a non-manifold edge
+
+
+def run(*words, **options):
+    """Runs a command. Returns what subprocess.run() does, with the texts of the command, and its CPU seconds."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(list(map(str, words)), **{"capture_output": True, "text": True, **options})
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return done, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def models(folder):
+    """Returns the models below a folder that may have textures, sorted by name."""
+    return [file for file in sorted(folder.rglob("*")) if file.suffix.lower() in (".glb", ".gltf", ".obj")]
 
 
 def json_lines(file):

@@ -11,11 +11,11 @@ import argparse
 import json
 import os
 import pathlib
-import resource
 import statistics
-import subprocess
 import sys
 import tempfile
+
+from results import models, run
 
 
 def arguments():
@@ -30,7 +30,7 @@ def arguments():
 
 def source_texels(tool, file):
     """Texels of all images of a model; None if the command cannot read it."""
-    info = subprocess.run([tool, "info", file, "--json"], capture_output=True, text=True)
+    info, _ = run(tool, "info", file, "--json")
     if info.returncode != 0:
         return None
     return texels(json.loads(info.stdout).get("images", []))
@@ -45,25 +45,20 @@ def simplified(args, file):
     """The report of a run, and its CPU seconds; None if it failed."""
     with tempfile.TemporaryDirectory() as folder:
         report = pathlib.Path(folder) / "report.json"
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        made = subprocess.run([args.tool, "simplify", file, pathlib.Path(folder) / f"out{file.suffix.lower()}", "--ratio",
-                               str(args.ratio), "--quiet", "--report", report, *args.options.split()],
-                              capture_output=True, text=True)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        made, seconds = run(args.tool, "simplify", file, pathlib.Path(folder) / f"out{file.suffix.lower()}", "--ratio",
+                            args.ratio, "--quiet", "--report", report, *args.options.split())
         if made.returncode != 0:
             print(f"| {file.stem} | {made.stderr.strip().splitlines()[-1]} |")
             return None
-        seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         return json.loads(report.read_text()), seconds
 
 
 def main():
     args = arguments()
-    files = sorted(file for file in args.folder.rglob("*") if file.suffix.lower() in (".glb", ".gltf", ".obj"))
     print("| model | faces in | kB in | kB out | out / in | texels out / in | meshes with kept UVs | CPU s |")
     print("|---|---:|---:|---:|---:|---:|---:|---:|")
     bytes_ratios, texel_ratios, bytes_in, bytes_out = [], [], 0, 0
-    for file in files:
+    for file in models(args.folder):
         texels_in = source_texels(args.tool, file)
         result = simplified(args, file)
         if not result:

@@ -107,7 +107,7 @@ def ablation_section(arguments, rows, by_ratio):
     colours, whole, left_out = {label: None for label in labels}, [], {}
     if arguments.textured:
         colours, whole, left_out = textured.against_first(
-            textured.run(arguments, ablation_weights(), arguments.out / "study-textured.jsonl"), labels)
+            textured.measure_all(arguments, ablation_weights(), arguments.out / "study-textured.jsonl"), labels)
     head_ = ["terms, 10%", "H open", "C open", "H closed", "C closed", "colour RMSE", "paper: H", "C", "texture"]
     lines = [[label] + [number(x, 3) for x in (*columns["open"][i], *columns["closed"][i], colours[label], *paper[i])]
              for i, label in enumerate(labels)]

@@ -2,10 +2,9 @@
 
 import json
 import pathlib
-import subprocess
 import tempfile
 
-from results import geomean, json_lines
+from results import geomean, json_lines, models, run
 
 RATIO = 0.1
 SAMPLES = 50000
@@ -14,8 +13,8 @@ LEAST_FACES = 2000  # a tenth of a smaller model would be too few triangles
 FLOOR = 1e-4  # smaller differences are due to rounding: 8 bits have steps of 4e-3
 
 
-def tool(arguments, command, *words):
-    return subprocess.run([arguments.tool, command, *map(str, words)], capture_output=True, text=True)
+def tool(arguments, *words):
+    return run(arguments.tool, *words)[0]
 
 
 def faces(arguments, file):
@@ -24,13 +23,11 @@ def faces(arguments, file):
     return json.loads(result.stdout)["total"]["faces"] if result.returncode == 0 else None
 
 
-def models(arguments):
+def subjects(arguments):
     """Returns (name, file) of the models by increasing face count; models that the command cannot read come first."""
     folder = pathlib.Path(arguments.textured)
     found = []
-    for file in sorted(folder.rglob("*")):
-        if file.suffix.lower() not in (".glb", ".gltf", ".obj"):
-            continue
+    for file in models(folder):
         count = faces(arguments, file)
         if count is None or LEAST_FACES <= count <= arguments.max_textured:
             found.append((count or 0, file.relative_to(folder).as_posix(), file))
@@ -56,11 +53,11 @@ def load(file):
     return {(row["model"], row["label"]): row for row in json_lines(file)} if file.exists() else {}
 
 
-def run(arguments, steps, file):
+def measure_all(arguments, steps, file):
     """Measures missing rows and returns all rows by (model, label). steps: list of (label, weights)"""
     rows = load(file)
     with file.open("a", encoding="utf-8") as out:
-        for name, path in models(arguments):
+        for name, path in subjects(arguments):
             for label, weights in steps:
                 if (name, label) in rows:
                     continue
