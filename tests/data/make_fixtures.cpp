@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "faqem/asset.hpp"
-#include "support/meshes.hpp"
+#include "support/scenes.hpp"
 
 namespace {
 
@@ -20,30 +20,18 @@ Asset with_part(Part part, const char* name) {
 
 /// A texture of 8 x 8 coloured squares.
 Image checkers() {
-    Pixels pixels{64, 64, {}, false};
-    for (std::uint32_t y = 0; y < pixels.height; ++y) {
-        for (std::uint32_t x = 0; x < pixels.width; ++x) {
-            const std::uint32_t i = x / 8, j = y / 8;
-            const bool dark = (i + j) % 2 == 0;
-            for (const std::uint32_t c :
-                 {dark ? 40 + 20 * i : 220u, dark ? 40 + 20 * j : 220u, dark ? 90u : 200u, 255u})
-                pixels.rgba.push_back(static_cast<std::uint8_t>(c));
-        }
-    }
-    return encode_png(pixels, "checkers");
-}
-
-Part part_of(const TriangleMesh& mesh) {
-    Part part;
-    part.positions = mesh.positions;
-    part.triangles = mesh.triangles;
-    return part;
+    const auto color = [](std::uint32_t x, std::uint32_t y) {
+        const auto i = static_cast<std::uint8_t>(40 + 20 * (x / 8)),
+                   j = static_cast<std::uint8_t>(40 + 20 * (y / 8));
+        return (x / 8 + y / 8) % 2 == 0 ? test::Rgba{i, j, 90, 255} : test::Rgba{220, 220, 200, 255};
+    };
+    return encode_png(test::paint(64, 64, color), "checkers");
 }
 
 /// The unit cube, n x n squares on each side. Every side has vertices of its own: normals and UVs have seams along
 /// all edges of the cube.
 Part cube_with_seams(Index n) {
-    Part part = part_of(test::fine_cube(n));
+    Part part = test::part_of(test::fine_cube(n));
     part.uvs.resize(1);
     for (std::size_t v = 0; v < part.positions.size(); ++v) {
         const std::size_t side = v / ((n + 1) * (n + 1)), axis = side / 2;
@@ -70,19 +58,15 @@ Part nonmanifold_fan(Index pages) {
 
 /// n x n squares over [0, 1]^2 with a low bump: a surface with one boundary.
 Part open_grid(Index n) {
-    Part part = part_of(test::square(n, 1, 0));
+    Part part = test::part_of(test::square(n, 1, 0));
     for (auto& [x, y, z] : part.positions) z = x * (1 - x) * y * (1 - y);
     return part;
 }
 
 /// Two triangles with the whole texture on them.
 Asset textured_quad() {
-    Part part;
+    Part part = test::square();
     part.name = "quad";
-    part.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-    part.triangles = {{0, 1, 2}, {0, 2, 3}};
-    part.uvs = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
-    part.face_material = {0, 0};
     Asset asset;
     asset.images.push_back(checkers());
     Material material;
