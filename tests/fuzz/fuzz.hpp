@@ -3,8 +3,6 @@
 /// Helpers for the fuzz targets. Each target defines LLVMFuzzerTestOneInput(), which libFuzzer or replay.cpp
 /// calls.
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -12,7 +10,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +17,7 @@
 #include "faqem/asset.hpp"
 #include "faqem/error.hpp"
 #include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -144,35 +142,17 @@ auto refusable(const std::string& file, Call&& call) -> std::optional<decltype(c
     return {};
 }
 
-/// Path of a file in a temporary folder of this process. TMPDIR should be a memory file system, since the
-/// writers flush their files to the disk.
-inline std::string scratch_file(const std::string& name) {
-    static const struct Folder {
-        std::filesystem::path path =
-            std::filesystem::temp_directory_path() / ("faqem-fuzz-" + std::to_string(::getpid()));
-        Folder() { std::filesystem::create_directories(path); }
-        ~Folder() {
-            std::error_code ignored;
-            std::filesystem::remove_all(path, ignored);
-        }
-    } folder;
-    return (folder.path / name).string();
-}
-
-/// Number of faces of all instances in the scene.
-inline std::uint64_t shown_faces(const Asset& asset) {
-    std::uint64_t faces = 0;
-    for (const Instance& instance : instances(asset)) faces += asset.parts[instance.part].triangles.size();
-    return faces;
-}
-
-/// Writes an asset and reads it again; aborts if the result is invalid.
+/// Writes an asset and reads it again; aborts if the result is invalid. TMPDIR should be a memory file system, since
+/// the writers flush their files to the disk.
 /// \return the asset read back; nullopt if it cannot be written, or if it shows no face and the format has no
 ///         scene
 inline std::optional<Asset> written_and_read(const Asset& asset, const std::string& name) {
-    const std::string file = scratch_file(name);
+    static const testing::TemporaryFolder folder;
+    const std::string file = folder / name;
     const bool holds_scene = name.ends_with(".glb") || name.ends_with(".gltf");
-    if (!holds_scene && shown_faces(asset) == 0) return {};
+    const auto has_faces = [&](const Instance& i) { return !asset.parts[i.part].triangles.empty(); };
+    const std::vector<Instance> shown = instances(asset);
+    if (!holds_scene && std::none_of(shown.begin(), shown.end(), has_faces)) return {};
     try {
         save(asset, file, Overwrite::yes);
     } catch (const WriteError&) {
