@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "faqem/engine/mesh/vector.hpp"
+
 namespace faqem::bench {
 
 namespace {
@@ -177,16 +179,9 @@ private:
 
     /// Adds a triangle, oriented so that the inside corner of the cell is on its back side.
     void triangle(Index a, Index b, Index d, const Cell& c, unsigned inside) {
-        const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[d];
-        const Vec3 s = field_.position(corner(c, inside));
-        Vec3 u, w, n;
-        for (std::size_t k = 0; k < 3; ++k) {
-            u[k] = q[k] - p[k];
-            w[k] = r[k] - p[k];
-            n[k] = p[k] - s[k];
-        }
-        const double volume = n[0] * (u[1] * w[2] - u[2] * w[1]) + n[1] * (u[2] * w[0] - u[0] * w[2]) +
-                              n[2] * (u[0] * w[1] - u[1] * w[0]);
+        const auto at = [&](Index v) { return engine::to_eigen(mesh.positions[v]); };
+        const engine::Vector3 from_inside = at(a) - engine::to_eigen(field_.position(corner(c, inside)));
+        const double volume = from_inside.dot(engine::area_vector(at(a), at(b), at(d)));
         mesh.triangles.push_back(volume > 0 ? Triangle{a, b, d} : Triangle{a, d, b});
     }
 

@@ -3,6 +3,7 @@
 
 #include "bench/isosurface.hpp"
 #include "faqem/compare.hpp"
+#include "faqem/engine/mesh/vector.hpp"
 #include "support/catch.hpp"
 
 using namespace faqem;
@@ -24,9 +25,8 @@ TEST_CASE("isosurface generates a closed manifold with outward normals") {
         std::set<std::pair<Index, Index>> edges;
         double volume = 0;
         for (const Triangle& t : mesh.triangles) {
-            const Vec3 &p = mesh.positions[t[0]], &q = mesh.positions[t[1]], &r = mesh.positions[t[2]];
-            volume += p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
-                      p[2] * (q[0] * r[1] - q[1] * r[0]);
+            const auto at = [&](std::size_t k) { return engine::to_eigen(mesh.positions[t[k]]); };
+            volume += at(0).dot(at(1).cross(at(2)));
             for (std::size_t k = 0; k < 3; ++k) CHECK(edges.emplace(t[k], t[(k + 1) % 3]).second);
         }
         CHECK(volume > 0);
