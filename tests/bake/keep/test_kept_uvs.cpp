@@ -223,22 +223,12 @@ TEST_CASE("kept UVs: none are tried when an option is about the atlas or the col
     const auto kept = [&](Options options) { return simplify_parts(asset, options).with_uvs.size(); };
     CHECK(kept(tenth()) == 1);
     Options options = tenth();
-    options.history = Recording::on;
-    CHECK(kept(options) == 0);
-    options = tenth();
-    options.bake.correspondence = Recording::on;
-    CHECK(kept(options) == 0);
-    options = tenth();
-    options.bake.kind = Bake::atlas;
-    CHECK(kept(options) == 0);
-    options = tenth();
-    options.bake.texel_density = 1;
-    CHECK(kept(options) == 0);
-    options = tenth();
-    options.bake.normal_map = NormalMap::on;
-    CHECK(kept(options) == 0);
-    options = tenth();
-    options.target = ratio(1);
+    SECTION("history") { options.history = Recording::on; }
+    SECTION("correspondence") { options.bake.correspondence = Recording::on; }
+    SECTION("kind") { options.bake.kind = Bake::atlas; }
+    SECTION("texel density") { options.bake.texel_density = 1; }
+    SECTION("normal map") { options.bake.normal_map = NormalMap::on; }
+    SECTION("target") { options.target = ratio(1); }
     CHECK(kept(options) == 0);
 }
 
