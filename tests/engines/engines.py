@@ -18,9 +18,9 @@ import threading
 import time
 
 import faqem
-import numpy
 import services
 import slurm
+from test_compatible import bumpy_grid
 
 SHARDS, MODELS = 24, 300
 HANGS, CRASHES, WORKER_KILLED, PROCESS_KILLED, TERMINATED = "m6.ply", "m7.ply", "m8.ply", "m9.ply", "m22.ply"
@@ -32,11 +32,7 @@ def make_models(folder):
     for i in range(MODELS):
         name = f"m{i}.ply"
         n = 400 if name in (WORKER_KILLED, PROCESS_KILLED, TERMINATED) else 8 + i % 40  # the first take a second
-        x, y = numpy.meshgrid(numpy.arange(n + 1.0), numpy.arange(n + 1.0))
-        vertices = numpy.stack([x, y, numpy.sin(x / 3) * numpy.cos(y / 5)], -1).reshape(-1, 3)
-        a = (numpy.arange(n)[:, None] * (n + 1) + numpy.arange(n)).ravel()
-        triangles = numpy.concatenate([numpy.stack([a, a + 1, a + n + 2], -1), numpy.stack([a, a + n + 2, a + n + 1], -1)])
-        faqem.save((vertices, triangles), folder / name)
+        faqem.save(bumpy_grid(n), folder / name)
 
 
 class Job:
