@@ -15,7 +15,7 @@
 #include "support/catch.hpp"
 #include "support/format_support.hpp"
 #include "support/gltf_builder.hpp"
-#include "support/meshes.hpp"
+#include "support/scenes.hpp"
 
 using namespace faqem;
 using namespace faqem::testing;
@@ -29,14 +29,7 @@ const std::map<std::string_view, std::string> read_only_samples = {
     {".off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"}};
 
 /// Two triangles with a textured material.
-Asset textured_square() {
-    Asset asset = one_part({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
-    asset.parts[0].uvs = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
-    asset.parts[0].face_material = {0, 0};
-    asset.images.push_back(encode_png(Pixels{1, 1, {255, 0, 0, 255}, false}, "red"));
-    asset.materials.emplace_back().base_color_texture.image = 0;
-    return asset;
-}
+Asset textured_square() { return test::textured_square({1, 1, {255, 0, 0, 255}, false}); }
 
 std::string upper_case(std::string text) {
     for (char& c : text)
