@@ -9,19 +9,13 @@
 #include "faqem/bake.hpp"
 #include "faqem/error.hpp"
 #include "support/catch.hpp"
+#include "support/format_support.hpp"
 #include "support/painted_sheet.hpp"
 
 using namespace tool_test;
+using faqem::testing::texts_in;
 
 namespace {
-
-// All files of a folder, by name.
-std::map<std::string, std::string> contents(const fs::path& folder) {
-    std::map<std::string, std::string> result;
-    for (const auto& entry : fs::directory_iterator(folder))
-        result[entry.path().filename().string()] = read(entry.path());
-    return result;
-}
 
 faqem::Options options_for(faqem::ModelFormat format, std::uint64_t max_bytes) {
     faqem::Options options;
@@ -61,10 +55,10 @@ TEST_CASE("load, simplify for a format, and save: the bytes of the command, for 
                 for (const std::string& warning : faqem::save(result.asset, folder / "steps" / out))
                     CHECK(warning.find("was made for") == std::string::npos);
                 const faqem::Report report = faqem::simplify(folder / in, folder / "call" / out, options);
-                CHECK(contents(folder / "steps") == contents(folder / "command"));
-                CHECK(contents(folder / "call") == contents(folder / "command"));
+                CHECK(texts_in(folder / "steps") == texts_in(folder / "command"));
+                CHECK(texts_in(folder / "call") == texts_in(folder / "command"));
                 std::uint64_t total = 0;
-                for (const auto& [name, text] : contents(folder / "call")) total += text.size();
+                for (const auto& [name, text] : texts_in(folder / "call")) total += text.size();
                 CHECK(report.bytes_out == total);
                 CHECK(report.bytes_in ==
                       fs::file_size(folder / in) + (in == "in.obj" ? fs::file_size(folder / "in.mtl") +
