@@ -12,11 +12,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "faqem/asset.hpp"
+#include "support/catch.hpp"
 #include "support/cli_paths.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -50,6 +55,22 @@ inline Outcome run(const Folder& folder, const std::string& arguments) {
                                 "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(streams / "out"), read(streams / "err")};
+}
+
+/// The lines of a text as JSON.
+inline std::vector<nlohmann::json> json_lines(const std::string& text) {
+    std::vector<nlohmann::json> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(nlohmann::json::parse(line));
+    return lines;
+}
+
+/// The output lines of a batch, by the path of their model.
+inline std::map<std::string, nlohmann::json> lines_by_path(const Outcome& outcome) {
+    std::map<std::string, nlohmann::json> lines;
+    for (const nlohmann::json& line : json_lines(outcome.out))
+        CHECK(lines.emplace(line["path"], line).second);
+    return lines;
 }
 
 /// True if the process has executed the faqem command and has installed a handler for the signal.

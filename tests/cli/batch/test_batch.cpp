@@ -1,7 +1,6 @@
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "support/catch.hpp"
@@ -11,19 +10,8 @@ using namespace tool_test;
 
 namespace {
 
-/// Parses the output lines of a batch. \return the lines by path of their model
-std::map<std::string, nlohmann::json> lines_of(const Outcome& outcome) {
-    std::map<std::string, nlohmann::json> lines;
-    std::istringstream in(outcome.out);
-    for (std::string line; std::getline(in, line);) {
-        const nlohmann::json json = nlohmann::json::parse(line);
-        lines[json["path"]] = json;
-    }
-    return lines;
-}
-
 std::string status(const Outcome& outcome, const std::string& name) {
-    const auto lines = lines_of(outcome);
+    const auto lines = lines_by_path(outcome);
     return lines.contains(name) ? lines.at(name)["status"].get<std::string>() : "none";
 }
 
@@ -53,7 +41,7 @@ TEST_CASE("batch writes the same bytes as simplify for every model of a director
     CHECK(outcome.code == 0);
     // Beside the notes there are the material library and the image of b.obj.
     CHECK(outcome.err == "faqem: 3 models: 3 done; 3 other files passed over\n");
-    const auto lines = lines_of(outcome);
+    const auto lines = lines_by_path(outcome);
     REQUIRE(lines.size() == 3);
     for (const auto& [in, out] : std::map<std::string, std::string>{
              {"a.glb", "a.glb"}, {"sub/b.obj", "sub/b.glb"}, {"sub/c.ply", "sub/c.glb"}}) {
@@ -88,7 +76,7 @@ TEST_CASE("a failing model does not stop a batch and its line has the code and m
     write(folder / "in/point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
     const Outcome outcome = run(folder, batch + "--jobs 2");
     CHECK(outcome.code == 9);
-    const auto lines = lines_of(outcome);
+    const auto lines = lines_by_path(outcome);
     REQUIRE(lines.size() == 6);
     for (const char* name : {"broken.ply", "empty.obj", "point.obj"}) {
         CAPTURE(name);
@@ -122,17 +110,17 @@ TEST_CASE("batch reports links that lead to no file as models that cannot be rea
     };
     const Outcome links = run(folder, batch);
     CHECK(links.code == 9);
-    CHECK(lines_of(links).size() == 2);
-    check_links(lines_of(links));
+    CHECK(lines_by_path(links).size() == 2);
+    check_links(lines_by_path(links));
     // Models beside them, and links to these, are processed.
     faqem::save(sheet(8), folder / "in/a.glb");
     fs::create_symlink("../a.glb", folder / "in/sub/b.glb");
     for (const char* resume : {"", "--resume"}) {
         const Outcome outcome = run(folder, batch + resume);
         CHECK(outcome.code == 9);
-        CHECK(lines_of(outcome).size() == 4);
-        check_links(lines_of(outcome));
-        CHECK(lines_of(outcome).at("sub/b.glb")["code"] == 0);
+        CHECK(lines_by_path(outcome).size() == 4);
+        check_links(lines_by_path(outcome));
+        CHECK(lines_by_path(outcome).at("sub/b.glb")["code"] == 0);
     }
 }
 
@@ -140,8 +128,8 @@ TEST_CASE("batch applies --max-error and --strict to each model") {
     const Models folder;
     const Outcome outcome = run(folder, batch + "--max-error 1e-9");
     CHECK(outcome.code == 9);
-    CHECK(lines_of(outcome).at("a.glb")["code"] == 6);
-    const std::string message = lines_of(outcome).at("a.glb")["message"];
+    CHECK(lines_by_path(outcome).at("a.glb")["code"] == 6);
+    const std::string message = lines_by_path(outcome).at("a.glb")["message"];
     CHECK(message.find("in/a.glb: max error exceeded: ") == 0);
     CHECK(message.find("; out/a.glb was not written") != std::string::npos);
     CHECK(!fs::exists(folder / "out/a.glb"));
@@ -152,7 +140,7 @@ TEST_CASE("batch applies --max-error and --strict to each model") {
     CHECK(status(run(folder, batch), "twice.obj") == "done");
     const Outcome strict = run(folder, batch + "--strict --resume");
     CHECK(strict.code == 9);
-    CHECK(lines_of(strict).at("twice.obj")["code"] == 3);
+    CHECK(lines_by_path(strict).at("twice.obj")["code"] == 3);
     CHECK(status(strict, "a.glb") == "done");
 }
 
@@ -172,7 +160,7 @@ TEST_CASE("batch does not read its results as models and does not overwrite its 
     CHECK(run(folder, "batch in in").code == 2);
     CHECK(run(folder, "batch in in/sub/..").code == 2);
     CHECK(run(folder, "batch in in/out --texture-size 64").code == 0);
-    CHECK(lines_of(run(folder, "batch in in/out --texture-size 64 --force")).size() == 3);
+    CHECK(lines_by_path(run(folder, "batch in in/out --texture-size 64 --force")).size() == 3);
     // linked/a.glb is a hard link to in/a.glb.
     fs::create_directory(folder / "linked");
     fs::create_hard_link(folder / "in/a.glb", folder / "linked/a.glb");
@@ -197,7 +185,7 @@ TEST_CASE("batch overwrites existing files only with --force") {
     for (const char* resume : {"", "--resume"}) {
         const Outcome outcome = run(folder, batch + resume);
         CHECK(outcome.code == 9);
-        const nlohmann::json line = lines_of(outcome).at("a.glb");
+        const nlohmann::json line = lines_by_path(outcome).at("a.glb");
         CHECK(line["code"] == 7);
         CHECK(line["message"] ==
               "out/a.glb: the file exists; --resume skips what is up to date, --force overwrites it");
@@ -213,7 +201,7 @@ TEST_CASE("batch --resume processes only models that are new, changed or without
     REQUIRE(run(folder, batch + "--resume").code == 0);
     const Outcome second = run(folder, batch + "--resume");
     CHECK(second.code == 0);
-    for (const auto& [name, line] : lines_of(second)) {
+    for (const auto& [name, line] : lines_by_path(second)) {
         CAPTURE(name);
         CHECK(line["status"] == "skipped");
         CHECK(line["faces_in"] > 0);
@@ -264,9 +252,9 @@ TEST_CASE("batch --resume redoes a result whose record is truncated") {
     const Outcome outcome = run(folder, batch + "--resume");
     CHECK(outcome.code == 0);
     int done = 0;
-    for (const auto& [name, line] : lines_of(outcome)) done += line["status"] == "done";
+    for (const auto& [name, line] : lines_by_path(outcome)) done += line["status"] == "done";
     CHECK(done == 1);
-    for (const auto& [name, line] : lines_of(run(folder, batch + "--resume")))
+    for (const auto& [name, line] : lines_by_path(run(folder, batch + "--resume")))
         CHECK(line["status"] == "skipped");
 }
 
@@ -276,10 +264,10 @@ TEST_CASE("batch exits with 8 after a signal and can be resumed") {
     for (const char* name : {"in/a.glb", "in/b.glb", "in/c.glb"}) faqem::save(sheet(150), folder / name);
     CHECK(signal_and_wait(start(folder, "batch", "in", "out", "--bake", "none"), SIGTERM) == 8);
     // Cancelled models have a line, too.
-    CHECK(lines_of({0, read(folder / "lines"), ""}).size() == 3);
+    CHECK(lines_by_path({0, read(folder / "lines"), ""}).size() == 3);
     const Outcome outcome = run(folder, "batch in out --bake none --resume");
     CHECK(outcome.code == 0);
-    CHECK(lines_of(outcome).size() == 3);
+    CHECK(lines_by_path(outcome).size() == 3);
 }
 
 TEST_CASE("batch --resume keeps a file that was there before an attempt that did not end") {

@@ -1,6 +1,5 @@
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "cli/files/sha256.hpp"
 #include "support/catch.hpp"
@@ -24,13 +23,6 @@ struct ListedModels : Folder {
         REQUIRE(run(*this, "list in -o models.jsonl").code == 0);
     }
 };
-
-std::vector<Json> json_lines(const std::string& text) {
-    std::vector<Json> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(Json::parse(line));
-    return lines;
-}
 
 /// The results of a folder by the name of their model, whatever folder they are in.
 std::map<std::string, std::string> results(const fs::path& folder) {

@@ -1,7 +1,6 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "support/catch.hpp"
 #include "support/cli_support.hpp"
@@ -33,16 +32,6 @@ void make_models_with_bad(const Folder& folder) {
     for (const char* name : {"a", "b", "c", "d", "e"})
         faqem::save(sheet(6), folder / "in" / (std::string(name) + ".ply"));
     faqem::save(sheet(8), folder / "in/bad.ply");
-}
-
-std::map<std::string, Json> lines_by_path(const Outcome& outcome) {
-    std::map<std::string, Json> lines;
-    std::istringstream in(outcome.out);
-    for (std::string line; std::getline(in, line);) {
-        const Json json = Json::parse(line);
-        CHECK(lines.emplace(json["path"], json).second);
-    }
-    return lines;
 }
 
 /// The first child of a process; 0 if it has none.
