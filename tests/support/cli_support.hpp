@@ -20,9 +20,9 @@
 #include <thread>
 #include <vector>
 
-#include "faqem/asset.hpp"
 #include "support/catch.hpp"
 #include "support/cli_paths.hpp"
+#include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace tool_test {
@@ -113,40 +113,23 @@ inline int signal_and_wait(pid_t process, int number) {
 
 /// An image whose left half is red and right half is blue.
 inline faqem::Image two_colours() {
-    faqem::Pixels pixels;
-    pixels.width = 64;
-    pixels.height = 32;
-    for (int i = 0; i < 64 * 32; ++i) {
-        const bool left = i % 64 < 32;
-        for (const int byte : {left ? 255 : 0, 0, left ? 0 : 255, 255}) {
-            pixels.rgba.push_back(static_cast<std::uint8_t>(byte));
-        }
-    }
-    return faqem::encode_png(pixels, "two");
+    const auto color = [](std::uint32_t x, std::uint32_t) {
+        return x < 32 ? faqem::test::Rgba{255, 0, 0, 255} : faqem::test::Rgba{0, 0, 255, 255};
+    };
+    return faqem::encode_png(faqem::test::paint(64, 32, color), "two");
 }
 
 /// A bumpy grid of n x n quads over [-1, 1]^2 with normals near +z, red on the left and blue on the right.
 /// \param bumps  amplitude
 inline faqem::Asset sheet(faqem::Index n, double bumps = 0.05) {
-    faqem::Asset asset;
-    faqem::Part part;
+    const auto uv_of = [n](const faqem::Vec3& p) { return std::array{p[0] / n, 1 - p[1] / n}; };
+    faqem::Part part = faqem::test::uv_mapped(faqem::test::part_of(faqem::test::grid(n)), uv_of);
     part.name = "sheet";
-    part.uvs.resize(1);
-    for (faqem::Index y = 0; y <= n; ++y) {
-        for (faqem::Index x = 0; x <= n; ++x) {
-            const double u = double(x) / n, v = double(y) / n;
-            part.positions.push_back({2 * u - 1, 2 * v - 1, bumps * std::sin(9 * u) * std::cos(7 * v)});
-            part.uvs[0].push_back({static_cast<float>(u), static_cast<float>(1 - v)});
-        }
+    for (faqem::Vec3& p : part.positions) {
+        const double u = p[0] / n, v = p[1] / n;
+        p = {2 * u - 1, 2 * v - 1, bumps * std::sin(9 * u) * std::cos(7 * v)};
     }
-    for (faqem::Index y = 0; y < n; ++y) {
-        for (faqem::Index x = 0; x < n; ++x) {
-            const faqem::Index v = y * (n + 1) + x;
-            part.triangles.push_back({v, v + 1, v + n + 2});
-            part.triangles.push_back({v, v + n + 2, v + n + 1});
-        }
-    }
-    part.face_material.assign(part.triangles.size(), 0);
+    faqem::Asset asset;
     faqem::Material material;
     material.base_color_texture.image = 0;
     material.metallic = 0;

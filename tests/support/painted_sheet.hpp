@@ -12,18 +12,15 @@ namespace tool_test {
 /// A curved sheet with a smooth image and some noise.
 inline faqem::Asset painted_sheet(faqem::Index n) {
     faqem::Asset asset = sheet(n, 0.2);
-    faqem::Pixels pixels{256, 256, {}, false};
     std::uint32_t state = 1;
-    for (std::uint32_t y = 0; y < 256; ++y) {
-        for (std::uint32_t x = 0; x < 256; ++x) {
-            state = state * 1664525u + 1013904223u;
-            const auto noise = static_cast<std::uint8_t>(state >> 28);
-            const auto wave = static_cast<std::uint8_t>(100 + 80 * std::sin(0.1 * x) * std::cos(0.07 * y));
-            pixels.rgba.insert(pixels.rgba.end(), {wave, static_cast<std::uint8_t>(x / 2 + noise),
-                                                   static_cast<std::uint8_t>(y / 2 + noise), 255});
-        }
-    }
-    asset.images[0] = faqem::encode_png(pixels, "painted");
+    const auto color = [&](std::uint32_t x, std::uint32_t y) {
+        state = state * 1664525u + 1013904223u;
+        const auto noise = static_cast<std::uint8_t>(state >> 28);
+        const auto wave = static_cast<std::uint8_t>(100 + 80 * std::sin(0.1 * x) * std::cos(0.07 * y));
+        return faqem::test::Rgba{wave, static_cast<std::uint8_t>(x / 2 + noise),
+                                 static_cast<std::uint8_t>(y / 2 + noise), 255};
+    };
+    asset.images[0] = faqem::encode_png(faqem::test::paint(256, 256, color), "painted");
     return asset;
 }
 
