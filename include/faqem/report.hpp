@@ -80,7 +80,7 @@ struct PositionRounding {
     double max_error = 0;  ///< largest distance by which a vertex of the result moves, scene units
 };
 
-/// A connected component of the input that has no face in the result, although it was visible.
+/// A connected component of the input that has no face in the result, or became much smaller, although it was visible.
 struct RemovedComponent {
     /// Components with at most this share of the area are not listed.
     static constexpr double min_share = 0.005;
@@ -175,6 +175,8 @@ struct Report {
     std::uint64_t edges_flipped = 0;    ///< edges flipped by the final fitting of Preset::best
     std::uint64_t virtual_edges = 0;    ///< virtual edges added
     std::vector<RemovedComponent> removed_components;  ///< visible ones, the largest first
+    /// Visible ones that became shorter by more than a fifth of their longest side, the largest first.
+    std::vector<RemovedComponent> shrunk_components;
     std::optional<MeasuredError> max_error = {};  ///< if Options::max_error is set and the run was completed
     std::optional<PositionRounding> position_rounding = {};  ///< of an asset, if its positions are rounded
     std::vector<BakedPage> pages;  ///< pages of a new atlas; only of materials with images

@@ -12,8 +12,8 @@
 #include "asset/scene/part_arrays.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
-#include "faqem/detail/measure/removed_components.hpp"
 #include "faqem/detail/simplify/build_result.hpp"
+#include "scene/part_components.hpp"
 
 namespace faqem::detail {
 
@@ -170,17 +170,14 @@ void separate_layers(const Asset& source, std::span<SimplifyResult> results, con
     std::erase_if(
         placed, [&](const Instance& at) { return std::exchange(is_placed[at.part], std::uint8_t{1}) != 0; });
     Layers before, after;
-    Index pieces = 0;
+    const PartComponents pieces = part_components(source);
+    if (pieces.count < 2) return;
     for (const auto& [p, transform] : placed) {
         const Part& part = source.parts[p];
-        FaceComponents found = face_components(part.positions, part.triangles);
-        for (Index& component : found.component) component += pieces;
-        pieces += found.count;
-        before.add(transform, part.positions, part.triangles, found.component);
+        before.add(transform, part.positions, part.triangles, pieces.of_face[p]);
         after.add(transform, results[p].mesh.positions, results[p].mesh.triangles,
-                  gather(found.component, results[p].face_origin));
+                  gather(pieces.of_face[p], results[p].face_origin));
     }
-    if (pieces < 2) return;
     const std::vector<Vec3> unmoved = after.positions;
     separate(before, after, context);
     Index next = 0;  // position of the scene

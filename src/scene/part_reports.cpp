@@ -8,7 +8,8 @@
 #include "asset/scene/affine.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "asset/scene/messages.hpp"
-#include "faqem/detail/measure/removed_components.hpp"
+#include "asset/scene/part_arrays.hpp"
+#include "scene/part_components.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -66,34 +67,32 @@ Report report_with_uvs(const Asset& source, const SimplifiedParts& simplified, s
 
 void report_removed_components(const Asset& source, SimplifiedParts& result) {
     Report& report = result.report;
-    if (report.components_collapsed + report.components_deleted + report.components_pruned == 0) return;
-    std::vector<FaceComponents> of_part;
-    std::vector<std::uint8_t> is_left;
-    std::vector<Index> first;  // by part: its first component
-    for (std::size_t p = 0; p < source.parts.size(); ++p) {
-        const Part& part = source.parts[p];
-        of_part.push_back(face_components(part.positions, part.triangles));
-        first.push_back(static_cast<Index>(is_left.size()));
-        is_left.resize(is_left.size() + of_part[p].count, 0);
-        for (Index& component : of_part[p].component) component += first[p];
-        for (const Index f : result.parts[p].face_origin) is_left[of_part[p].component[f]] = 1;
+    if (std::ranges::none_of(
+            result.parts, [&](const SimplifyResult& part) { return may_lack_components(report, part.mesh); }))
+        return;
+    const PartComponents components = part_components(source);
+    std::vector<PlacedFace> before, after;
+    for (const auto& [p, transform] : measured_instances(source)) {
+        const auto append = [&](auto& faces, const auto& positions, const auto& triangles,
+                                const std::vector<Index>& component) {
+            append_placed_faces(faces, triangles, component,
+                                [&](Index v) { return transformed_point(transform, positions[v]); });
+        };
+        append(before, source.parts[p].positions, source.parts[p].triangles, components.of_face[p]);
+        append(after, result.parts[p].mesh.positions, result.parts[p].mesh.triangles,
+               gather(components.of_face[p], result.parts[p].face_origin));
     }
-    std::vector<PlacedFace> faces;
-    for (const Instance& instance : measured_instances(source)) {
-        const Part& part = source.parts[instance.part];
-        const auto place = [&](Index v) { return transformed_point(instance.transform, part.positions[v]); };
-        for (std::size_t f = 0; f < part.triangles.size(); ++f) {
-            const Triangle& t = part.triangles[f];
-            faces.push_back({of_part[instance.part].component[f], {place(t[0]), place(t[1]), place(t[2])}});
+    const FoundComponents found = removed_components(before, after, components.count);
+    const auto name_parts = [&](const std::vector<FoundComponent>& list) {
+        std::vector<RemovedComponent> named;
+        for (const FoundComponent& one : list) {
+            named.push_back(one.removed);
+            named.back().part = part_title(source, components.part_of(one.component));
         }
-    }
-    const FoundComponents found = removed_components(faces, is_left);
-    for (const FoundComponent& one : found.visible) {
-        const auto after = std::upper_bound(first.begin(), first.end(), one.component);
-        report.removed_components.push_back(one.removed);
-        report.removed_components.back().part =
-            part_title(source, static_cast<std::size_t>(after - first.begin()) - 1);
-    }
+        return named;
+    };
+    report.removed_components = name_parts(found.removed);
+    report.shrunk_components = name_parts(found.shrunk);
     warn_of_removed_components(report, found);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The report of a scene as the sum over its parts, and the visible components that were removed.
+/// The report of a scene as the sum over its parts, and the visible components that were removed or have shrunk.
 
 #include <span>
 #include <string>
@@ -21,12 +21,11 @@ void add_part_report(Report& sum, const Report& part, const std::string& title);
 /// \param which  indices into SimplifiedParts::with_uvs
 Report report_with_uvs(const Asset& source, const SimplifiedParts& simplified, std::span<const Index> which);
 
-/// Adds the components of all parts that have no face in the result, and were visible in the scene, to its report,
-/// with a warning. The shares refer to all instances of the scene. Does nothing unless the report counts
-/// components that were collapsed, deleted or pruned.
+/// Adds the components of all parts that were removed or have shrunk, and were visible in the scene, to its report,
+/// with warnings. The shares refer to all instances of the scene.
 /// \param source  the input of the simplification
 /// \param result  of simplify_parts_to_targets()
-/// Complexity: O(1), or O(vertices log vertices + faces of all instances) if there are such components
+/// Complexity: that of may_lack_components(); if so, O(vertices log vertices + faces of all instances) of the source
 void report_removed_components(const Asset& source, SimplifiedParts& result);
 
 }  // namespace faqem::detail

@@ -58,46 +58,59 @@ FAQEM_INLINE FaceComponents face_components(const PositionView& positions, Trian
     return found;
 }
 
-FAQEM_INLINE FoundComponents removed_components(std::span<const PlacedFace> faces,
-                                                std::span<const std::uint8_t> is_left) {
-    FoundComponents found;
-    if (faces.empty() || std::find(is_left.begin(), is_left.end(), 0) == is_left.end()) return found;
-    const std::vector<ComponentMeasures> sizes = component_sizes(faces, is_left.size());
+FAQEM_INLINE FoundComponents removed_components(std::span<const PlacedFace> source,
+                                                std::span<const PlacedFace> result, std::size_t count) {
+    constexpr double seen_loss = 0.2;  // of the longest side of the box
+    const std::vector<ComponentMeasures> sizes = component_sizes(source, count),
+                                         left = component_sizes(result, count);
     double all = 0;
     for (const ComponentMeasures& size : sizes) all += size.area;
-    for (Index c = 0; c < is_left.size(); ++c) {
+    FoundComponents found;
+    for (Index c = 0; c < count; ++c) {
         const ComponentMeasures& size = sizes[c];
-        if (is_left[c]) continue;
-        if (!(size.area > RemovedComponent::min_share * all)) {
+        const bool is_removed = left[c].faces == 0;
+        const Vector3 sides = size.box.sizes();
+        if (!is_removed && !((sides - left[c].box.sizes()).maxCoeff() > seen_loss * sides.maxCoeff()))
+            continue;
+        if (size.area > RemovedComponent::min_share * all) {
+            const auto at = [](const Vector3& p) { return to_array(4 * p); };
+            (is_removed ? found.removed : found.shrunk)
+                .push_back({c, {"", size.faces, size.area / all, at(size.box.min()), at(size.box.max())}});
+        } else if (is_removed) {
             ++found.small;
             found.small_share += all > 0 ? size.area / all : 0;
-            continue;
         }
-        found.visible.push_back(
-            {c,
-             {"", size.faces, size.area / all, to_array(4 * size.box.min()), to_array(4 * size.box.max())}});
     }
-    std::stable_sort(found.visible.begin(), found.visible.end(), [](const auto& a, const auto& b) {
-        return a.removed.area_share > b.removed.area_share;
-    });
+    for (auto* list : {&found.removed, &found.shrunk})
+        std::stable_sort(list->begin(), list->end(), [](const auto& a, const auto& b) {
+            return a.removed.area_share > b.removed.area_share;
+        });
     return found;
+}
+
+FAQEM_INLINE bool may_lack_components(const Report& report, const TriangleMesh& mesh) {
+    if (report.components_collapsed + report.components_deleted + report.components_pruned > 0) return true;
+    constexpr int enough_faces = 32;  // to have the extents of any shape
+    const FaceComponents components = face_components(mesh.positions, mesh.triangles);
+    std::vector<int> faces(components.count, 0);
+    for (const Index component : components.component) ++faces[component];
+    return std::any_of(faces.begin(), faces.end(), [](int count) { return count < enough_faces; });
 }
 
 FAQEM_INLINE void report_removed_components(const MeshView& mesh, SimplifyResult& result) {
     Report& report = result.report;
-    if (report.stop == StopReason::cancelled) return;
-    if (report.components_collapsed + report.components_deleted + report.components_pruned == 0) return;
+    if (report.stop == StopReason::cancelled || !may_lack_components(report, result.mesh)) return;
     const FaceComponents components = face_components(mesh.positions, mesh.triangles);
-    std::vector<std::uint8_t> is_left(components.count, 0);
-    for (const Index f : result.face_origin) is_left[components.component[f]] = 1;
-    std::vector<PlacedFace> faces;
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        const Triangle t = mesh.triangles[f];
-        faces.push_back(
-            {components.component[f], {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}});
-    }
-    const FoundComponents found = removed_components(faces, is_left);
-    for (const FoundComponent& one : found.visible) report.removed_components.push_back(one.removed);
+    std::vector<Index> of_result;
+    for (const Index f : result.face_origin) of_result.push_back(components.component[f]);
+    std::vector<PlacedFace> before, after;
+    append_placed_faces(before, mesh.triangles, components.component,
+                        [&](Index v) { return mesh.positions[v]; });
+    append_placed_faces(after, result.mesh.triangles, of_result,
+                        [&](Index v) { return result.mesh.positions[v]; });
+    const FoundComponents found = removed_components(before, after, components.count);
+    for (const FoundComponent& one : found.removed) report.removed_components.push_back(one.removed);
+    for (const FoundComponent& one : found.shrunk) report.shrunk_components.push_back(one.removed);
     warn_of_removed_components(report, found);
 }
 
@@ -114,14 +127,20 @@ FAQEM_INLINE void warn_of_removed_components(Report& report, const FoundComponen
     if (found.small_share > seen_share)
         report.warnings.push_back(std::to_string(found.small) + " small components were removed, together " +
                                   percent_of_area(found.small_share));
-    if (report.removed_components.empty()) return;
-    const RemovedComponent& largest = report.removed_components.front();
-    const std::size_t count = report.removed_components.size();
-    report.warnings.push_back(
-        (count == 1 ? std::string("a visible component was removed: ")
-                    : std::to_string(count) + " visible components were removed, the largest with ") +
-        std::to_string(largest.faces) + (largest.faces == 1 ? " face" : " faces") +
-        (largest.part.empty() ? "" : " in " + largest.part) + ", " + percent_of_area(largest.area_share));
+    const auto warn = [&](const std::vector<RemovedComponent>& list, const std::string& one,
+                          const std::string& several) {
+        if (list.empty()) return;
+        const RemovedComponent& largest = list.front();
+        report.warnings.push_back(
+            (list.size() == 1
+                 ? "a visible component " + one + ": "
+                 : std::to_string(list.size()) + " visible components " + several + ", the largest with ") +
+            std::to_string(largest.faces) + (largest.faces == 1 ? " face" : " faces") +
+            (largest.part.empty() ? "" : " in " + largest.part) + ", " + percent_of_area(largest.area_share));
+    };
+    warn(report.removed_components, "was removed", "were removed");
+    warn(report.shrunk_components, "lost more than a fifth of its length",
+         "lost more than a fifth of their length");
 }
 
 }  // namespace detail

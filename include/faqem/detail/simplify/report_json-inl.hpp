@@ -84,6 +84,7 @@ FAQEM_INLINE std::string to_json(const Report& report) {
     json["target_faces"] = report.target_faces;
     json["stop_reason"] = name(report.stop);
     json["removed_components"] = report.removed_components;
+    json["shrunk_components"] = report.shrunk_components;
     if (report.max_error) {
         const MeasuredError& e = *report.max_error;
         json["max_error"] = {{"allowed", e.allowed},
