@@ -12,7 +12,8 @@
 /// library is hidden. It precedes the declaration of a function, and stands between `class` and its name.
 /// FAQEM_EXCEPTION marks exception classes, which must be visible in both modes to be caught across
 /// libraries. FAQEM_INLINE precedes each definition, in an `-inl.hpp` file, of a function that a header
-/// declares. FAQEM_NAMESPACE_BEGIN and FAQEM_NAMESPACE_END enclose the contents of `namespace faqem`.
+/// declares. FAQEM_NAMESPACE_BEGIN and FAQEM_NAMESPACE_END enclose the contents of `namespace faqem`, and those with
+/// DETAIL and ENGINE the contents of `faqem::detail` and `faqem::engine`.
 #define FAQEM_EXCEPTION [[gnu::visibility("default")]]
 #ifdef FAQEM_HEADER_ONLY
 #ifdef __FAST_MATH__
@@ -32,3 +33,15 @@
 #define FAQEM_NAMESPACE_BEGIN namespace faqem {
 #define FAQEM_NAMESPACE_END }
 #endif
+#define FAQEM_DETAIL_BEGIN \
+    FAQEM_NAMESPACE_BEGIN  \
+    namespace detail {
+#define FAQEM_DETAIL_END \
+    }                    \
+    FAQEM_NAMESPACE_END
+#define FAQEM_ENGINE_BEGIN \
+    FAQEM_NAMESPACE_BEGIN  \
+    namespace engine {
+#define FAQEM_ENGINE_END \
+    }                    \
+    FAQEM_NAMESPACE_END

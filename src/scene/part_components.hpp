@@ -20,7 +20,9 @@ struct PartComponents {
 
     /// The part of a component.
     std::size_t part_of(Index component) const {
-        return static_cast<std::size_t>(std::ranges::upper_bound(first, component) - first.begin()) - 1;
+        return static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), component) -
+                                        first.begin()) -
+               1;
     }
 };
 

@@ -11,8 +11,7 @@
 #include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A function that adjusts each collapse candidate of another metric. It returns the candidate unchanged,
 /// with another position, or with another cost; or nothing, which forbids the collapse (a veto).
@@ -64,5 +63,4 @@ private:
     Adjust adjust_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

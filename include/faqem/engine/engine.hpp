@@ -38,8 +38,7 @@
 #include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Collapses vertex pairs of one mesh, cheapest first. Call run() once, then continue_to() any number of
 /// times. Not thread-safe.
@@ -424,5 +423,4 @@ private:
     std::vector<PairTable::Change> changes_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

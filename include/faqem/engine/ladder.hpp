@@ -8,8 +8,7 @@
 #include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Relaxes the rule that belongs to a rung of the ladder. O(1)
 /// \param rules   modified
@@ -50,5 +49,4 @@ inline bool relax_rule(Rules& rules, Rung rung) {
     return false;
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -15,8 +15,7 @@
 #include "faqem/progress.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// What the loop does if no legal collapse is left above the target.
 enum class Ladder {
@@ -57,5 +56,4 @@ struct LoopResult {
     std::uint64_t components_deleted = 0;    ///< connected components deleted by the ladder
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -10,8 +10,7 @@
 #include "faqem/export.hpp"
 #include "faqem/progress.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Progress of one run of the collapse loop.
 class LoopProgress {
@@ -39,5 +38,4 @@ private:
     std::size_t first_ = 0, target_ = 0;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -11,8 +11,7 @@
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Receives the collapses and deletions of an Engine.
 template <class R>
@@ -115,5 +114,4 @@ private:
 
 static_assert(CollapseRecorder<NoRecorder> && CollapseRecorder<HistoryRecorder>);
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -10,8 +10,7 @@
 #include "faqem/error.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Result of simplify_with().
 struct CustomResult {
@@ -105,5 +104,4 @@ CustomResult simplify_with(const MeshView& mesh, Metric metric, const LoopOption
     return result;
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

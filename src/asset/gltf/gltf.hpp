@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <vector>
 
 #include "asset/io/encoded_model.hpp"
 #include "asset/io/file_finder.hpp"

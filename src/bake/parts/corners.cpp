@@ -1,6 +1,5 @@
 #include "bake/parts/corners.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <numeric>
 #include <utility>

@@ -9,8 +9,7 @@
 
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Items grouped into buckets. The items of one bucket are contiguous and keep their order of insertion.
 /// \tparam Item  default-constructible and copyable
@@ -49,5 +48,4 @@ private:
     std::vector<Item> items_;
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

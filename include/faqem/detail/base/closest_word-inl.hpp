@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 FAQEM_INLINE std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -37,5 +36,4 @@ FAQEM_INLINE std::string closest_word(std::string_view wrong, const std::vector<
     return found;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -9,8 +9,7 @@
 
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Returns the optimal string alignment distance: the number of insertions, deletions, replacements and swaps
 /// of adjacent characters that turn one word into the other, where no substring is edited more than once.
@@ -22,8 +21,7 @@ FAQEM_EXPORT std::size_t edit_distance(std::string_view a, std::string_view b);
 /// length of `wrong`).
 FAQEM_EXPORT std::string closest_word(std::string_view wrong, const std::vector<std::string>& known);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/base/closest_word-inl.hpp"

@@ -6,8 +6,7 @@
 
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Returns a text with the letters A to Z in lower case, whatever the locale is.
 inline std::string lower_case(std::string text) {
@@ -16,5 +15,4 @@ inline std::string lower_case(std::string text) {
     return text;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

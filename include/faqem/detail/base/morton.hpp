@@ -8,8 +8,7 @@
 #include "faqem/detail/base/vector.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Spreads the bits of x: bit i of x becomes bit 3 i of the result; all other bits are 0.
 /// \param x  below 2^21
@@ -36,5 +35,4 @@ std::uint64_t morton(const Vector3& unit) {
     return cell(unit.x()) << 2 | cell(unit.y()) << 1 | cell(unit.z());
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

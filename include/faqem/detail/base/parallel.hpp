@@ -19,8 +19,7 @@
 #include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 using engine::RunContext;
 
@@ -69,15 +68,10 @@ public:
         --helpers_;
         ended_.notify_one();
     }
-    /// To be called before the helper thread is started.
-    void add_helper() {
+    /// Counts a helper thread before it is started (1), or one that could not be started (-1).
+    void count_helper(int change) {
         const std::lock_guard lock(mutex_);
-        ++helpers_;
-    }
-    /// Undoes add_helper() if the thread could not be started.
-    void remove_helper() {
-        const std::lock_guard lock(mutex_);
-        --helpers_;
+        helpers_ += change;
     }
 
     /// Blocks until all helpers have ended, and checks every 10 ms meanwhile.
@@ -119,7 +113,7 @@ private:
     std::atomic<bool> has_failed_{false};
     std::mutex mutex_;
     std::condition_variable ended_;
-    std::size_t helpers_ = 0;
+    int helpers_ = 0;
     std::exception_ptr error_;
 };
 
@@ -147,12 +141,12 @@ void parallel_blocks(std::size_t size, std::size_t block, const RunContext& cont
     helpers.reserve(count);
     try {
         for (std::size_t i = 1; i < count; ++i) {
-            queue.add_helper();
+            queue.count_helper(1);
             helpers.emplace_back([&] { queue.run_helper(work, context.threads); });
         }
     } catch (const std::system_error&) {
         // The system cannot start more threads; the existing ones do all the work.
-        queue.remove_helper();
+        queue.count_helper(-1);
     }
     queue.run(work, context);
     queue.wait(context);
@@ -184,5 +178,4 @@ void reported_blocks(std::size_t size, std::size_t block, const RunContext& cont
                     });
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The peak memory of the process, which each system tells in another way.
+/// The peak memory of the process, which each system tells in another way. Other files include <windows.h> by this
+/// header, which removes its macros.
 
 #include <cstdint>
 
@@ -20,8 +21,7 @@
 #include <sys/resource.h>
 #endif
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Maximum resident memory of the process, bytes; 0 if the system does not tell it.
 inline std::uint64_t peak_memory_bytes() {
@@ -30,11 +30,11 @@ inline std::uint64_t peak_memory_bytes() {
     K32GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters);
     return counters.PeakWorkingSetSize;
 #else
+    // Linux counts in units of 1024 bytes.
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 #endif
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -9,8 +9,7 @@
 
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Natural logarithm.
 /// \param x  positive and finite
@@ -53,5 +52,4 @@ inline double portable_acos(double x) {
     return 16 * t * sum;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -8,8 +8,7 @@
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 using engine::to_array;
 using engine::to_eigen;
@@ -26,5 +25,4 @@ inline Vector3 area_vector(std::span<const Vec3> positions, const Triangle& t) {
     return engine::area_vector(a, b, c);
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -7,8 +7,7 @@
 
 #include "faqem/detail/geometry/surface.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Number of points per block. The closest point of the first one is searched without an initial bound.
 inline constexpr std::size_t tracker_block_size = 1024;
@@ -230,5 +229,4 @@ FAQEM_INLINE void ReferenceToMeshTracker::set_residual(std::size_t i, const Bvh:
     squared_distances_[i] = residuals_[i].residual.squaredNorm();
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

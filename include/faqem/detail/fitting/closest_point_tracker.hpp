@@ -18,8 +18,7 @@
 #include "faqem/detail/geometry/vertex_faces.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A surface that does not move, with its search tree, normals and adjacency.
 struct ReferenceSurface {
@@ -171,8 +170,7 @@ private:
     bool is_tree_outdated_ = false;  ///< the mesh has moved since the tree was built or refitted
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/fitting/closest_point_tracker-inl.hpp"

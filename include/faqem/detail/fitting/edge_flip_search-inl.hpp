@@ -12,8 +12,7 @@
 #include "faqem/detail/geometry/edge_flip.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Maximum ratio of the distance integrals after and before a flip.
 inline constexpr double max_error_ratio = 0.98;
@@ -288,5 +287,4 @@ FAQEM_INLINE std::vector<EdgeFlip> find_edge_flips(const SimplifiedMeshRef& simp
     return EdgeFlipSearch(simplified, original, even_samples, original_vertices, area, context)();
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

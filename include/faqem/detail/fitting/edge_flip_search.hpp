@@ -10,8 +10,7 @@
 #include "faqem/detail/fitting/closest_point_tracker.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Non-owning view of a simplified mesh and its constraints.
 struct SimplifiedMeshRef {
@@ -44,8 +43,7 @@ std::vector<EdgeFlip> find_edge_flips(const SimplifiedMeshRef& simplified, const
                                       const ReferenceToMeshTracker& original_vertices, double area,
                                       const RunContext& context);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/fitting/edge_flip_search-inl.hpp"

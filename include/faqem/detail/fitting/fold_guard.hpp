@@ -10,8 +10,7 @@
 #include "faqem/detail/geometry/surface_samples.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The edges of a mesh with two faces that are initially not folded. An edge is folded if the cosine between
 /// the normals of its faces, after making their orientations consistent, is below a threshold.
@@ -58,5 +57,4 @@ inline FoldGuard::FoldGuard(const MeshRef& mesh, double min_fold_cosine)
     });
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -8,8 +8,7 @@
 #include "faqem/detail/base/buckets.hpp"
 #include "faqem/engine/quadric/quadric.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 inline constexpr double point_to_plane_weight = 0.9;
 /// Distances are weighted as if they were at least this fraction of the mean, so that points with small
@@ -184,5 +183,4 @@ FAQEM_INLINE std::vector<Vector3> gauss_newton_step(std::span<const Triangle> tr
     return x;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -12,8 +12,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A point of the mesh and its corresponding point on another surface.
 struct Correspondence {
@@ -38,8 +37,7 @@ std::vector<Vector3> gauss_newton_step(std::span<const Triangle> triangles,
                                        std::span<const std::uint8_t> fixed, double power,
                                        const RunContext& context);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/fitting/gauss_newton-inl.hpp"

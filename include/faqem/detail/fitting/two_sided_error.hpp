@@ -18,8 +18,7 @@
 #include "faqem/detail/geometry/surface_samples.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Deviation of one or more faces, over the sample points that belong to them.
 struct FaceDeviation {
@@ -259,5 +258,4 @@ inline void TwoSidedError::resample_flipped(std::span<const Vector3> positions,
     from_reference_vertices_.update(positions, context_, flipped);
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -14,8 +14,7 @@
 #include "faqem/detail/geometry/edge_flip.hpp"
 #include "faqem/engine/mesh/boundary_edges.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Number of Gauss-Newton steps at the beginning and after edge flips.
 inline constexpr int first_steps = 3, later_steps = 2;
@@ -284,5 +283,4 @@ FAQEM_INLINE FittingResult fit_vertices(const MeshRef& original, const MeshRef& 
     return result;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -9,8 +9,7 @@
 #include "faqem/detail/fitting/edge_flip_search.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Whether fit_vertices() may flip edges. Without flips the connectivity is kept.
 enum class EdgeFlips { off, on };
@@ -46,8 +45,7 @@ FittingResult fit_vertices(const MeshRef& original, const MeshRef& simplified,
                            std::span<const std::uint8_t> fixed, double min_normal_cosine, EdgeFlips flips,
                            std::span<const Index> groups, const RunContext& context);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/fitting/vertex_fitting-inl.hpp"

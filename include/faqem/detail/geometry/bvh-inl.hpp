@@ -8,8 +8,7 @@
 #include <cmath>
 #include <utility>
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 using engine::RunContext;
 
@@ -267,5 +266,4 @@ FAQEM_INLINE void Bvh::fit_boxes() {
     }
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

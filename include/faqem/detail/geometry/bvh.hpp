@@ -15,8 +15,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Bounding volume hierarchy: a tree of axis-aligned bounding boxes over triangles, with four children per
 /// node. The boxes are stored in single precision and rounded outwards; distances are computed in double
@@ -308,8 +307,7 @@ bool Bvh::any_hit(const Vec3& origin, const Vec3& direction, Accepts&& accepts) 
     return false;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/geometry/bvh-inl.hpp"

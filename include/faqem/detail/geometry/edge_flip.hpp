@@ -8,8 +8,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The corners of two triangles (a, b, c) and (b, a, d), which share the edge ab.
 struct Quadrilateral {
@@ -47,5 +46,4 @@ inline bool flip_edge(Triangle& s, Triangle& t) {
     return true;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

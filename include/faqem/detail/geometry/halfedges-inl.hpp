@@ -2,8 +2,7 @@
 
 #include "faqem/detail/geometry/halfedges.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 FAQEM_INLINE std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> triangles) {
     std::vector<Halfedge> halfedges;
@@ -24,5 +23,4 @@ FAQEM_INLINE std::vector<Halfedge> sorted_halfedges(std::span<const Triangle> tr
     return halfedges;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

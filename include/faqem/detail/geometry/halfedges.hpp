@@ -12,8 +12,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A half-edge of a face.
 struct Halfedge {
@@ -65,8 +64,7 @@ void for_each_connected_pair(std::size_t count, SurfaceId&& surface, Join&& join
     }
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/geometry/halfedges-inl.hpp"

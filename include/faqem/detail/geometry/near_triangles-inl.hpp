@@ -6,8 +6,7 @@
 #include <limits>
 #include <utility>
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Thinner triangles, by the sine of the smallest angle, have no bound: their normals are too inaccurate.
 inline constexpr double least_angle_of_bound = 1e-4;
@@ -209,5 +208,4 @@ FAQEM_INLINE bool NearTriangles::contains(Index face) const {
     return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.face == face; });
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

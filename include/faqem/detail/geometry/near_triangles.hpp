@@ -12,8 +12,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A short list of triangles that is searched for the one closest to a point. For each triangle, single precision
 /// gives a lower bound of the distance, from the distances to its plane and to its edges. Bounds are compared with a
@@ -157,8 +156,7 @@ private:
     std::vector<Group> groups_;
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/geometry/near_triangles-inl.hpp"

@@ -7,8 +7,7 @@
 
 #include "faqem/engine/util/hash.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Pseudorandom number in [0, 1): a hash of the arguments (SplitMix64).
 inline double uniform(std::uint64_t seed, std::uint64_t sample, std::uint64_t dimension) {
@@ -28,5 +27,4 @@ FAQEM_INLINE RandomSample sample(const Surface& s, std::uint64_t i, std::uint64_
     return {face, w, to_array(p)};
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -8,8 +8,7 @@
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A sample point of a surface.
 struct RandomSample {
@@ -27,8 +26,7 @@ struct RandomSample {
 /// O(log faces)
 FAQEM_EXPORT RandomSample sample(const Surface& s, std::uint64_t i, std::uint64_t n, std::uint64_t seed);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/geometry/random_sampling-inl.hpp"

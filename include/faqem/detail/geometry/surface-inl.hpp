@@ -7,8 +7,7 @@
 
 #include "faqem/error.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Faces whose height is below this fraction of their longest edge have no reliable normal and are left out.
 inline constexpr double min_height_ratio = 1e-12;
@@ -103,5 +102,4 @@ FAQEM_INLINE double max_normal_cosine(const Bvh& tree, std::span<const Vector3> 
     return std::min(best, 1.0);
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The k-th point of a low-discrepancy sequence in the triangle, as barycentric coordinates: the R2 sequence
 /// of the unit square (Roberts 2018), whose upper half is folded to the lower one. Its steps are 1/g and
@@ -81,5 +80,4 @@ FAQEM_INLINE std::vector<OrientedPoint> oriented_vertices(const MeshRef& mesh) {
     return points;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

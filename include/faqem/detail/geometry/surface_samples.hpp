@@ -10,8 +10,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Non-owning view of a mesh: positions, and triangles that index them. Triangles with no_index corners are
 /// ignored.
@@ -72,8 +71,7 @@ std::vector<SurfaceSample> vertex_and_midpoint_samples(std::span<const Triangle>
 /// O(vertices + faces)
 std::vector<OrientedPoint> oriented_vertices(const MeshRef& mesh);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/geometry/surface_samples-inl.hpp"

@@ -8,8 +8,7 @@
 #include "faqem/detail/base/vector.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The point of a triangle that is closest to a query point.
 struct ClosestPoint {
@@ -124,5 +123,4 @@ inline bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     return !(u.cross(v).norm() > 1e-12 * longest);
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

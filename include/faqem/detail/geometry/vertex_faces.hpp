@@ -9,8 +9,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// For each vertex the indices of its faces, in increasing order.
 using VertexFaces = Buckets<Index>;
@@ -28,5 +27,4 @@ inline VertexFaces make_vertex_faces(std::size_t vertices, std::span<const Trian
     });
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

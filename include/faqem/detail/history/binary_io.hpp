@@ -15,8 +15,7 @@
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 static_assert(std::endian::native == std::endian::little, "the history format is little-endian");
 static_assert(sizeof(Vec3) == 24 && sizeof(Triangle) == 12);
@@ -86,5 +85,4 @@ std::vector<T> get_array(std::istream& in, const char* section) {
 /// \throws InputError  if the history is truncated or invalid
 CollapseHistory read_history_body(std::istream& in);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

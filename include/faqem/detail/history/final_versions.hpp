@@ -9,8 +9,7 @@
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// For each version, the last version that it was merged into; itself if it was never merged.
 /// \pre every collapse merges two older versions, as validate() checks
@@ -25,5 +24,4 @@ inline std::vector<Index> final_versions(const CollapseHistory& history) {
     return last;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

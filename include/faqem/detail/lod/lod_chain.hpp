@@ -15,8 +15,7 @@
 #include "faqem/export.hpp"
 #include "faqem/levels.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Target of one level: a face count or a distance.
 struct LevelTarget {
@@ -212,5 +211,4 @@ void keep_only_cancelled(std::vector<Out>& levels) {
         levels.erase(levels.begin(), levels.end() - 1);
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

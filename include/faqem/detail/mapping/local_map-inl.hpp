@@ -4,8 +4,7 @@
 
 #include "faqem/detail/mapping/surface_map-inl.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 FAQEM_INLINE void LocalMap::prepare(const SurfaceMap& map, Index face, const Vec3& barycentric, double radius,
                                     const SurfacePoint& near) {
@@ -32,5 +31,4 @@ FAQEM_INLINE std::optional<SurfacePoint> LocalMap::map_to_same(const SurfaceMap&
     return map.impl_->map_to_same(face, barycentric, step, faces_, recent_);
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -9,8 +9,7 @@
 #include "faqem/export.hpp"
 #include "faqem/surface_map.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Finds the original faces near a small region of one simplified face once, so that the points of the region need no
 /// search of their own.
@@ -61,8 +60,7 @@ private:
     SuccessiveProjection::Recent recent_;
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/mapping/local_map-inl.hpp"

@@ -10,8 +10,7 @@
 #include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 // Numbers the connected components of a patch 0, 1, ... (at most 255) in the order of their first faces,
 // see ReplayTables::patch_component.
@@ -162,5 +161,4 @@ FAQEM_INLINE void describe_patches(const CollapseHistory& history, std::span<con
     });
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -12,8 +12,7 @@
 #include "faqem/export.hpp"
 #include "faqem/history.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Bounding sphere of a triangle: 16 bytes that often suffice to skip the triangle in a search.
 struct BoundingSphere {
@@ -72,8 +71,7 @@ ReplayTables replay_patches(const CollapseHistory& history);
 void describe_patches(const CollapseHistory& history, std::span<const Index> surface_patches,
                       const RunContext& context, ReplayTables& replay);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/mapping/replay-inl.hpp"

@@ -9,8 +9,7 @@
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/detail/history/final_versions.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 // Minimum cosine between the normals of faces that have the same orientation.
 inline constexpr double min_facing_cosine = 0.17;
@@ -370,5 +369,4 @@ FAQEM_INLINE std::optional<SurfacePoint> SuccessiveProjection::map_to_same(
     return SurfacePoint{recent.face, *at, step};
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -16,8 +16,7 @@
 #include "faqem/history.hpp"
 #include "faqem/surface_map.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Maps points of the simplified mesh to the original by successive projection, with rules that keep a point
 /// on its side of thin walls. Immutable after construction; map() and map_near() may be called from several
@@ -136,8 +135,7 @@ private:
     std::vector<Index> last_;  ///< final_versions() of the history
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/mapping/successive_projection-inl.hpp"

@@ -8,8 +8,7 @@
 #include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 struct AdjacentFace {
     Index face = no_index;
@@ -117,5 +116,4 @@ FAQEM_INLINE SurfacePatches find_surface_patches(std::span<const Vec3> positions
     return result;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

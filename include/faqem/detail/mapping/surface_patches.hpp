@@ -10,8 +10,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Surface patches: sets of faces that are connected across edges. Two faces at an edge are connected if
 /// * the edge has exactly two faces, or
@@ -37,8 +36,7 @@ struct SurfacePatches {
 SurfacePatches find_surface_patches(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                     std::span<const Triangle> unwelded = {});
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/mapping/surface_patches-inl.hpp"

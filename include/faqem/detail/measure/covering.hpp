@@ -15,8 +15,7 @@
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A surface with the faces at each edge, to cover triangles with its faces.
 ///
@@ -243,5 +242,4 @@ inline double Covering::bound(const std::array<Vector3, 3>& corner, Index first,
     return is_covered ? height + shrunk : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

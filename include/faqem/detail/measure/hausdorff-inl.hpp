@@ -8,8 +8,7 @@
 
 #include "faqem/detail/measure/covering.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 inline constexpr std::size_t vertex_block = 4096, face_block = 4096, piece_block = 128, cover_block = 32;
 /// Number of pieces that are split in parallel: several blocks, so that several threads have work.
@@ -395,5 +394,4 @@ FAQEM_INLINE HausdorffBounds two_sided_hausdorff(const Surface& a, const Bvh& tr
     return {second.value, std::max(first.bound, second.bound), first.pieces + second.pieces};
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

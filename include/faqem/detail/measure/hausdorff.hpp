@@ -10,8 +10,7 @@
 #include "faqem/detail/geometry/surface.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The closest face of the other surface.
 struct NearestFace {
@@ -76,8 +75,7 @@ HausdorffBounds one_sided_hausdorff(const Surface& from, const Surface& to, cons
 HausdorffBounds two_sided_hausdorff(const Surface& a, const Bvh& tree_a, const Surface& b, const Bvh& tree_b,
                                     const SearchLimits& limits, const RunContext& context = {});
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/measure/hausdorff-inl.hpp"

@@ -12,8 +12,7 @@
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/weld.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Measures of a component.
 struct ComponentMeasures {
@@ -143,5 +142,4 @@ FAQEM_INLINE void warn_of_removed_components(Report& report, const FoundComponen
          "lost more than a fifth of their length");
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

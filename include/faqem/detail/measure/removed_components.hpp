@@ -12,8 +12,7 @@
 #include "faqem/report.hpp"
 #include "faqem/simplify.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A face of a model, where an instance of its part is placed.
 struct PlacedFace {
@@ -85,8 +84,7 @@ FAQEM_EXPORT void report_removed_components(const MeshView& mesh, SimplifyResult
 /// the small components if these had more than 2% of the area together.
 FAQEM_EXPORT void warn_of_removed_components(Report& report, const FoundComponents& found);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/measure/removed_components-inl.hpp"

@@ -4,8 +4,7 @@
 
 #include "faqem/detail/options/option_row.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 // Functions for OptionRow::idle.
 
@@ -172,5 +171,4 @@ inline constexpr OptionRow appearance_rows[] = {
          .idle = without_compression}),
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -4,8 +4,7 @@
 
 #include "faqem/detail/options/option_row.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 inline OptionValue ratio_value(const Options& options) {
     const Target& target = options.target;
@@ -157,5 +156,4 @@ inline constexpr OptionRow geometry_rows[] = {
          .affects_result = false}),
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -13,8 +13,7 @@
 #include "faqem/export.hpp"
 #include "faqem/options.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Form of a value as text.
 enum class OptionKind {
@@ -139,5 +138,4 @@ constexpr OptionRow option_row(OptionRow row) {
     return row;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -10,8 +10,7 @@
 
 #include "faqem/detail/options/option_row.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 using OptionTable = std::span<const OptionRow>;
 using OptionSpelling = std::string (*)(const OptionRow&);
@@ -76,8 +75,7 @@ FAQEM_EXPORT std::vector<std::string> idle_options(const Options& options,
 /// All options that the result depends on as text. Options with equal texts give equal results.
 FAQEM_EXPORT std::string options_key(const Options& options, OptionTable table = option_table());
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/options/option_table-inl.hpp"

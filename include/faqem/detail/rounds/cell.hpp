@@ -18,8 +18,7 @@
 #include "faqem/option_types.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 namespace rounds {
 
 /// An edge, and its cost when it was queued.
@@ -349,5 +348,4 @@ private:
 };
 
 }  // namespace rounds
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -8,8 +8,7 @@
 #include "faqem/engine/util/vectorised.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 namespace rounds {
 
 using Vector = std::array<float, 3>;
@@ -194,5 +193,4 @@ inline bool folds_inside(const Star& s, int count) {
 }
 
 }  // namespace rounds
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

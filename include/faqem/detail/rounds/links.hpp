@@ -15,8 +15,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Corner k of face f is 4 f + k.
 using Corner = std::uint32_t;
@@ -128,5 +127,4 @@ inline std::vector<std::uint8_t> closed_vertices(std::span<const Triangle> trian
     return closed;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

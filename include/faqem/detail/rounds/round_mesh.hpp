@@ -19,8 +19,7 @@
 #include "faqem/detail/rounds/rounds.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 namespace rounds {
 
 inline constexpr float never = std::numeric_limits<float>::infinity();
@@ -355,5 +354,4 @@ inline CompactedMesh surface_of(const Mesh& mesh, std::size_t slots) {
 }
 
 }  // namespace rounds
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -11,8 +11,7 @@
 #include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A collapse: `survivor` and `gone` (vertex slots of the surface) merge into `survivor` at `to`.
 struct RoundStep {
@@ -44,5 +43,4 @@ struct CompactedMesh {
     std::vector<Index> bound_faces;          ///< if rounds tracked distances: see TrackedVertices::faces
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -1,20 +1,15 @@
 #pragma once
 
 #include "faqem/detail/rounds/rounds.hpp"
-#include "faqem/export.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/rounds/cell.hpp"
 #include "faqem/detail/rounds/round_mesh.hpp"
 #include "faqem/detail/rounds/tracking.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 namespace rounds {
 
 inline constexpr double vertices_per_cell = 4096;
@@ -164,5 +159,4 @@ FAQEM_INLINE std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& i
     return left;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -16,8 +16,7 @@
 #include "faqem/export.hpp"
 #include "faqem/option_types.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Distances that rounds track, as engine::TrackedMetric does. References its arguments.
 struct RoundTracking {
@@ -70,8 +69,7 @@ inline std::size_t faces_after_rounds(std::size_t target, std::size_t spare) {
 std::optional<CompactedMesh> simplify_in_rounds(const RoundInput& input, std::size_t least, Recording patches,
                                                 const RunContext& context, RoundSteps& found);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/rounds/rounds-inl.hpp"

@@ -2,7 +2,6 @@
 /// \file
 /// The bindings of original vertices to faces, whose distances rounds track.
 
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -12,8 +11,7 @@
 #include "faqem/engine/tracking/vertex_bindings.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 namespace rounds {
 
 /// A compact mesh, as NearFaceSearch needs it. References the mesh. O(faces) to construct
@@ -81,5 +79,4 @@ inline std::vector<Index> bound_faces(const Mesh& mesh) {
 }
 
 }  // namespace rounds
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -8,8 +8,7 @@
 
 #include "faqem/detail/simplify/run.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 namespace budget {
 
@@ -93,5 +92,4 @@ FAQEM_INLINE std::vector<std::uint64_t> distribute_face_budget(std::span<const C
     return share;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -12,8 +12,7 @@
 #include "faqem/option_types.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Cost of each collapse when one mesh is simplified as far as possible.
 struct CostCurve {
@@ -61,8 +60,7 @@ FAQEM_EXPORT std::vector<std::uint64_t> distribute_face_budget(std::span<const C
                                                                std::uint64_t face_budget,
                                                                std::span<const std::uint64_t> floors = {});
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/budget_by_cost-inl.hpp"

@@ -7,8 +7,7 @@
 #include <string>
 #include <utility>
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 FAQEM_INLINE std::vector<Index> build_result(const MeshView& mesh, const PreprocessedMesh& prepared,
                                              const ReorderedMesh& reordered,
@@ -164,5 +163,4 @@ FAQEM_INLINE void finish_report(const Options& options, const Settings& settings
         report.warnings.push_back("the result is empty: all remaining faces are degenerate");
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -14,8 +14,7 @@
 #include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Fills mesh, vertex_origin and face_origin of the result, with vertices and faces in input order. Faces of
 /// zero area are left out and added to Report::faces_dropped.
@@ -78,8 +77,7 @@ void add_counts(const engine::LoopResult& loop_result, Report& report);
 void finish_report(const Options& options, const Settings& settings, const PreprocessedMesh& prepared,
                    SimplifyResult& result);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/build_result-inl.hpp"

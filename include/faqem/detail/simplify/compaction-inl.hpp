@@ -4,8 +4,7 @@
 
 #include <utility>
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 FAQEM_INLINE SlotTrace::SlotTrace(std::size_t slots)
     : next_(engine::all_indices(slots)), source_slots_(next_) {}
@@ -55,5 +54,4 @@ FAQEM_INLINE CompactedMesh compacted(const engine::CollapseMesh& mesh, SlotTrace
     return compacted(std::move(faces), std::move(triangles), positions, trace);
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -10,8 +10,7 @@
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Tracks into which slot each vertex slot is merged by collapses, and which slots keep an original position.
 class SlotTrace {
@@ -51,8 +50,7 @@ CompactedMesh compacted(std::vector<Index> faces, std::vector<Triangle> triangle
 /// Complexity: O(n)
 CompactedMesh compacted(const engine::CollapseMesh& mesh, SlotTrace& trace);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/compaction-inl.hpp"

@@ -26,8 +26,7 @@
 #include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 using engine::CollapseMesh;
 using engine::RunContext;
@@ -107,5 +106,4 @@ inline engine::LoopResult run_engine(EngineInput& work, engine::PairTable& pairs
                                           loop.distance_weight, curves, context, limit));
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

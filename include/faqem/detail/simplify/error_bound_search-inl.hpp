@@ -11,8 +11,7 @@
 #include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/detail/simplify/presets.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A place that takes more work than this for FarFaceSearch counts as too far: it is cheaper to undo a collapse.
 inline constexpr std::uint64_t max_pieces_of_far = 100000;
@@ -210,5 +209,4 @@ FAQEM_INLINE void report_search(Report& report, std::uint64_t undecided_count) {
     }
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -20,8 +20,7 @@
 #include "faqem/export.hpp"
 #include "faqem/simplify.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A distance with bounds: value <= true distance <= bound, up to rounding. Model units.
 struct MeasuredDistance {
@@ -302,8 +301,7 @@ Result search_within_error(const Options& options, const RunContext& context, st
         .simplify();
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/error_bound_search-inl.hpp"

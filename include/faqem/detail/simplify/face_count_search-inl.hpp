@@ -7,8 +7,7 @@
 
 #include "faqem/detail/base/portable_math.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 inline constexpr double initial_ratio = 0.1;
 inline constexpr double bracket_tolerance = 1.02;
@@ -84,5 +83,4 @@ FAQEM_INLINE void FaceCountSearch::add_result(std::uint64_t faces, double error,
     if (bad_.faces < reachable_ - 1) bad_ = {reachable_ - 1, std::nullopt};
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

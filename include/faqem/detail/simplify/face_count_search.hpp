@@ -10,8 +10,7 @@
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A bracketing search over target face counts. The error is not a monotone function of the target, and a run
 /// may end above or far below its target. First a bracket in the logarithms of face count and error is
@@ -56,8 +55,7 @@ private:
     std::size_t step_ = 0;    ///< next entry of `refinement_ratios`
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/face_count_search-inl.hpp"

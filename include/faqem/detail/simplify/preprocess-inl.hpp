@@ -14,8 +14,7 @@
 #include "faqem/error.hpp"
 #include "faqem/options.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 using engine::RunContext;
 
@@ -219,5 +218,4 @@ FAQEM_INLINE std::vector<std::uint8_t> welded_locks(const MeshView& mesh, std::s
     return locked;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

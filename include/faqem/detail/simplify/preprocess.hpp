@@ -13,8 +13,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A mesh that is ready for the engine. Vertices are welded; faces keep their input index.
 struct PreprocessedMesh {
@@ -66,8 +65,7 @@ std::vector<Triangle> unpruned_triangles(const MeshView& mesh, const Options& op
 std::vector<std::uint8_t> welded_locks(const MeshView& mesh, std::span<const Index> welded,
                                        std::size_t vertices);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/preprocess-inl.hpp"

@@ -3,8 +3,7 @@
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/options.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 using engine::AreaTerm;
 using engine::BaseWeight;
@@ -59,5 +58,4 @@ FAQEM_INLINE Settings settings(const Options& options) {
     return s;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -6,8 +6,7 @@
 #include "faqem/export.hpp"
 #include "faqem/option_types.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// A preset combined with the weights and rules of the options.
 struct Settings {
@@ -32,8 +31,7 @@ struct Settings {
 /// \pre options are valid
 FAQEM_EXPORT Settings settings(const Options& options);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/presets-inl.hpp"

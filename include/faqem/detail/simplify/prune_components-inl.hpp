@@ -1,15 +1,13 @@
 #pragma once
 
 #include "faqem/detail/simplify/prune_components.hpp"
-#include "faqem/export.hpp"
 
 #include <utility>
 
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/engine/mesh/vector.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 // Half of the diagonal. Coordinates are halved first, so that 1e308 does not overflow. \pre the box is not
 // empty
@@ -57,5 +55,4 @@ FAQEM_INLINE PruneResult prune(std::span<const Vec3> positions, std::span<const 
     return pruned;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -10,8 +10,7 @@
 #include "faqem/mesh.hpp"
 #include "faqem/option_types.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The corners of a face that was removed.
 inline constexpr Triangle no_corners = {no_index, no_index, no_index};
@@ -41,8 +40,7 @@ struct PruneResult {
 PruneResult prune(std::span<const Vec3> positions, std::span<const std::uint8_t> locked, const Length& size,
                   std::vector<Triangle>& triangles);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/prune_components-inl.hpp"

@@ -12,8 +12,7 @@
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/simplify.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The faces of the initial surface in connected components of which the result has a vertex: others would draw vertices
 /// to their places.
@@ -80,5 +79,4 @@ inline void fit_result(const RunState& state, const PreprocessedMesh& prepared, 
     if (!result.history.empty()) record_fitting(fitted.flips, result);
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -2,9 +2,6 @@
 
 #include "faqem/detail/simplify/run.hpp"
 
-#include <algorithm>
-#include <functional>
-#include <optional>
 #include <utility>
 
 #include "faqem/detail/base/stopwatch.hpp"
@@ -19,8 +16,7 @@
 #include "faqem/detail/simplify/run_state.hpp"
 #include "faqem/detail/simplify/virtual_edges.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 // One run of simplify(): preprocessing, collapses, fitting, results.
 class Run {
@@ -392,5 +388,4 @@ FAQEM_INLINE CostCurve cost_curve(const MeshView& mesh, const Options& options, 
     return Run(mesh, cheap, context).curve();
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

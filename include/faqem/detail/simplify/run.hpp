@@ -17,8 +17,7 @@
 #include "faqem/option_types.hpp"
 #include "faqem/simplify.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Smallest target of simplify(); lower targets are raised to it.
 inline constexpr std::uint64_t min_target_faces = 4;
@@ -78,8 +77,7 @@ FAQEM_EXPORT std::vector<SimplifyResult> run_to_targets(const MeshView& mesh,
                                                         const Options& options,
                                                         const engine::RunContext& context);
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/run-inl.hpp"

@@ -17,8 +17,7 @@
 #include "faqem/engine/recorder.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// Fills a SlotTrace, so that vertices that did not move keep their input position exactly, and optionally a
 /// collapse history and a cost curve. It is one class, because an engine is compiled for each class of recorders.
@@ -79,5 +78,4 @@ inline void record_steps(const RoundSteps& found, const CompactedMesh& left, std
     history.renumber(left.vertices, left.faces);
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

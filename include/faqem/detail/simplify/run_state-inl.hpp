@@ -1,16 +1,13 @@
 #pragma once
 
-#include "faqem/detail/rounds/rounds.hpp"
 #include "faqem/detail/simplify/run_state.hpp"
 #include "faqem/engine/tracking/tracked_metric.hpp"
-#include "faqem/export.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <utility>
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 // The values at the given slots; no_index, converted to T, where the slot is no_index.
 template <class T>
@@ -87,5 +84,4 @@ FAQEM_INLINE MeshRef RunState::initial_surface() const {
     return {initial_positions_, initial_triangles_};
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -16,8 +16,7 @@
 #include "faqem/engine/tracking/original_surface.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The surface that the next engine starts from, and its relation to the preprocessed mesh. Vertices and
 /// faces are numbered by slots, which change with every advance_to(). Positions are in engine units.
@@ -109,8 +108,7 @@ private:
     engine::PlanarBorders borders_;
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/run_state-inl.hpp"

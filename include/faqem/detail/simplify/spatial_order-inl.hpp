@@ -11,8 +11,7 @@
 #include "faqem/detail/base/morton.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The referenced vertices in Morton order.
 inline std::vector<Index> vertices_in_morton_order(const std::vector<Vector3>& positions,
@@ -79,5 +78,4 @@ FAQEM_INLINE ReorderedMesh reorder(const PreprocessedMesh& prepared, const RunCo
     return out;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -8,8 +8,7 @@
 #include "faqem/detail/simplify/preprocess.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The referenced vertices and remaining faces of a preprocessed mesh along a space-filling curve, in engine
 /// units. The engine is limited by memory latency: on input in random order, reordering makes it three times
@@ -45,8 +44,7 @@ struct ReorderedMesh {
 /// Complexity: O(n log n)
 ReorderedMesh reorder(const PreprocessedMesh& prepared, const engine::RunContext& context = {});
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END
 
 #ifdef FAQEM_HEADER_ONLY
 #include "faqem/detail/simplify/spatial_order-inl.hpp"

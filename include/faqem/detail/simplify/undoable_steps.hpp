@@ -12,8 +12,7 @@
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 /// The collapses of pairs of one surface, in order. The surface without some of them is one that the engine could have
 /// made: a step stays only if the faces around it were the same. Not thread-safe.
@@ -74,5 +73,4 @@ private:
     std::vector<Index> last_;  // by face: the last step around it that was not undone, or no_index
 };
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

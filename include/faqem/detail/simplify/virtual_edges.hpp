@@ -14,8 +14,7 @@
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace detail {
+FAQEM_DETAIL_BEGIN
 
 using engine::CollapseMesh;
 
@@ -158,5 +157,4 @@ inline std::vector<std::pair<Index, Index>> virtual_edges(const CollapseMesh& me
     return result;
 }
 
-}  // namespace detail
-FAQEM_NAMESPACE_END
+FAQEM_DETAIL_END

@@ -16,8 +16,7 @@
 #include "faqem/engine/mesh/union_find.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Measures the error of collapses that close or open a boundary loop. Closing a small hole hardly moves
 /// the surface, but its boundary vanishes; the points on it are then as far from the boundary as the
@@ -212,5 +211,4 @@ private:
     std::uint32_t edges_before_ = 0;         // boundary edges at the pair that is collapsed
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,8 +18,7 @@
 #include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Price of the last faces of a connected component: 33 times the square of their area. The component causes an error of
 /// at least its own size, and may be the only surface in a large neighbourhood. This is about a hundred times the fourth power of
@@ -260,5 +258,4 @@ private:
     std::vector<Index> corners_, ends_;  // outside corners of all faces, and of remaining_, sorted
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -18,8 +18,7 @@
 #include "faqem/engine/util/hash.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// The vertices on curves between groups, and the positions that collapses may have. Empty, without memory
 /// or constraints, if there are no curves to preserve. Not thread-safe.
@@ -168,5 +167,4 @@ private:
     std::vector<Index> mark_;                                // scratch: 1 + index in incident_edges_, else 0
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -11,8 +11,7 @@
 #include "faqem/engine/mesh/normal_cones.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A face at a pair as it will be after the collapse. Its corners are the new vertex, a and b.
 struct MovedFace {
@@ -138,5 +137,4 @@ private:
     NormalCones cones_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -15,8 +15,7 @@
 #include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Rules that a legal collapse satisfies. The starvation ladder relaxes them.
 struct Rules {
@@ -169,5 +168,4 @@ private:
     std::vector<std::uint32_t> mark_;     // scratch: face count of the edge from u to the vertex, else 0
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

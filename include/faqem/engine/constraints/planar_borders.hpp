@@ -15,8 +15,7 @@
 #include "faqem/engine/quadric/placement.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// The flats of a border, and where the vertices are. Without such parts both arrays are empty.
 struct PlanarBorders {
@@ -239,5 +238,4 @@ private:
     std::vector<Chain> chains_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

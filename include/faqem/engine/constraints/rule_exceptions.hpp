@@ -10,8 +10,7 @@
 #include "faqem/export.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Records for each pair whether the link condition and the fold rule are lifted.
 class RuleExceptions {
@@ -58,5 +57,4 @@ private:
     std::vector<std::uint8_t> lifted_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

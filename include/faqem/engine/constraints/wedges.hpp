@@ -14,8 +14,7 @@
 #include "faqem/engine/quadric/placement.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// The wedges of a mesh and their values. Empty, without memory or constraints, if there are no attributes.
 /// Not thread-safe.
@@ -184,5 +183,4 @@ private:
     std::vector<float> scratch_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

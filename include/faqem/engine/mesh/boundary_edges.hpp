@@ -13,8 +13,7 @@
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A boundary edge at the new vertex of a pair (u, v), as it will be after the collapse.
 struct BoundaryEdge {
@@ -110,5 +109,4 @@ void for_each_boundary_edge_after(const CollapseMesh& mesh, const PairTable& pai
     });
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -12,8 +12,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Largest number of faces of a CollapseMesh. A soup has up to three edges per face and a pair has two
 /// ends, so that 6 * max_faces < 2^32 ends can be numbered in 32 bits.
@@ -234,5 +233,4 @@ private:
     std::vector<Index> remaining_;  // scratch: corners of the survivor
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -15,8 +15,7 @@
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A connected component: faces that are connected by shared vertices.
 struct Component {
@@ -123,5 +122,4 @@ std::size_t remove_components(CollapseMesh& mesh, PairTable& pairs, std::span<co
     return removed;
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

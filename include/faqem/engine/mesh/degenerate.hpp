@@ -9,8 +9,7 @@
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A face is degenerate if its height divided by its longest edge is at most this.
 inline constexpr double degenerate_aspect = 1e-9;
@@ -99,5 +98,4 @@ private:
     std::size_t max_count_ = 0;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

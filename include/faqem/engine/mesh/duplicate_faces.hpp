@@ -10,8 +10,7 @@
 #include "faqem/engine/mesh/pair_table.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Finds faces with the same vertices and winding as a face of lower index. Removing them does not change
 /// the surface. O(n log n)
@@ -50,5 +49,4 @@ bool remove_duplicate_faces(CollapseMesh& mesh, PairTable& pairs, std::size_t ta
     return mesh.face_count() < before;
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -12,8 +12,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// The numbers 0, 1 ... count - 1. O(count)
 inline std::vector<Index> all_indices(std::size_t count) {
@@ -78,5 +77,4 @@ private:
     std::vector<Index> numbers_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

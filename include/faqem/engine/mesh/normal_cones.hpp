@@ -7,8 +7,7 @@
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Tests whether no two face normals at a vertex are more than 120 degrees apart. High-valence vertices have a
 /// cached cone, so that their faces are not visited for each test. Belongs to one mesh. Not thread-safe.
@@ -82,5 +81,4 @@ private:
     std::unordered_map<Index, Cone> cones_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

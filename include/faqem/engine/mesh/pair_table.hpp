@@ -12,8 +12,7 @@
 #include "faqem/engine/mesh/collapse_mesh.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A pair as seen from one of its vertices.
 struct Neighbour {
@@ -264,5 +263,4 @@ private:
     std::vector<std::uint32_t> counts_;  // scratch: previous face count of each change
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

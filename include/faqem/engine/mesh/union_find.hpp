@@ -9,8 +9,7 @@
 #include "faqem/engine/mesh/index_lists.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Disjoint sets of the numbers 0 .. size - 1. Each set is represented by its smallest member.
 class UnionFind {
@@ -40,5 +39,4 @@ private:
     std::vector<Index> parent_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -23,8 +23,7 @@ struct Eigen::internal::redux_novec_unroller<Function, Evaluator, 0, 3> {
 };
 #endif  /// \endcond
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 using Vector3 = Eigen::Vector3d;
 
@@ -42,5 +41,4 @@ inline Vector3 area_vector(const Vector3& a, const Vector3& b, const Vector3& c)
     return (b - a).cross(c - a);
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

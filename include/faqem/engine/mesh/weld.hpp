@@ -11,8 +11,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 namespace weld_detail {
 
@@ -118,5 +117,4 @@ inline std::vector<Index> weld_within(const std::vector<Vec3>& positions, double
     return representative;
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -17,8 +17,7 @@
 #include "faqem/engine/quadric/terms.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// How the area term is used.
 enum class AreaTerm {
@@ -200,5 +199,4 @@ private:
 
 static_assert(CollapseMetric<AccumulatedMetric>);
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

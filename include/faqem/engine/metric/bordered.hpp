@@ -11,8 +11,7 @@
 #include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Keeps each vertex of a planar or straight part of the border in its plane or on its line, and the corners in
 /// which two parts meet. A collapse that merges two corners or two parts is allowed at a high price, so that any
@@ -73,5 +72,4 @@ private:
     double weight_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -14,8 +14,7 @@
 #include "faqem/engine/quadric/placement.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// How a collapse affects the costs of other pairs of the survivor's neighbours.
 enum class Reevaluation {
@@ -114,5 +113,4 @@ protected:
     Inner inner_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -16,8 +16,7 @@
 #include "faqem/engine/metric/accumulated.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Weights of the edge planes of the memoryless metric. Their costs, like those of the face planes, are
 /// areas times squared distances; 0 disables a term.
@@ -295,5 +294,4 @@ private:
 
 static_assert(CollapseMetric<MemorylessMetric>);
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

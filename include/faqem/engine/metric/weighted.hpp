@@ -11,8 +11,7 @@
 #include "faqem/engine/metric/collapse_metric.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Multiplies the costs of another metric by the larger weight of the pair's vertices. The weight of the
 /// new vertex is interpolated linearly between both, at the point of the edge closest to it.
@@ -71,5 +70,4 @@ private:
     std::vector<double> weights_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -7,8 +7,7 @@
 #include "faqem/engine/quadric/quadric.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Positions that the new vertex of a pair may have.
 enum class AllowedPosition {
@@ -92,5 +91,4 @@ inline Vector3 optimal_position_in(const Flat& flat, const Vector3& origin, cons
                                                        AllowedPosition::anywhere, &bounds));
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -8,8 +8,7 @@
 #include "faqem/engine/mesh/vector.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A symmetric 3 x 3 matrix, by default zero.
 struct Symmetric3 {
@@ -131,5 +130,4 @@ struct Quadric : Symmetric3 {
     }
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -12,8 +12,7 @@
 #include "faqem/engine/quadric/quadric.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Weight of a face's plane in the base term. K is the squared distance to the plane, A the area of the
 /// face.
@@ -108,5 +107,4 @@ inline Quadric area_term(const CollapseMesh& mesh, const PairTable& pairs, Index
     return q;
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

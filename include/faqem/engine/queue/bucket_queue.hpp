@@ -12,8 +12,7 @@
 #include "faqem/engine/queue/collapse_queue.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A cost as the queue stores it: a multiple of 2^64. Costs are fourth powers of lengths. With a diagonal of
 /// 1, those of a surface with edges of 1e-11 would be zero in single precision.
@@ -96,5 +95,4 @@ private:
     std::size_t size_ = 0;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

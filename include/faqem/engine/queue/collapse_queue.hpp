@@ -8,8 +8,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A priority queue of pairs with costs, finite and >= 0; cheapest first. The order of equal costs must be
 /// deterministic: it may depend only on the sequence of calls.
@@ -26,5 +25,4 @@ concept CollapseQueue = requires(Q queue, const Q& const_queue, Index pair, doub
     { const_queue.has_cheaper(cost) } -> std::same_as<bool>;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

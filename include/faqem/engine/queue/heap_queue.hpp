@@ -9,8 +9,7 @@
 #include "faqem/export.hpp"
 #include "faqem/mesh.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A four-ary heap that stores the position of each pair. Equal costs are popped by index. set(), erase()
 /// and pop() take O(log n), the other functions O(1). 20 bytes per pair.
@@ -99,5 +98,4 @@ private:
     std::vector<Index> heap_index_;  // position of each pair in heap_, or no_index
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

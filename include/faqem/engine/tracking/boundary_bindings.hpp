@@ -17,8 +17,7 @@
 #include "faqem/engine/tracking/original_surface.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// The tracked vertices on the original boundary, each bound to one boundary edge near it. Vertices of a
 /// boundary loop that has vanished are not bound. Needs no memory for a surface without boundary. Not
@@ -227,5 +226,4 @@ private:
     std::vector<Index> edge_pairs_, ends_;         // their pairs and their other ends
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

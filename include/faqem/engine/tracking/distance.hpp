@@ -17,8 +17,7 @@
 #include "faqem/engine/util/vectorised.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Points whose distances are computed at once, in a form that compilers vectorise.
 /// \tparam Real  double, or float with positions relative to a point nearby
@@ -293,5 +292,4 @@ private:
     std::size_t first_ = 0;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -14,8 +14,7 @@
 #include "faqem/engine/tracking/distance.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Original vertices that are tracked, and the vertex of the current mesh that each was merged into. Both
 /// arrays have the same length.
@@ -115,5 +114,4 @@ private:
     std::vector<Index> boundary_neighbours_;
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -19,8 +19,7 @@
 #include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// A distance beyond which collapses are refused, as far as distances of points and costs show. Contractions are refused
 /// as well.
@@ -294,5 +293,4 @@ private:
 
 static_assert(CollapseMetric<TrackedMetric>);
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

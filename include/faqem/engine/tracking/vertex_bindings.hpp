@@ -3,7 +3,6 @@
 /// Bindings of the original vertices to the faces of the current mesh that represent them.
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -15,8 +14,7 @@
 #include "faqem/engine/util/run_context.hpp"
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Finds faces near points that were merged into vertices of a mesh. References the mesh.
 /// \tparam Mesh  has position(v), triangle(f), is_high_valence(v) and for_each_face(v, visit(f, corner))
@@ -180,5 +178,4 @@ private:
     std::vector<Index> first_bound_, next_bound_;  // linked list of the vertices bound to each face
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

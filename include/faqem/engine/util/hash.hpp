@@ -6,8 +6,7 @@
 
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Mixes the bits of x: each bit of the result depends on all bits of x (finaliser of SplitMix64, Steele et
 /// al. 2014). One-to-one; maps 0 to 0. O(1)
@@ -17,5 +16,4 @@ inline std::uint64_t splitmix64(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -13,8 +13,7 @@
 #include "faqem/progress.hpp"
 #include "faqem/report.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 /// Thrown to stop a computation. Public functions catch it and report the reason in their result.
 struct Cancelled {
@@ -140,5 +139,4 @@ private:
     mutable std::pair<Phase, double> shown_ = {Phase::load, 0};
 };
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END

@@ -4,8 +4,7 @@
 
 #include "faqem/export.hpp"
 
-FAQEM_NAMESPACE_BEGIN
-namespace engine {
+FAQEM_ENGINE_BEGIN
 
 #if defined(__GNUC__) && defined(__x86_64__)
 /// Calls work(), with all that it calls inlined and compiled for AVX2. \pre the processor has it
@@ -25,5 +24,4 @@ void vectorised(const Work& work) {
     work();
 }
 
-}  // namespace engine
-FAQEM_NAMESPACE_END
+FAQEM_ENGINE_END
