@@ -18,10 +18,6 @@ namespace fs = std::filesystem;
 
 bool is_glb(std::string_view head, std::string_view /*text*/) { return head.starts_with("glTF"); }
 bool is_json(std::string_view /*head*/, std::string_view text) { return text.starts_with('{'); }
-bool is_off(std::string_view /*head*/, std::string_view text) { return text.starts_with("OFF"); }
-bool is_ply(std::string_view head, std::string_view /*text*/) {
-    return head.starts_with("ply\n") || head.starts_with("ply\r");
-}
 
 constexpr FileFormat glb = {.extension = ".glb",
                             .format = ModelFormat::glb,
@@ -53,10 +49,11 @@ constexpr FileFormat vrm = [] {
     return format;
 }();
 
-const std::array<FileFormat, 7> formats = {{
+constexpr auto formats = std::to_array<FileFormat>({
     glb,
     gltf,
     vrm,
+#ifndef __EMSCRIPTEN__  // where models are GLB in memory: the other formats would be a tenth of the code
     {.extension = ".obj",
      .format = ModelFormat::obj,
      .read = read_obj,
@@ -70,7 +67,10 @@ const std::array<FileFormat, 7> formats = {{
      .keeps_plain_parts = true},
     {.extension = ".ply",
      .format = ModelFormat::ply,
-     .has_signature = is_ply,
+     .has_signature =
+         [](std::string_view head, std::string_view /*text*/) {
+             return head.starts_with("ply\n") || head.starts_with("ply\r");
+         },
      .read = read_ply,
      .encode = encode_ply,
      .list_references = list_ply_references,
@@ -86,8 +86,13 @@ const std::array<FileFormat, 7> formats = {{
      .bake = Bake::none,
      .bare_bake = Bake::none,
      .holds_normals = false},
-    {.extension = ".off", .has_signature = is_off, .read = read_off, .min_bytes_per_face = 28},
-}};
+    {.extension = ".off",
+     .has_signature = [](std::string_view /*head*/,
+                         std::string_view text) { return text.starts_with("OFF"); },
+     .read = read_off,
+     .min_bytes_per_face = 28},
+#endif
+});
 
 /// How to get a file that is read of one that is not, by its extension.
 constexpr std::array<std::pair<std::string_view, const char*>, 5> convertible_formats = {{
