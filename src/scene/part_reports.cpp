@@ -72,11 +72,12 @@ void report_removed_components(const Asset& source, SimplifiedParts& result) {
         return;
     const PartComponents components = part_components(source);
     std::vector<PlacedFace> before, after;
-    for (const auto& [p, transform] : measured_instances(source)) {
+    for (const Instance& instance : measured_instances(source)) {
+        const Index p = instance.part;
         const auto append = [&](auto& faces, const auto& positions, const auto& triangles,
                                 const std::vector<Index>& component) {
             append_placed_faces(faces, triangles, component,
-                                [&](Index v) { return transformed_point(transform, positions[v]); });
+                                [&](Index v) { return transformed_point(instance.transform, positions[v]); });
         };
         append(before, source.parts[p].positions, source.parts[p].triangles, components.of_face[p]);
         append(after, result.parts[p].mesh.positions, result.parts[p].mesh.triangles,
