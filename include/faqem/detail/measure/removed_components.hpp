@@ -68,7 +68,7 @@ void append_placed_faces(std::vector<PlacedFace>& faces, const Triangles& triang
 FAQEM_EXPORT FoundComponents removed_components(std::span<const PlacedFace> source,
                                                 std::span<const PlacedFace> result, std::size_t count);
 
-/// Whether components may be removed, or shrunk: some were, or a component of the result has less than 32 faces.
+/// Whether components may be removed, or shrunk: some were, or a component of the result has fewer than 32 faces.
 /// \param report  its counts
 /// \param mesh    the result
 /// Complexity: O(vertices log vertices + faces)
