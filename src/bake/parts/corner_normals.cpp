@@ -11,7 +11,6 @@
 namespace faqem::detail {
 namespace {
 
-constexpr double corner_inset = 0.02;
 // Largest number of clusters of a vertex that are searched for a corner. It bounds the work: if there are
 // more creases, the remaining corners are not clustered.
 constexpr std::size_t max_clusters = 64;
@@ -36,7 +35,9 @@ struct Cluster {
 struct RawNormals {
     std::vector<Vector3> face_normals;  // by face
     std::vector<Vector3> normals;       // by corner
+    std::vector<Vector3> inner;         // by corner: of the source inside the face; 0: unknown
     std::vector<Index> facets;          // by corner; no_index: of no facet that is as large as the face
+    std::vector<Index> source_facets;   // by corner, of any size; no_index: unknown
     std::vector<float> min_cosines;     // by corner: the cosine of the angle to the face must be above
     std::vector<std::uint8_t>
         is_joined;  // by facet: its corners at a vertex have one normal whatever their angle
@@ -127,21 +128,75 @@ void transfer_normals(const BakePart& part, bool keeps_vertices, const RunContex
             if (facets.is_seamless[facet]) raw.facets[c] = facet;
         }
     }
-    const auto set = [&](std::uint64_t corner, const SurfacePoint& point) {
-        const Vector3 original = interpolated_normal(*part.source, point);
-        if (original.isZero(0)) return;
-        raw.normals[corner] = original;
-        if (facets.of_face.empty()) return;
-        raw.min_cosines[corner] = min_normal_cosine_at(
-            original.dot(winding_normal(part.source->positions, part.source->triangles[point.face])));
-        const Index facet = facets.of_face[point.face];
-        const double area = triangle_area(mesh.positions, mesh.triangles[corner / 3]);
-        if (2 * facets.areas[facet] >= area) raw.facets[corner] = facet;
+    visit_corner_points(
+        part, context, [&](std::uint64_t corner, const SurfacePoint& point, const SurfacePoint& inner) {
+            if (inner.face != no_index) raw.inner[corner] = interpolated_normal(*part.source, inner);
+            if (point.face == no_index) return;
+            const Vector3 original = interpolated_normal(*part.source, point);
+            if (original.isZero(0)) return;
+            raw.normals[corner] = original;
+            if (facets.of_face.empty()) return;
+            raw.min_cosines[corner] = min_normal_cosine_at(
+                original.dot(winding_normal(part.source->positions, part.source->triangles[point.face])));
+            const Index facet = facets.of_face[point.face];
+            raw.source_facets[corner] = facet;
+            const double area = triangle_area(mesh.positions, mesh.triangles[corner / 3]);
+            if (2 * facets.areas[facet] >= area) raw.facets[corner] = facet;
+        });
+}
+
+// Fits the normals of the clusters by least squares: the normals that viewers interpolate between the corners shall be
+// those of the source all over the faces. A cluster keeps its mean if it is on several facets of the source, whose edges
+// it rounds, or if its fitted normal points away from one of its faces.
+void fit_normals(const TriangleMesh& mesh, const RawNormals& raw, const RunContext& context,
+                 CornerNormals& result) {
+    const std::vector<Index>& clusters = result.clusters;
+    const std::size_t corners = clusters.size();
+    std::vector<Vector3> samples(corners), fitted(corners);
+    for (std::size_t c = 0; c < corners; ++c) fitted[c] = to_vector(result.normals[c]);
+    // The samples have the weights 2/3, 1/6 and 1/6: their mean has the integral of a product of two weights.
+    const auto mixed = [](const std::vector<Vector3>& of, std::size_t c) {
+        const std::size_t f = c - c % 3;
+        return Vector3((of[c] * 3 + of[f] + of[f + 1] + of[f + 2]) / 6);
     };
-    if (!part.map) return visit_corner_points(part, corner_inset, context, set);
-    parallel_each(raw.normals.size(), 768, context, [&](std::size_t c) {
-        set(c, part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, corner_inset)));
-    });
+    // Where the source has no point, or one on the other side of a thin wall, the normals of the corners remain.
+    for (std::size_t c = 0; c < corners; ++c) {
+        const Vector3& inner = raw.inner[c];
+        samples[c] = !inner.isZero(0) && raw.is_accepted(c, inner) ? inner : mixed(fitted, c);
+    }
+    // Relative to their diagonal the eigenvalues of the normal equations are in [0.5, 2], so a few Jacobi iterations
+    // suffice; they need no sums over all corners, which other vector units would round differently.
+    constexpr double relaxation = 0.8;
+    constexpr int iterations = 12;
+    std::vector<double> areas(corners / 3), weights(corners, 0);  // by face, by cluster
+    std::vector<std::uint8_t> is_kept(corners, 0);                // by cluster
+    for (std::size_t c = 0; c < corners; ++c) {
+        const Index k = clusters[c], facet = raw.source_facets[c];
+        areas[c / 3] = triangle_area(mesh.positions, mesh.triangles[c / 3]);
+        weights[k] += areas[c / 3] / 2;
+        if (facet == no_index || facet != raw.source_facets[k]) is_kept[k] = 1;
+    }
+    std::vector<Vector3> residuals(corners);
+    for (int i = 0; i < iterations; ++i) {
+        context.check_now();
+        std::ranges::fill(residuals, Vector3::Zero());
+        for (std::size_t c = 0; c < corners; ++c) {
+            const std::size_t f = c - c % 3;
+            const Vector3 sum = fitted[c] + fitted[f] + fitted[f + 1] + fitted[f + 2];
+            residuals[clusters[c]] += areas[c / 3] * (mixed(samples, c) - sum / 4);
+        }
+        for (std::size_t c = 0; c < corners; ++c) {
+            const Index k = clusters[c];
+            if (!is_kept[k] && weights[k] > 0) fitted[c] += relaxation / weights[k] * residuals[k];
+        }
+    }
+    for (std::size_t c = 0; c < corners; ++c) {
+        fitted[c] = unit_or_zero(fitted[c]);
+        const bool is_accepted = raw.joins(raw.facets[c]) || raw.is_accepted(c, fitted[c]);
+        if (!is_accepted || !fitted[c].allFinite() || fitted[c].isZero(0)) is_kept[clusters[c]] = 1;
+    }
+    for (std::size_t c = 0; c < corners; ++c)
+        if (!is_kept[clusters[c]]) result.normals[c] = to_vec3f(fitted[c]);
 }
 
 }  // namespace
@@ -171,11 +226,13 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, con
     const std::size_t corners = 3 * mesh.triangles.size();
     const bool transfers = options.normals != Normals::smooth && options.normals != Normals::flat;
     const bool keeps_vertices = options.normals == Normals::automatic && !makes_atlas(options.kind);
-    RawNormals raw{std::vector<Vector3>(mesh.triangles.size()),
-                   std::vector<Vector3>(corners),
-                   std::vector<Index>(corners, no_index),
-                   std::vector<float>(corners, 0.0f),
-                   {}};
+    RawNormals raw{.face_normals = std::vector<Vector3>(mesh.triangles.size()),
+                   .normals = std::vector<Vector3>(corners),
+                   .inner = std::vector<Vector3>(corners, Vector3::Zero()),
+                   .facets = std::vector<Index>(corners, no_index),
+                   .source_facets = std::vector<Index>(corners, no_index),
+                   .min_cosines = std::vector<float>(corners, 0.0f),
+                   .is_joined = {}};
     CornerNormals result{std::vector<Vec3f>(corners), std::vector<Index>(corners),
                          faces_with_reversed_winding(part)};
     parallel_each(mesh.triangles.size(), 256, context, [&](std::size_t f) {
@@ -195,6 +252,7 @@ CornerNormals make_normals(const BakePart& part, const BakeOptions& options, con
     const VertexCorners at = vertex_corners(mesh);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
         smooth_vertex(mesh, at[v], raw, min_normal_cosine, result);
+    if (transfers) fit_normals(mesh, raw, context, result);
     if (options.normals == Normals::flat)
         std::transform(raw.normals.begin(), raw.normals.end(), result.normals.begin(), to_vec3f);
     return result;

@@ -30,7 +30,8 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
 /// a point slightly inside the simplified face; with Normals::smooth it is the normal of the simplified face.
 /// Corners of a vertex whose normals differ by at most the crease angle get their mean, weighted by corner
 /// angle times face area; those on different facets of the source (normal_facets()) do not, if the facets are as large
-/// as the faces. A normal that is not within 90 degrees of the face normal is replaced by the latter, which is
+/// as the faces. If they are on one facet, their normal is then fitted, by least squares, to those of the source at three
+/// points of each face. A normal that is not within 90 degrees of the face normal is replaced by the latter, which is
 /// oriented_face_normal() with Normals::transfer, and otherwise given by the winding. Where the normals of the source
 /// are more than 60 degrees from its faces, those of the result may be farther from its faces.
 /// With Normals::automatic, unless the kind makes an atlas, all corners of a vertex on a facet on which the source has one

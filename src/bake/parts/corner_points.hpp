@@ -25,6 +25,10 @@ namespace faqem::detail {
 /// SuccessiveProjection.
 inline constexpr double min_facing_cosine = 0.17;
 
+/// Fractions of the way from a corner to the middle of the opposite edge: just inside the face, and at the three points
+/// with which the integral of a quadratic function over it is exact.
+inline constexpr std::array<double, 2> corner_insets = {0.02, 1.0 / 3};
+
 /// The faces of the source around each vertex of the simplified mesh: those with a corner that was collapsed into it.
 inline Buckets<Index> faces_around(const CollapseHistory& history, std::size_t vertices) {
     const std::vector<Index> vertex = vertex_map(history);
@@ -42,23 +46,22 @@ inline Buckets<Index> faces_around(const CollapseHistory& history, std::size_t v
 
 class Search {
 public:
-    Search(const BakePart& part, double inset)
+    explicit Search(const BakePart& part)
         : mesh_(part.simplified->mesh),
           history_(part.simplified->history),
-          inset_(inset),
           corners_(vertex_corners(mesh_)),
           faces_(faces_around(history_, mesh_.positions.size())) {}
 
-    // Calls visit(corner, point) for the corners of a vertex.
+    // Calls visit(corner, near, inner) for the corners of a vertex.
     template <class Visit>
     void search_vertex(Index v, const RunContext& context, const Visit& visit) const {
         const std::span<const Index> candidates = faces_[v];
         const std::span<const std::uint64_t> corners = corners_[v];
         const auto search = [&](const auto& closest) {
             for (const std::uint64_t corner : corners) {
-                context.count(map_query_cost);
-                const SurfacePoint point = closest(query(corner));
-                if (point.face != no_index) visit(corner, point);
+                context.count(2 * map_query_cost);
+                visit(corner, closest(query(corner, corner_insets[0])),
+                      closest(query(corner, corner_insets[1])));
             }
         };
         if (candidates.size() * corners.size() > max_comparisons) {
@@ -108,9 +111,9 @@ private:
         Bvh tree;
     };
 
-    Query query(std::uint64_t corner) const {
+    Query query(std::uint64_t corner, double inset) const {
         const Triangle& t = mesh_.triangles[corner / 3];
-        const Vec3 w = barycentrics_near_corner(corner % 3, inset_);
+        const Vec3 w = barycentrics_near_corner(corner % 3, inset);
         Vector3 p = Vector3::Zero();
         for (std::size_t i = 0; i < 3; ++i) p += w[i] * to_eigen(mesh_.positions[t[i]]);
         return {p, winding_normal(mesh_.positions, t), static_cast<Index>(corner / 3)};
@@ -147,23 +150,29 @@ private:
 
     const TriangleMesh& mesh_;
     const CollapseHistory& history_;
-    double inset_;
     VertexCorners corners_;
     Buckets<Index> faces_;
 };
 
-/// Finds the point of the source that is closest to a point near each corner of the simplified mesh, as
-/// barycentrics_near_corner() gives it. It is on a face with a corner that was collapsed into the vertex of the
-/// simplified corner, of the same group, and at most 80 degrees from the simplified face. BakePart::map gives the same
-/// point unless it is on a face of another vertex or of another surface patch, but takes longer to prepare.
-/// \param part          its map is not used
-/// \param inset         see barycentrics_near_corner()
-/// \param visit         called once for each corner that has a point, concurrently
+/// Finds the points of the source that are closest to two points near each corner of the simplified mesh, as
+/// barycentrics_near_corner() gives them for corner_insets. They are on faces with a corner that was collapsed into the
+/// vertex of the simplified corner, of the same group, and at most 80 degrees from the simplified face. BakePart::map gives
+/// the same points unless they are on faces of another vertex or of another surface patch, but takes longer to prepare; if
+/// there is one, it is used.
+/// \param visit  visit(corner, near, inner), called once for each corner, concurrently; the face of a point may be no_index
 /// \throws whatever `context` throws
 /// O(n log n) in the faces of both meshes
-inline void visit_corner_points(const BakePart& part, double inset, const RunContext& context,
-                                const std::function<void(std::uint64_t, const SurfacePoint&)>& visit) {
-    const Search search(part, inset);
+inline void visit_corner_points(
+    const BakePart& part, const RunContext& context,
+    const std::function<void(std::uint64_t, const SurfacePoint&, const SurfacePoint&)>& visit) {
+    if (part.map)
+        return parallel_each(3 * part.faces(), 256, context, [&](std::size_t c) {
+            const auto at = [&](double inset) {
+                return part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, inset));
+            };
+            visit(c, at(corner_insets[0]), at(corner_insets[1]));
+        });
+    const Search search(part);
     parallel_blocks(part.simplified->mesh.positions.size(), 64, context,
                     [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
                         for (std::size_t v = begin; v < end; ++v)

@@ -57,6 +57,45 @@ TEST_CASE("corner points: normals differ little from those of the map") {
     }
 }
 
+TEST_CASE("corner points: normals are those of the source all over the faces, not only at the corners") {
+    // A flat square with the normals of a wave. Its simplified mesh is too coarse for them.
+    const auto normal_at = [](double x) {
+        const double slope = 0.8 * std::cos(7 * x), length = std::sqrt(1 + slope * slope);
+        return Vec3{slope / length, 0, 1 / length};
+    };
+    Simplified square(faqem::test::square(48, 1, 0), 0.05);
+    for (const Vec3& p : square.part.positions) {
+        const Vec3 n = normal_at(p[0]);
+        square.part.normals.push_back({float(n[0]), float(n[1]), float(n[2])});
+    }
+    const TriangleMesh& mesh = square.result.mesh;
+    REQUIRE(mesh.triangles.size() > 20);
+    for (const bool with_map : {false, true}) {
+        const auto normals = square.normals(with_map).normals;
+        double fitted = 0, at_corners = 0;
+        for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+            const double area = detail::triangle_area(mesh.positions, mesh.triangles[f]);
+            for (const Vec3& w : detail::quarter_points) {
+                double x = 0;
+                Vec3 here{}, corners{};
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double corner_x = mesh.positions[mesh.triangles[f][c]][0];
+                    x += w[c] * corner_x;
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        here[k] += w[c] * normals[3 * f + c][k];
+                        corners[k] += w[c] * normal_at(corner_x)[k];
+                    }
+                }
+                for (std::size_t k = 0; k < 3; ++k) {
+                    fitted += area * std::pow(here[k] - normal_at(x)[k], 2);
+                    at_corners += area * std::pow(corners[k] - normal_at(x)[k], 2);
+                }
+            }
+        }
+        CHECK(fitted < 0.6 * at_corners);
+    }
+}
+
 TEST_CASE("corner points: creases are kept") {
     const Simplified cube(fine_cube(12), 0.05);
     REQUIRE(cube.result.mesh.triangles.size() < 100);
