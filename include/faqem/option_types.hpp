@@ -212,7 +212,7 @@ enum class Quantize {
 
 /// Whether a new atlas has a normal map. Bake::keep preserves those of the source, the other kinds have none.
 enum class NormalMap {
-    /// If the source has one, or if it has other textures and normals differ by more than 5 degrees on average
+    /// If the source has one, or if it has other textures and normals differ by more than 3.5 degrees on average
     /// by area.
     automatic,
     on,  ///< for every lit material; made from the geometry if the source has no normal map

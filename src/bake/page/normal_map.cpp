@@ -15,7 +15,7 @@ namespace {
 
 // Smallest normal deviation, in degrees, for which a normal map is made from geometry. Below it the visible difference
 // does not justify the size of the image.
-constexpr double min_deviation = 5;
+constexpr double min_deviation = 3.5;
 
 struct Deviation {
     double sum = 0, area = 0;
