@@ -1,11 +1,10 @@
 // Surfaces that lie close to others keep their side.
 
-#include <Eigen/Dense>
-
 #include "faqem/bake.hpp"
 #include "scene/layers.hpp"
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
+#include "support/rays.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;
@@ -22,27 +21,13 @@ SimplifiedParts simplified(const Asset& asset, Preset preset) {
     return simplify_parts(asset, {.target = ratio(0.03), .preset = preset});
 }
 
-// Distance of the surface around the origin in a direction.
-double radius(const TriangleMesh& mesh, const Vec3& direction) {
-    const Eigen::Vector3d d(direction[0], direction[1], direction[2]);
-    for (const Triangle& t : mesh.triangles) {
-        Eigen::Matrix3d corners;
-        for (int k = 0; k < 3; ++k) {
-            const Vec3& p = mesh.positions[t[static_cast<std::size_t>(k)]];
-            corners.col(k) = Eigen::Vector3d(p[0], p[1], p[2]);
-        }
-        const Eigen::Vector3d x = corners.inverse() * d;  // d is this combination of the corners
-        if (x.minCoeff() >= -1e-9) return 1 / x.sum();
-    }
-    return 0;
-}
-
 // Share of directions in which the outer sphere is inside the inner one.
 double share_crossed(const SimplifiedParts& result) {
     const TriangleMesh directions = icosphere(4);
     double crossed = 0;
     for (const Vec3& d : directions.positions)
-        crossed += !(radius(result.parts[0].mesh, d) < radius(result.parts[1].mesh, d));
+        crossed +=
+            !(ray_hits(result.parts[0].mesh, {}, d).at(0) < ray_hits(result.parts[1].mesh, {}, d).at(0));
     return crossed / static_cast<double>(directions.positions.size());
 }
 
