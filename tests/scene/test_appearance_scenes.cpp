@@ -73,6 +73,24 @@ TEST_CASE("a decal on a curved body is outside at each point of its area") {
     CHECK(share_in_order(with_decal(cylinder(200, 8, 2), on_cylinder), on_cylinder, 0.02) == 1);
 }
 
+TEST_CASE("the eyes of a head in the same mesh keep their size and place") {
+    const std::array<Vec3, 2> eyes = {{{0.36, 0.27, 0.9}, {-0.36, 0.27, 0.9}}};
+    TriangleMesh head = icosphere(5);
+    for (const Vec3& eye : eyes) head = both(std::move(head), moved(globe(12, 0.1), eye));
+    for (const auto& [share, allowed] : {std::pair{0.1, 0.05}, {0.03, 0.15}}) {
+        const Part result = simplify(asset_with({part_of(head)}), {.target = ratio(share)}).asset.parts.at(0);
+        double error = 0;
+        for (const Vec3& eye : eyes) {
+            for (const Vec3& d : icosphere(2).positions) {
+                if (d[0] * eye[0] + d[1] * eye[1] + d[2] * eye[2] < 0.3) continue;  // in the head
+                const std::vector<double> hits = ray_hits(result, eye, d);
+                error = std::max(error, hits.empty() ? 1 : std::abs(hits.back() / 0.1 - 1));
+            }
+        }
+        CHECK(error < allowed);
+    }
+}
+
 TEST_CASE("two blended shells of a vase keep their order along rays") {
     Asset asset = asset_with({part_of(cylinder(96, 48, 2), 0), part_of(cylinder(70, 36, 2), 1)});
     for (Part& part : asset.parts)
