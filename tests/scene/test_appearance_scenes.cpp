@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 
 #include "support/catch.hpp"
 #include "support/rays.hpp"
@@ -89,6 +90,33 @@ TEST_CASE("the eyes of a head in the same mesh keep their size and place") {
         }
         CHECK(error < allowed);
     }
+}
+
+TEST_CASE("each rod of a rack that is lost or shorter is named, and the others have their length") {
+    constexpr Index count = 64;
+    const auto length = [](Index i) { return 2 + 0.5 * (i % 5); };
+    TriangleMesh rack;
+    for (Index i = 0; i < count; ++i)
+        rack = both(std::move(rack), moved(scaled(cylinder(6, 12, 50 * length(i)), 0.02), {double(i), 0, 0}));
+    const auto [asset, report, histories, origins] =
+        simplify(asset_with({part_of(rack)}), {.target = ratio(0.01)});
+    std::array<double, count> bottom{}, top{};
+    bottom.fill(infinity);
+    for (const Vec3& p : asset.parts.at(0).positions) {
+        const auto i = static_cast<std::size_t>(std::lround(p[0]));
+        bottom.at(i) = std::min(bottom[i], p[2]);
+        top[i] = std::max(top[i], p[2]);
+    }
+    std::array<bool, count> is_named{};
+    for (const auto* list : {&report.removed_components, &report.shrunk_components})
+        for (const RemovedComponent& one : *list)
+            is_named.at(static_cast<std::size_t>(std::lround(one.box_min[0]))) = true;
+    for (Index i = 0; i < count; ++i) CHECK(is_named[i] == !(top[i] - bottom[i] >= 0.8 * length(i)));
+    const auto begin = [](std::size_t number) { return std::to_string(number) + " visible components "; };
+    REQUIRE(report.warnings.size() == 2);
+    CHECK(report.warnings[0].starts_with(begin(report.removed_components.size()) + "were removed"));
+    CHECK(report.warnings[1].starts_with(begin(report.shrunk_components.size()) + "lost"));
+    CHECK(8 * std::ranges::count(is_named, false) > static_cast<std::ptrdiff_t>(report.faces_out));
 }
 
 TEST_CASE("two blended shells of a vase keep their order along rays") {
