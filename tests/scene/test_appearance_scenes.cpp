@@ -6,6 +6,7 @@
 #include <string>
 
 #include "support/catch.hpp"
+#include "support/lit.hpp"
 #include "support/rays.hpp"
 #include "support/scenes.hpp"
 
@@ -67,6 +68,37 @@ Asset with_decal(const TriangleMesh& body, const Place& place) {
     return asset;
 }
 
+// The unit sphere with a flat dial instead of the cap above a ring of globe(); the normals of the dial are up.
+void check_dial(Index ring) {
+    constexpr Index rings = 36;
+    const TriangleMesh sphere = globe(rings, 1);
+    const auto [radius, zero, height] = sphere.positions[2 * rings * ring];  // on the rim
+    const auto cap = sphere.triangles.begin() + 4 * rings * ring;
+    TriangleMesh dial = make(sphere.positions, {sphere.triangles.begin(), cap});
+    for (Vec3& p : dial.positions) p[2] = height;
+    Part source = part_of(both(make(sphere.positions, {cap, sphere.triangles.end()}), dial));
+    for (const auto& [x, y, z] : sphere.positions)
+        source.normals.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
+    source.normals.resize(source.positions.size(), {0, 0, 1});
+    const Part result = simplify(asset_with({source}), {.target = ratio(0.1)}).asset.parts.at(0);
+    double area = 0, off_dial = 0, off_body = 0;
+    for (const Triangle& t : result.triangles) {
+        const Vec3 across = normal(make(result.positions, {}), t);
+        const bool is_dial = degrees_between(across, {0, 0, 1}) < 90.0 * ring / rings;
+        if (is_dial) area += std::hypot(across[0], across[1], across[2]) / 2;
+        for (const Index v : t) {
+            const auto& [x, y, z] = result.normals[v];
+            double& largest = is_dial ? off_dial : off_body;
+            largest =
+                std::max(largest, degrees_between({x, y, z}, is_dial ? Vec3{0, 0, 1} : result.positions[v]));
+        }
+    }
+    CAPTURE(ring, result.triangles.size());
+    CHECK(area == Approx(pi * radius * radius).epsilon(0.05));
+    CHECK(off_dial < 2);
+    CHECK(off_body < 2);
+}
+
 }  // namespace
 
 TEST_CASE("a decal on a curved body is outside at each point of its area") {
@@ -91,6 +123,8 @@ TEST_CASE("the eyes of a head in the same mesh keep their size and place") {
         CHECK(error < allowed);
     }
 }
+
+TEST_CASE("a flat dial on a body keeps its normals, and its rim the crease") { check_dial(18); }
 
 TEST_CASE("each rod of a rack that is lost or shorter is named, and the others have their length") {
     constexpr Index count = 64;
