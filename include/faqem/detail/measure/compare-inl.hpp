@@ -28,17 +28,6 @@ struct DistanceSums {
     double max_squared = 0, distance = 0, squared = 0, degrees = 0;
 };
 
-/// Calls work(sums, begin, end) for each block of [0, size), in parallel.
-/// \return the sums of the blocks, in block order, so that totals do not depend on the number of threads
-template <class Work>
-std::vector<DistanceSums> sum_blocks(std::uint64_t size, std::uint32_t threads, Work&& work) {
-    std::vector<DistanceSums> sums((size + comparison_block - 1) / comparison_block);
-    detail::parallel_blocks(size, comparison_block, threads, [&](std::size_t begin, std::size_t end) {
-        work(sums[begin / comparison_block], begin, end);
-    });
-    return sums;
-}
-
 inline detail::SearchLimits search_limits(double tolerance, double diagonal) {
     if (!(tolerance >= 0)) throw OptionError("tolerance must be >= 0");
     return {.tolerance = tolerance,
@@ -49,8 +38,11 @@ inline detail::SearchLimits search_limits(double tolerance, double diagonal) {
 inline OneSided one_sided(const Surface& from, const Surface& to, const Bvh& tree,
                           const CompareOptions& options, std::uint64_t seed, double tie,
                           const detail::SearchLimits& limits) {
-    const std::vector<DistanceSums> sums = sum_blocks(
-        options.samples, options.threads, [&](DistanceSums& sum, std::size_t begin, std::size_t end) {
+    // By block, so that totals do not depend on the number of threads.
+    std::vector<DistanceSums> sums((options.samples + comparison_block - 1) / comparison_block);
+    parallel_blocks(
+        options.samples, comparison_block, options.threads, [&](std::size_t begin, std::size_t end) {
+            DistanceSums& sum = sums[begin / comparison_block];
             CoherentQuery query(to, tree);
             for (std::size_t i = begin; i < end; ++i) {
                 const detail::RandomSample s = sample(from, i, options.samples, seed);

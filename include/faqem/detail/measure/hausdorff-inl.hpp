@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <map>
 
 #include "faqem/detail/measure/covering.hpp"
 
@@ -131,6 +133,13 @@ struct Found {
         else
             open.push_back(piece);
     }
+    /// Adds what was found of other pieces, except the open ones.
+    void merge(const Found& other) {
+        value_squared = std::max(value_squared, other.value_squared);
+        closed_squared = std::max(closed_squared, other.closed_squared);
+        pieces += other.pieces;
+        beyond.insert(beyond.end(), other.beyond.begin(), other.beyond.end());
+    }
 };
 
 /// Computes upper bounds for whole faces.
@@ -178,6 +187,7 @@ inline void bound_faces(const Surface& from, const Surface& to, const Bvh& tree,
 
 /// Splits a piece at the midpoint of its longest edge, and bounds both halves.
 inline void split(const Surface& to, CoherentQuery& query, const Piece& piece, double enough, Found& found) {
+    found.pieces += 2;
     std::size_t longest = 0;
     double length = -1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -225,56 +235,10 @@ inline void cover(const Surface& to, CoherentQuery& query, const Covering& cover
     Found halves;
     halves.collects = found.collects;
     split(to, query, piece, enough, halves);
-    found.pieces += 2;
-    found.value_squared = std::max(found.value_squared, halves.value_squared);
-    found.closed_squared = std::max(found.closed_squared, halves.closed_squared);
-    found.beyond.insert(found.beyond.end(), halves.beyond.begin(), halves.beyond.end());
+    found.merge(halves);
     for (const Piece& half : halves.open)
         cover(to, query, covering, scratch, half, splits - 1, enough, found);
 }
-
-/// Priority queue of open pieces: largest bound first, ties in order of insertion.
-class OpenPieces {
-public:
-    bool empty() const { return heap_.empty(); }
-    double largest_squared() const { return heap_.front().bound_squared; }
-
-    void push(const Piece& piece) {
-        std::uint32_t slot = static_cast<std::uint32_t>(pieces_.size());
-        if (free_.empty()) {
-            pieces_.push_back(piece);
-        } else {
-            slot = free_.back();
-            free_.pop_back();
-            pieces_[slot] = piece;
-        }
-        heap_.push_back({piece.bound_squared, count_++, slot});
-        std::push_heap(heap_.begin(), heap_.end());
-    }
-
-    Piece pop() {
-        std::pop_heap(heap_.begin(), heap_.end());
-        const std::uint32_t slot = heap_.back().slot;
-        heap_.pop_back();
-        free_.push_back(slot);
-        return pieces_[slot];
-    }
-
-private:
-    struct Entry {
-        double bound_squared;
-        std::uint64_t order;
-        std::uint32_t slot;
-        bool operator<(const Entry& other) const {
-            if (bound_squared != other.bound_squared) return bound_squared < other.bound_squared;
-            return order > other.order;
-        }
-    };
-    std::vector<Piece> pieces_;
-    std::vector<std::uint32_t> free_;
-    std::vector<Entry> heap_;
-    std::uint64_t count_ = 0;
-};
 
 FAQEM_INLINE std::vector<NearestFace> nearest_faces_of_vertices(const Surface& from, const Surface& to,
                                                                 const Bvh& tree, const RunContext& context,
@@ -303,73 +267,68 @@ FAQEM_INLINE std::vector<NearestFace> nearest_faces_of_vertices(const Surface& f
 FAQEM_INLINE HausdorffBounds one_sided_hausdorff(const Surface& from, const Surface& to, const Bvh& tree,
                                                  const std::vector<NearestFace>& at_vertices, double known,
                                                  const SearchLimits& limits, const RunContext& context) {
-    double value_squared = known * known, closed_squared = 0;
-    for (const NearestFace& n : at_vertices) value_squared = std::max(value_squared, n.distance_squared);
-
-    OpenPieces open;
-    Found empty;
+    Found empty, total;
     empty.collects = limits.beyond != nullptr;
-    const auto join = [&](std::vector<Found>& blocks) {
-        for (Found& found : blocks) {
-            value_squared = std::max(value_squared, found.value_squared);
-            closed_squared = std::max(closed_squared, found.closed_squared);
-            for (const Piece& piece : found.open) open.push(piece);
-            if (limits.beyond)
-                limits.beyond->insert(limits.beyond->end(), found.beyond.begin(), found.beyond.end());
-            found = empty;
+    total.value_squared = known * known;
+    for (const NearestFace& n : at_vertices)
+        total.value_squared = std::max(total.value_squared, n.distance_squared);
+
+    // By bound, the largest first; equal ones in the order of their insertion.
+    std::multimap<double, Piece, std::greater<>> open;
+    const auto enough = [&] { return enough_squared(total.value_squared, limits); };
+    // Calls work(begin, end, found) for blocks of elements, and adds what each block has found.
+    const auto in_blocks = [&](std::size_t size, std::size_t block, const auto& work) {
+        std::vector<Found> blocks((size + block - 1) / block, empty);
+        parallel_blocks(size, block, context,
+                        [&](std::size_t begin, std::size_t end) { work(begin, end, blocks[begin / block]); });
+        for (const Found& found : blocks) {
+            total.merge(found);
+            for (const Piece& piece : found.open) open.emplace(piece.bound_squared, piece);
         }
     };
-    const auto enough = [&] { return enough_squared(value_squared, limits); };
+    const auto pop = [&] { return open.extract(open.begin()).mapped(); };
 
     const bool refine = std::isfinite(limits.tolerance);
-    std::vector<Found> blocks((from.triangles.size() + face_block - 1) / face_block, empty);
-    const double enough_at_first = refine ? enough() : 0;
-    parallel_blocks(from.triangles.size(), face_block, context, [&](std::size_t begin, std::size_t end) {
-        bound_faces(from, to, tree, at_vertices, enough_at_first, refine, begin, end,
-                    blocks[begin / face_block]);
+    double enough_now = refine ? enough() : 0;
+    in_blocks(from.triangles.size(), face_block, [&](std::size_t begin, std::size_t end, Found& found) {
+        bound_faces(from, to, tree, at_vertices, enough_now, refine, begin, end, found);
     });
-    join(blocks);
 
-    HausdorffBounds result;
+    const auto may_go_on = [&] {
+        return total.pieces < limits.max_pieces && !(std::sqrt(total.value_squared) > limits.stop_above);
+    };
     std::vector<Piece> batch;
-    if (!open.empty() && refine && limits.max_pieces > 0 && !(std::sqrt(value_squared) > limits.stop_above)) {
+    if (!open.empty() && refine && may_go_on()) {
         const Covering covering(to);
-        while (!open.empty()) batch.push_back(open.pop());
-        const double enough_now = enough();
-        blocks.resize((batch.size() + cover_block - 1) / cover_block, empty);
-        parallel_blocks(batch.size(), cover_block, context, [&](std::size_t begin, std::size_t end) {
+        while (!open.empty()) batch.push_back(pop());
+        enough_now = enough();
+        in_blocks(batch.size(), cover_block, [&](std::size_t begin, std::size_t end, Found& found) {
             CoherentQuery query(to, tree);
             Covering::Scratch scratch(covering);
             for (std::size_t i = begin; i < end; ++i)
-                cover(to, query, covering, scratch, batch[i], cover_splits, enough_now,
-                      blocks[begin / cover_block]);
+                cover(to, query, covering, scratch, batch[i], cover_splits, enough_now, found);
         });
-        for (const Found& found : blocks) result.pieces += found.pieces;
-        join(blocks);
     }
-    const auto needs_work = [&] { return !open.empty() && open.largest_squared() > enough(); };
-    while (needs_work() && result.pieces < limits.max_pieces &&
-           !(std::sqrt(value_squared) > limits.stop_above)) {
+    const auto needs_work = [&] { return !open.empty() && open.begin()->first > enough(); };
+    while (needs_work() && may_go_on()) {
         batch.clear();
-        while (needs_work() && batch.size() < batch_size) batch.push_back(open.pop());
-        const double enough_now = enough();
-        blocks.resize((batch.size() + piece_block - 1) / piece_block, empty);
-        parallel_blocks(batch.size(), piece_block, context, [&](std::size_t begin, std::size_t end) {
+        while (needs_work() && batch.size() < batch_size) batch.push_back(pop());
+        enough_now = enough();
+        in_blocks(batch.size(), piece_block, [&](std::size_t begin, std::size_t end, Found& found) {
             CoherentQuery query(to, tree);
-            for (std::size_t i = begin; i < end; ++i)
-                split(to, query, batch[i], enough_now, blocks[begin / piece_block]);
+            for (std::size_t i = begin; i < end; ++i) split(to, query, batch[i], enough_now, found);
         });
-        result.pieces += 2 * batch.size();
-        join(blocks);
     }
-    if (!open.empty()) closed_squared = std::max(closed_squared, open.largest_squared());
-    while (limits.beyond && needs_work()) {
-        const Piece piece = open.pop();
-        limits.beyond->push_back({piece.of, piece.nearest[0]});
+    if (!open.empty()) total.closed_squared = std::max(total.closed_squared, open.begin()->first);
+    if (limits.beyond) {
+        while (needs_work()) {
+            const Piece piece = pop();
+            total.beyond.push_back({piece.of, piece.nearest[0]});
+        }
+        limits.beyond->insert(limits.beyond->end(), total.beyond.begin(), total.beyond.end());
     }
-    result.value = std::sqrt(value_squared);
-    result.bound = std::sqrt(std::max(value_squared, closed_squared));
-    return result;
+    return {std::sqrt(total.value_squared), std::sqrt(std::max(total.value_squared, total.closed_squared)),
+            total.pieces};
 }
 
 FAQEM_INLINE HausdorffBounds two_sided_hausdorff(const Surface& a, const Bvh& tree_a, const Surface& b,
