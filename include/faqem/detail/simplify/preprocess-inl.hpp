@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
 
+#include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/portable_math.hpp"
 #include "faqem/detail/options/option_table.hpp"
 #include "faqem/engine/mesh/weld.hpp"
@@ -122,29 +122,22 @@ inline void drop_degenerate_faces(PreprocessedMesh& out) {
 inline void drop_duplicate_faces(std::span<const Index> groups, PreprocessedMesh& out) {
     // The corners that follow the smallest one, the group and the index of a face.
     using FaceKey = std::array<Index, 4>;
-    std::vector<std::size_t> offset(out.positions.size() + 1, 0);
-    const auto smallest = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
-    for (const Triangle& t : out.triangles)
-        if (!is_dropped(t)) ++offset[smallest(t) + 1];
-    std::partial_sum(offset.begin(), offset.end(), offset.begin());
-    std::vector<FaceKey> faces(offset.back());
-    for (Index f = 0; f < out.triangles.size(); ++f) {
-        Triangle t = out.triangles[f];
-        if (is_dropped(t)) continue;
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        faces[offset[t[0]]++] = {t[1], t[2], groups.empty() ? no_index : groups[f], f};
-    }
-    std::size_t begin = 0;
-    for (const std::size_t end : offset) {  // each entry has advanced to the beginning of the next vertex
-        std::sort(faces.begin() + static_cast<std::ptrdiff_t>(begin),
-                  faces.begin() + static_cast<std::ptrdiff_t>(end));
-        for (std::size_t i = begin + 1; i < end; ++i) {
-            const FaceKey &a = faces[i - 1], &b = faces[i];
-            if (!std::equal(a.begin(), a.end() - 1, b.begin())) continue;
-            out.triangles[b.back()] = no_corners;
+    Buckets<FaceKey> faces(out.positions.size(), [&](auto&& put) {
+        for (Index f = 0; f < out.triangles.size(); ++f) {
+            Triangle t = out.triangles[f];
+            if (is_dropped(t)) continue;
+            std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+            put(t[0], {t[1], t[2], groups.empty() ? no_index : groups[f], f});
+        }
+    });
+    for (std::size_t v = 0; v < out.positions.size(); ++v) {
+        const auto own = std::span(faces.items()).subspan(faces.begin()[v], faces[v].size());
+        std::sort(own.begin(), own.end());
+        for (std::size_t i = 1; i < own.size(); ++i) {
+            if (!std::equal(own[i].begin(), own[i].end() - 1, own[i - 1].begin())) continue;
+            out.triangles[own[i].back()] = no_corners;
             ++out.dropped_faces;
         }
-        begin = end;
     }
 }
 
