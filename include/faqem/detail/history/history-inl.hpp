@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "faqem/detail/geometry/edge_flip.hpp"
 #include "faqem/detail/history/binary_io.hpp"
@@ -23,12 +24,30 @@ auto column(const std::vector<T>& rows, Member member) {
     return values;
 }
 
-// Sets one member of all rows; the inverse of column().
+// Reads one member of all rows; the inverse of column(). The first member determines the number of rows.
 template <class T, class Value>
-void fill_column(std::vector<T>& rows, Value T::*member, const std::vector<Value>& values,
-                 const char* section) {
+void get_column(std::istream& in, const char* section, std::vector<T>& rows, Value T::*member,
+                bool is_first) {
+    const std::vector<Value> values = get_array<Value>(in, section);
+    if (is_first) rows.resize(values.size());
     if (rows.size() != values.size()) detail::fail_history(section, "arrays have different lengths");
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = values[i];
+}
+
+// Calls visit(name, array) for the sections of the format in their order; for one of structs
+// visit(name, rows, members...).
+template <class History, class Visit>
+void visit_sections(History& h, const Visit& visit) {
+    visit("positions", h.positions);
+    visit("triangles", h.triangles);
+    visit("face_groups", h.face_groups);
+    visit("collapses", h.collapses, &Collapse::first, &Collapse::second, &Collapse::position);
+    visit("patch_begin", h.patch_begin);
+    visit("patch_faces", h.patch_faces);
+    visit("final_positions", h.final_positions);
+    visit("deleted_faces", h.deleted_faces, &DeletedFace::time, &DeletedFace::face);
+    visit("remaining_versions", h.remaining_versions);
+    visit("remaining_faces", h.remaining_faces);
 }
 
 inline std::string numbered(const char* what, std::size_t i) {
@@ -77,6 +96,13 @@ inline std::vector<std::uint8_t> check_collapses(const CollapseHistory& h) {
     return used;
 }
 
+inline void check_faces_exist(const CollapseHistory& h, const std::vector<Index>& faces,
+                              const char* section) {
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (!(faces[i] < h.triangles.size()) || h.triangles[faces[i]][0] == no_index)
+            detail::fail_history(numbered(section, i), "face does not exist");
+}
+
 inline void check_patches(const CollapseHistory& h) {
     if (h.patch_begin.size() <= h.collapses.size() || h.patch_begin.front() != 0 ||
         h.patch_begin.back() != h.patch_faces.size() ||
@@ -85,11 +111,7 @@ inline void check_patches(const CollapseHistory& h) {
     for (std::size_t k = h.collapses.size(); k < h.patch_count(); ++k)
         if (h.patch(k).size() != 2)
             detail::fail_history(numbered("patch_begin", k), "an edge flip must have two faces");
-    for (std::size_t i = 0; i < h.patch_faces.size(); ++i) {
-        const Index f = h.patch_faces[i];
-        if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
-            detail::fail_history(numbered("patch_faces", i), "face does not exist");
-    }
+    check_faces_exist(h, h.patch_faces, "patch_faces");
     for (std::size_t i = 0; i < h.deleted_faces.size(); ++i) {
         if (!(h.deleted_faces[i].face < h.triangles.size()) ||
             !(h.deleted_faces[i].time <= h.collapses.size()))
@@ -137,22 +159,16 @@ inline void check_remaining(const CollapseHistory& h, const std::vector<std::uin
     }
     if (!h.final_positions.empty() && h.final_positions.size() != h.remaining_versions.size())
         detail::fail_history("final_positions", "needs one entry per remaining version or none");
-    for (std::size_t i = 0; i < h.remaining_faces.size(); ++i) {
-        const Index f = h.remaining_faces[i];
-        if (!(f < h.triangles.size()) || h.triangles[f][0] == no_index)
-            detail::fail_history(numbered("remaining_faces", i), "face does not exist");
-    }
+    check_faces_exist(h, h.remaining_faces, "remaining_faces");
     simplified_faces(h);
 }
 
 }  // namespace detail
 
 FAQEM_INLINE void validate(const CollapseHistory& history) {
-    const CollapseHistory& h = history;
-    const bool nothing = h.positions.empty() && h.triangles.empty() && h.face_groups.empty() &&
-                         h.collapses.empty() && h.patch_begin.empty() && h.patch_faces.empty() &&
-                         h.deleted_faces.empty() && h.remaining_versions.empty() &&
-                         h.remaining_faces.empty() && h.final_positions.empty();
+    bool nothing = true;
+    detail::visit_sections(
+        history, [&](const char*, const auto& rows, auto...) { nothing = nothing && rows.empty(); });
     if (nothing) return;
     detail::check_positions(history);
     detail::check_faces(history);
@@ -175,19 +191,12 @@ FAQEM_INLINE TriangleMesh replay(const CollapseHistory& history) {
 
 FAQEM_INLINE void write(const CollapseHistory& h, std::ostream& out) {
     detail::put(out, detail::history_magic);
-    detail::put_array(out, h.positions);
-    detail::put_array(out, h.triangles);
-    detail::put_array(out, h.face_groups);
-    detail::put_array(out, detail::column(h.collapses, &Collapse::first));
-    detail::put_array(out, detail::column(h.collapses, &Collapse::second));
-    detail::put_array(out, detail::column(h.collapses, &Collapse::position));
-    detail::put_array(out, h.patch_begin);
-    detail::put_array(out, h.patch_faces);
-    detail::put_array(out, h.final_positions);
-    detail::put_array(out, detail::column(h.deleted_faces, &DeletedFace::time));
-    detail::put_array(out, detail::column(h.deleted_faces, &DeletedFace::face));
-    detail::put_array(out, h.remaining_versions);
-    detail::put_array(out, h.remaining_faces);
+    detail::visit_sections(h, [&](const char*, const auto& rows, auto... members) {
+        if constexpr (sizeof...(members) == 0)
+            detail::put_array(out, rows);
+        else
+            (detail::put_array(out, detail::column(rows, members)), ...);
+    });
     out.flush();
     if (!out) throw WriteError("cannot write the history");
 }
@@ -200,26 +209,13 @@ FAQEM_INLINE CollapseHistory read_history(std::istream& in) {
 
 FAQEM_INLINE CollapseHistory detail::read_history_body(std::istream& in) {
     CollapseHistory h;
-    h.positions = detail::get_array<Vec3>(in, "positions");
-    h.triangles = detail::get_array<Triangle>(in, "triangles");
-    h.face_groups = detail::get_array<Index>(in, "face_groups");
-    const auto firsts = detail::get_array<Index>(in, "collapses");
-    h.collapses.resize(firsts.size());
-    detail::fill_column(h.collapses, &Collapse::first, firsts, "collapses");
-    detail::fill_column(h.collapses, &Collapse::second, detail::get_array<Index>(in, "collapses"),
-                        "collapses");
-    detail::fill_column(h.collapses, &Collapse::position, detail::get_array<Vec3>(in, "collapses"),
-                        "collapses");
-    h.patch_begin = detail::get_array<std::uint64_t>(in, "patch_begin");
-    h.patch_faces = detail::get_array<Index>(in, "patch_faces");
-    h.final_positions = detail::get_array<Vec3>(in, "final_positions");
-    const auto times = detail::get_array<std::uint64_t>(in, "deleted_faces");
-    h.deleted_faces.resize(times.size());
-    detail::fill_column(h.deleted_faces, &DeletedFace::time, times, "deleted_faces");
-    detail::fill_column(h.deleted_faces, &DeletedFace::face, detail::get_array<Index>(in, "deleted_faces"),
-                        "deleted_faces");
-    h.remaining_versions = detail::get_array<Index>(in, "remaining_versions");
-    h.remaining_faces = detail::get_array<Index>(in, "remaining_faces");
+    visit_sections(h, [&](const char* section, auto& rows, auto... members) {
+        bool is_first = true;
+        if constexpr (sizeof...(members) == 0)
+            rows = get_array<typename std::decay_t<decltype(rows)>::value_type>(in, section);
+        else
+            (get_column(in, section, rows, members, std::exchange(is_first, false)), ...);
+    });
     validate(h);
     return h;
 }
