@@ -18,22 +18,17 @@ class SampleOwners {
 public:
     SampleOwners(const Atlas& atlas, const AtlasChart& chart, const ChartTile& tile, std::uint32_t samples)
         : atlas_(atlas),
+          chart_(chart),
           tile_(tile),
-          may_be_mirrored_(chart.is_given),
           samples_(samples),
           columns_(tile.width * samples),
-          rows_(tile.height * samples) {
-        owned_.resize(std::size_t{tile.width} * tile.height);
-        for (std::uint32_t y = 0; y < tile.height; ++y)
-            for (std::uint32_t x = 0; x < tile.width; ++x)
-                owned_[std::size_t{y} * tile.width + x] = chart.owns(tile.x + x, tile.y + y);
-        owner_.assign(std::size_t{columns_} * rows_, no_index);
-    }
+          rows_(tile.height * samples),
+          owner_(std::size_t{columns_} * rows_, no_index) {}
 
     // Assigns samples inside a triangle to it, unless they are inside one that was visited before.
     void assign_covered(Index triangle) {
         Triangle2 uv = atlas_.placements[triangle];
-        if (may_be_mirrored_ && twice_signed_area(uv[0], uv[1], uv[2]) > 0) std::swap(uv[1], uv[2]);
+        if (chart_.is_given && twice_signed_area(uv[0], uv[1], uv[2]) > 0) std::swap(uv[1], uv[2]);
         const Range range = range_of(bounding_box(uv));
         for (std::uint32_t j = range.y0; j < range.y1; ++j) {
             std::uint32_t begin = range.x0, end = range.x1;
@@ -47,17 +42,21 @@ public:
 
     // Assigns samples outside all triangles to this one if its edge opposite corner c is the closest so far.
     void assign_nearest(Index triangle, std::size_t c, double reach) {
-        if (squared_distance_.empty()) begin_distances();
+        if (squared_distance_.empty())
+            for (const Index owner : owner_) squared_distance_.push_back(owner == no_index ? HUGE_VAL : 0);
         const Triangle2& uv = atlas_.placements[triangle];
         const Point2 &a = uv[(c + 1) % 3], &b = uv[(c + 2) % 3];
-        const Box2 box = bounding_box(std::array{a, b}).expanded(reach);
-        for_each_sample(range_of(box), [&](std::size_t at, const Point2& p) {
-            if (!(squared_distance_[at] > 0)) return;
-            const double d = squared_distance_to_segment(a, b, p);
-            if (!(d < squared_distance_[at])) return;
-            squared_distance_[at] = d;
-            owner_[at] = triangle;
-        });
+        const Range range = range_of(bounding_box(std::array{a, b}).expanded(reach));
+        for (std::uint32_t j = range.y0; j < range.y1; ++j) {
+            for (std::uint32_t i = range.x0; i < range.x1; ++i) {
+                const std::size_t at = std::size_t{j} * columns_ + i;
+                if (!(squared_distance_[at] > 0)) continue;
+                const double d = squared_distance_to_segment(a, b, position(i, j));
+                if (!(d < squared_distance_[at])) continue;
+                squared_distance_[at] = d;
+                owner_[at] = triangle;
+            }
+        }
     }
 
     // Whether any sample of the chart has no triangle yet.
@@ -96,12 +95,6 @@ public:
     }
 
 private:
-    void begin_distances() {
-        squared_distance_.resize(owner_.size());
-        for (std::size_t i = 0; i < owner_.size(); ++i)
-            squared_distance_[i] = owner_[i] == no_index ? HUGE_VAL : 0;
-    }
-
     // The samples of the tile inside a box, rounded outwards.
     Range range_of(const Box2& box) const {
         const auto index = [&](double texel, std::uint32_t from, std::uint32_t count) {
@@ -137,31 +130,22 @@ private:
         (cuts_begin ? begin : end) = from;
     }
 
-    // Calls visit(sample, position on the page) for the samples of a range.
-    template <class Visit>
-    void for_each_sample(const Range& range, Visit&& visit) const {
-        for (std::uint32_t j = range.y0; j < range.y1; ++j)
-            for (std::uint32_t i = range.x0; i < range.x1; ++i)
-                visit(std::size_t{j} * columns_ + i, position(i, j));
-    }
-
     template <class Visit>
     void for_each_owned_sample(Visit&& visit) const {
         for (std::uint32_t j = 0; j < rows_; ++j) {
-            const std::uint8_t* owned = &owned_[std::size_t{j / samples_} * tile_.width];
             std::size_t at = std::size_t{j} * columns_;
             for (std::uint32_t x = 0; x < tile_.width; ++x) {
+                const bool is_owned = chart_.owns(tile_.x + x, tile_.y + j / samples_);
                 for (std::uint32_t i = 0; i < samples_; ++i, ++at)
-                    if (owned[x]) visit(at);
+                    if (is_owned) visit(at);
             }
         }
     }
 
     const Atlas& atlas_;
+    const AtlasChart& chart_;
     const ChartTile& tile_;
-    bool may_be_mirrored_;
     std::uint32_t samples_, columns_, rows_;
-    std::vector<std::uint8_t> owned_;       // by texel
     std::vector<Index> owner_;              // by sample
     std::vector<double> squared_distance_;  // by sample, to its triangle; 0 inside
 };
