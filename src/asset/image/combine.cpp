@@ -17,21 +17,6 @@ std::uint8_t luminance_of(const std::uint8_t* p) {
 }
 
 /// Where a position of a scaled row lies between two of its source values.
-struct Tap {
-    std::uint32_t first, second;
-    double share;  // of the second
-};
-
-std::vector<Tap> taps_of(std::uint32_t from, std::uint32_t to) {
-    std::vector<Tap> taps(to);
-    for (std::uint32_t i = 0; i < to; ++i) {
-        const double at = std::clamp((i + 0.5) * from / to - 0.5, 0.0, from - 1.0);
-        const auto first = static_cast<std::uint32_t>(at);
-        taps[i] = {first, std::min(first + 1, from - 1), at - first};
-    }
-    return taps;
-}
-
 /// Scales an image with `channels` interleaved channels.
 std::vector<std::uint8_t> scaled(const std::vector<std::uint8_t>& values, std::size_t channels,
                                  std::array<std::uint32_t, 2> from, std::array<std::uint32_t, 2> to) {
@@ -62,6 +47,16 @@ void put_channel(const ScalarImage& image, std::size_t channel, Pixels& pixels) 
 }
 
 }  // namespace
+
+std::vector<Tap> taps_of(std::uint32_t from, std::uint32_t to) {
+    std::vector<Tap> taps(to);
+    for (std::uint32_t i = 0; i < to; ++i) {
+        const double at = std::clamp((i + 0.5) * from / to - 0.5, 0.0, from - 1.0);
+        const auto first = static_cast<std::uint32_t>(at);
+        taps[i] = {first, std::min(first + 1, from - 1), at - first};
+    }
+    return taps;
+}
 
 ScalarImage scalar_image(const Pixels& pixels, ScalarChannel channel) {
     if (channel == ScalarChannel::automatic)

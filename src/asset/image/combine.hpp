@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/export.hpp"
 
 namespace faqem::detail {
 
@@ -18,6 +19,15 @@ enum class ScalarChannel {
     alpha,
     luminance  ///< 0.2126 R + 0.7152 G + 0.0722 B, of the values as stored
 };
+
+/// Two texels next to each other that are interpolated.
+struct Tap {
+    std::uint32_t first, second;
+    double share;  ///< of the second
+};
+
+/// Bilinear interpolation along one axis: what to take for each of `to` texels from `from` texels. O(to)
+FAQEM_EXPORT std::vector<Tap> taps_of(std::uint32_t from, std::uint32_t to);
 
 /// A scalar image with values from 0 to 255, top row first.
 struct ScalarImage {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asset/image/codecs.hpp"
+#include "asset/image/combine.hpp"
 #include "asset/image/rgba_lanes.hpp"
 
 namespace faqem::detail {
@@ -69,29 +70,11 @@ constexpr double data_allowance = 4;
 // Least PSNR of such an image unless colours may be worse too: 3% of the range.
 constexpr double least_data_psnr = 30;
 
-// Position of a texel's centre in an image with fewer texels, as the two nearest texels and the weight of the
-// second.
-struct Interpolation {
-    std::uint32_t first, second;
-    float weight;
-};
-
-std::vector<Interpolation> interpolations(std::uint32_t size, std::uint32_t shown_size) {
-    std::vector<Interpolation> result;
-    const double scale = static_cast<double>(shown_size) / size;
-    for (std::uint32_t i = 0; i < size; ++i) {
-        const double at = std::clamp((i + 0.5) * scale - 0.5, 0.0, shown_size - 1.0);
-        const auto first = static_cast<std::uint32_t>(at);
-        result.push_back({first, std::min(first + 1, shown_size - 1), static_cast<float>(at - first)});
-    }
-    return result;
-}
-
 // Rows of an image with fewer texels, interpolated to the width of another one. The last two are kept.
 class StretchedRows {
 public:
     StretchedRows(const Pixels& pixels, std::uint32_t width)
-        : pixels_(pixels), columns_(interpolations(width, pixels.width)) {}
+        : pixels_(pixels), columns_(taps_of(pixels.width, width)) {}
 
     const std::vector<RgbaLanes>& at(std::uint32_t y) {
         Row& row = rows_[y % 2];
@@ -99,9 +82,11 @@ public:
         row = {y, std::move(row.texels)};
         row.texels.clear();
         const std::uint8_t* const from = &pixels_.rgba[4 * (std::size_t{y} * pixels_.width)];
-        for (const auto& [first, second, s] : columns_)
+        for (const auto& [first, second, share] : columns_) {
+            const auto s = static_cast<float>(share);
             row.texels.push_back(to_lanes(from + 4 * std::size_t{first}) * (1 - s) +
                                  to_lanes(from + 4 * std::size_t{second}) * s);
+        }
         return row.texels;
     }
 
@@ -111,7 +96,7 @@ private:
         std::vector<RgbaLanes> texels = {};
     };
     const Pixels& pixels_;
-    std::vector<Interpolation> columns_;
+    std::vector<Tap> columns_;
     std::array<Row, 2> rows_;
 };
 
@@ -306,14 +291,15 @@ double quality_change(const std::optional<PictureDifference>& pictures, TextureC
 
 ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {
     StretchedRows stretched(shown, original.width);
-    const std::vector<Interpolation> rows = interpolations(original.height, shown.height);
+    const std::vector<Tap> rows = taps_of(shown.height, original.height);
     const std::size_t channels = original.has_alpha ? 4 : 3;
     std::vector<double> blocks((original.width + block_side - 1) / block_side);  // of a row of blocks
     double sum = 0, worst = 0;
     std::uint64_t count = 0;
     for (std::uint32_t y = 0; y < original.height; ++y) {
         if (y % block_side == 0) std::fill(blocks.begin(), blocks.end(), 0.0);
-        const auto& [first, second, t] = rows[y];
+        const auto& [first, second, share] = rows[y];
+        const auto t = static_cast<float>(share);
         const RgbaLanes *const upper = stretched.at(first).data(), *const lower = stretched.at(second).data();
         for (std::uint32_t x = 0; x < original.width;) {
             double in_row = 0;
