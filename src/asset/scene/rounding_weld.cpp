@@ -169,10 +169,6 @@ std::vector<double> edge_lengths(const std::vector<Vec3>& positions, const std::
     return length;
 }
 
-double largest_coordinate(const Vec3& p) {
-    return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-}
-
 /// The tolerances of the vertices of boundary edges; 0 for all others.
 struct Tolerances {
     std::vector<double> weld, near;
@@ -186,7 +182,7 @@ struct Tolerances {
         PointBounds bounds;
         for (const Triangle& t : triangles) {
             for (const Index v : t) {
-                most = std::max(most, largest_coordinate(positions[v]));
+                most = std::max(most, max_norm_distance(positions[v], {}));
                 bounds.add(positions[v]);
             }
         }
@@ -195,7 +191,7 @@ struct Tolerances {
                                       max_norm_distance(bounds.low, bounds.high);
         const auto add = [&](Index v) {
             if (weld[v] > 0) return;
-            const double own = stored.tolerance(largest_coordinate(positions[v]));
+            const double own = stored.tolerance(max_norm_distance(positions[v], {}));
             const double rounding =
                 std::min(most_rounding, std::max(own, share_of_length_at_distance * length[v]));
             weld[v] = std::min(rounding, share_of_length * length[v]);
