@@ -253,14 +253,12 @@ std::optional<FinestLevel> finest_level(const Asset& asset) {
 
     FinestLevel result{asset, {}};
     const auto source = std::make_shared<SourceDocument>(*asset.source);
-    Marks materials_left_out = used_materials(source->document);
-    for (std::size_t m = 0; m < of_materials.marks.size(); ++m)
-        if (of_materials.marks[m]) materials_left_out[m] = 1;
+    Marks left_out = used_materials(source->document);
     remove_level_nodes(source->document, of_nodes.marks, result.asset.parts);
     const Marks still_used = used_materials(source->document);
-    for (std::size_t m = 0; m < still_used.size(); ++m)
-        if (still_used[m]) materials_left_out[m] = 0;
-    remove_materials(materials_left_out, result.asset);
+    for (std::size_t m = 0; m < left_out.size(); ++m)
+        left_out[m] = (left_out[m] || of_materials.marks[m]) && !still_used[m];
+    remove_materials(left_out, result.asset);
     for (Json& material : elements(source->document, "materials")) erase_levels(material);
     for (std::vector<Material>* all : {&source->materials, &result.asset.materials})
         for (Material& material : *all) std::erase(material.extensions, lod_name);
