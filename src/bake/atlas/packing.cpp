@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
-#include "bake/atlas/occupancy_grid.hpp"
 #include "faqem/engine/mesh/index_lists.hpp"
 
 namespace faqem::detail {
@@ -275,9 +275,7 @@ ChartPage make_page(std::span<const Chart> charts, std::span<const OrientedChart
         AtlasChart chart{placement.position.x * raster.block_size,
                          placement.position.y * raster.block_size,
                          raster.block_size,
-                         mask.columns,
-                         mask.rows,
-                         mask.blocks,
+                         std::move(mask),
                          charts[i].faces,
                          raster.is_single_texel};
         for (std::size_t k = 0; k < charts[i].faces.size(); ++k) {

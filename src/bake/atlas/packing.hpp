@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/atlas/chart.hpp"
+#include "bake/atlas/occupancy_grid.hpp"
 #include "bake/atlas/per_triangle.hpp"
 #include "faqem/detail/base/parallel.hpp"
 
@@ -16,18 +17,17 @@ namespace faqem::detail {
 /// A chart on its page, and the texels that belong to it. These are given in blocks of block_size x
 /// block_size texels, so that every texel of mip level log2(block_size) belongs to one chart only.
 struct AtlasChart {
-    std::uint32_t x = 0, y = 0;              ///< of the first block, in texels; multiples of `block_size`
-    std::uint32_t block_size = 1;            ///< texels, a power of two
-    std::uint32_t columns = 1, rows = 1;     ///< size in blocks
-    std::vector<std::uint8_t> blocks = {1};  ///< row by row: nonzero for blocks that belong to the chart
-    std::vector<Index> triangles;            ///< ascending
-    bool is_single_texel = false;            ///< the whole chart is one texel
+    std::uint32_t x = 0, y = 0;    ///< of the first block, in texels; multiples of `block_size`
+    std::uint32_t block_size = 1;  ///< texels, a power of two
+    BlockMask mask;                ///< blocks that belong to the chart
+    std::vector<Index> triangles;  ///< ascending
+    bool is_single_texel = false;  ///< the whole chart is one texel
     /// It has all triangles of a page whose UVs are given: they may be mirrored, and neighbours be far from each other.
     bool is_given = false;
 
     /// Whether a texel inside the rectangle of blocks belongs to the chart.
     bool owns(std::uint32_t texel_x, std::uint32_t texel_y) const {
-        return blocks[std::size_t{(texel_y - y) / block_size} * columns + (texel_x - x) / block_size] != 0;
+        return mask((texel_x - x) / block_size, (texel_y - y) / block_size);
     }
 };
 

@@ -163,14 +163,13 @@ std::vector<ChartTile> split_into_tiles(std::span<const AtlasChart> charts) {
     for (std::size_t i = 0; i < charts.size(); ++i) {
         const AtlasChart& chart = charts[i];
         const std::uint32_t step = std::max(1u, max_tile_size / chart.block_size);  // blocks
-        for (std::uint32_t y = 0; y < chart.rows; y += step) {
-            for (std::uint32_t x = 0; x < chart.columns; x += step) {
-                const std::uint32_t columns = std::min(step, chart.columns - x),
-                                    rows = std::min(step, chart.rows - y);
+        for (std::uint32_t y = 0; y < chart.mask.rows; y += step) {
+            for (std::uint32_t x = 0; x < chart.mask.columns; x += step) {
+                const std::uint32_t columns = std::min(step, chart.mask.columns - x),
+                                    rows = std::min(step, chart.mask.rows - y);
                 bool any = false;
                 for (std::uint32_t j = y; j < y + rows; ++j)
-                    for (std::uint32_t k = x; k < x + columns; ++k)
-                        any = any || chart.blocks[std::size_t{j} * chart.columns + k];
+                    for (std::uint32_t k = x; k < x + columns; ++k) any = any || chart.mask(k, j);
                 if (!any) continue;
                 result.push_back({static_cast<Index>(i), chart.x + x * chart.block_size,
                                   chart.y + y * chart.block_size, columns * chart.block_size,

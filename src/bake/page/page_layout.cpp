@@ -89,8 +89,8 @@ PageLayout layout_given(const PageMesh& mesh, std::span<const Triangle2> given, 
     result.atlas.width = result.atlas.height = side;
     AtlasChart& chart = result.charts.emplace_back();
     chart.block_size = block;
-    chart.columns = chart.rows = side / block;
-    chart.blocks.assign(std::size_t{chart.columns} * chart.rows, 1);
+    chart.mask.columns = chart.mask.rows = side / block;
+    chart.mask.blocks.assign(std::size_t{chart.mask.columns} * chart.mask.rows, 1);
     chart.is_given = true;
     for (std::size_t i = 0; i < given.size(); ++i) {
         const Triangle2& uv = given[i];

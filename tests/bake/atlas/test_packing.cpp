@@ -38,10 +38,10 @@ std::vector<int> owners(const ChartPage& page) {
         const AtlasChart& chart = page.charts[i];
         CHECK(std::has_single_bit(chart.block_size));
         CHECK((chart.x % chart.block_size == 0 && chart.y % chart.block_size == 0));
-        REQUIRE(chart.x + chart.columns * chart.block_size <= page.atlas.width);
-        REQUIRE(chart.y + chart.rows * chart.block_size <= page.atlas.height);
-        for (std::uint32_t y = chart.y; y < chart.y + chart.rows * chart.block_size; ++y) {
-            for (std::uint32_t x = chart.x; x < chart.x + chart.columns * chart.block_size; ++x) {
+        REQUIRE(chart.x + chart.mask.columns * chart.block_size <= page.atlas.width);
+        REQUIRE(chart.y + chart.mask.rows * chart.block_size <= page.atlas.height);
+        for (std::uint32_t y = chart.y; y < chart.y + chart.mask.rows * chart.block_size; ++y) {
+            for (std::uint32_t x = chart.x; x < chart.x + chart.mask.columns * chart.block_size; ++x) {
                 if (!chart.owns(x, y)) continue;
                 int& owner = result[std::size_t{y} * page.atlas.width + x];
                 REQUIRE(owner == -1);
