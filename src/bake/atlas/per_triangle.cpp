@@ -25,20 +25,6 @@ struct CellShape {
     auto size() const { return std::tuple(block_size, height, width); }
 };
 
-// Mip level k of a cell is free of other cells' texels if the cell is aligned to a grid of 2^k texels and the
-// legs run between centres of texels of this level: all of these are in the cell, with half of each outermost
-// texel outside of the legs. Legs are at least a block long: measurements show that the quality gained on
-// coarser levels is worth the texels.
-std::uint32_t block_size_for(double shorter_leg) {
-    return std::bit_floor(static_cast<std::uint32_t>(std::clamp<double>(shorter_leg, 1, max_block_size)));
-}
-
-// The hypotenuses of two triangles that are not partners are shifted against each other by (m, m) texels.
-// m = 2 is enough for bilinear reads of level 0; larger margins reduce mixing on coarser levels.
-std::uint32_t margin_of(std::uint32_t block_size, bool has_shared_hypotenuse) {
-    return block_size + (has_shared_hypotenuse ? 0 : std::max(2u, block_size));
-}
-
 // Rounds to four size classes per octave and to a multiple of the block size.
 std::uint32_t cell_size_class(double x, std::uint32_t block_size) {
     const double octave = std::exp2(std::floor(std::log2(std::max(1.0, x))) - 2);
@@ -58,8 +44,15 @@ CellShape cell_shape(const std::array<double, 2>& legs, double scale, bool has_s
     if (!(std::max(a, b) >= 0.75)) return shape;
     shape.is_single_texel = false;
     shape.is_transposed = a < b;
-    shape.block_size = block_size_for(std::min(a, b));
-    shape.margin = margin_of(shape.block_size, has_shared_hypotenuse);
+    // Mip level k of a cell is free of other cells' texels if the cell is aligned to a grid of 2^k texels and the
+    // legs run between centres of texels of this level: all of these are in the cell, with half of each outermost
+    // texel outside of the legs. Legs are at least a block long: measurements show that the quality gained on
+    // coarser levels is worth the texels.
+    const double shorter = std::clamp<double>(std::min(a, b), 1, max_block_size);
+    shape.block_size = std::bit_floor(static_cast<std::uint32_t>(shorter));
+    // The hypotenuses of two triangles that are not partners are shifted against each other by (m, m) texels.
+    // m = 2 is enough for bilinear reads of level 0; larger margins reduce mixing on coarser levels.
+    shape.margin = shape.block_size + (has_shared_hypotenuse ? 0 : std::max(2u, shape.block_size));
     shape.width = cell_side(std::max(a, b), shape.block_size, shape.margin);
     shape.height = cell_side(std::min(a, b), shape.block_size, shape.margin);
     return shape;
