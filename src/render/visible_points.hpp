@@ -66,13 +66,24 @@ struct VisiblePoint {
 };
 
 /// Draws meshes. Of points at the same depth, that of the first face is taken.
-/// \param size  width and height of the picture in pixels
+/// \param size     width and height of the picture in pixels
+/// \param behind   null, or set to what would be seen without the piece in front
+/// \param piece_of piece_of(mesh, face): number of a set of faces; used for `behind` only
 /// \return size * size points, top row first
 /// Complexity: O(faces + pixels of their bounding boxes).
-inline std::vector<VisiblePoint> visible_points(std::span<const PlacedMesh> meshes, const Camera& camera,
-                                                std::uint32_t size) {
+template <class PieceOf>
+std::vector<VisiblePoint> visible_points(std::span<const PlacedMesh> meshes, const Camera& camera,
+                                         std::uint32_t size, std::vector<VisiblePoint>* behind,
+                                         const PieceOf& piece_of) {
     std::vector<VisiblePoint> result(std::size_t{size} * size);
-    std::vector<double> nearest(result.size(), 0);  // inverse depth
+    std::vector<double> nearest(result.size(), 0), next;  // inverse depths
+    if (behind) {
+        behind->assign(result.size(), {});
+        next.assign(result.size(), 0);
+    }
+    const auto same_piece = [&](const VisiblePoint& a, const VisiblePoint& b) {
+        return a.mesh != no_index && piece_of(a.mesh, a.face) == piece_of(b.mesh, b.face);
+    };
     for (Index m = 0; m < meshes.size(); ++m) {
         std::vector<ScreenPoint> points;
         points.reserve(meshes[m].positions.size());
@@ -85,14 +96,28 @@ inline std::vector<VisiblePoint> visible_points(std::span<const PlacedMesh> mesh
             // y points down in the picture, so the area of counter-clockwise faces is negative.
             if (!meshes[m].sides.empty() && meshes[m].sides[f] * area > 0) continue;
             for_each_pixel(face, area, size, [&](std::size_t pixel, const Vector3& w, double inverse_depth) {
-                if (!(inverse_depth > nearest[pixel])) return;
-                nearest[pixel] = inverse_depth;
+                const bool is_front = inverse_depth > nearest[pixel];
+                if (!is_front && !(behind && inverse_depth > next[pixel])) return;
                 const Vector3 on_face = perspective_weights(face, w);
-                result[pixel] = {m, f, {on_face[0], on_face[1], on_face[2]}};
+                const VisiblePoint point = {m, f, {on_face[0], on_face[1], on_face[2]}};
+                VisiblePoint& front = result[pixel];
+                if (behind && !same_piece(front, point)) {
+                    (*behind)[pixel] = is_front ? front : point;
+                    next[pixel] = is_front ? nearest[pixel] : inverse_depth;
+                }
+                if (!is_front) return;
+                front = point;
+                nearest[pixel] = inverse_depth;
             });
         }
     }
     return result;
+}
+
+/// As above, without what is behind.
+inline std::vector<VisiblePoint> visible_points(std::span<const PlacedMesh> meshes, const Camera& camera,
+                                                std::uint32_t size) {
+    return visible_points(meshes, camera, size, nullptr, [](Index mesh, Index) { return mesh; });
 }
 
 }  // namespace faqem::render

@@ -12,6 +12,7 @@
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "scene/check_asset.hpp"
+#include "scene/contrast.hpp"
 #include "scene/face_budget.hpp"
 #include "scene/layers.hpp"
 #include "scene/material_groups.hpp"
@@ -91,15 +92,19 @@ struct PartInput {
     PartInput(const PartInput&) = delete;
 };
 
+// Factors on costs by part and vertex. Empty: 1, also for one part.
+using VertexWeights = std::vector<std::vector<float>>;
+
 // Simplification of all parts to all targets.
 class PartsRun {
 public:
     PartsRun(const Asset& source, const Options& options, const RunContext& context,
-             std::span<const LevelTarget> levels = {})
+             std::span<const LevelTarget> levels = {}, std::optional<VertexWeights> weights = {})
         : source_(source),
           options_(options),
           context_(context),
           levels_(levels),
+          weights_(std::move(weights)),
           precision_(result_precision(source, options.format)) {
         const Bake kind = options.bake.kind;
         const bool merged = kind != Bake::keep && kind != Bake::none;
@@ -111,6 +116,9 @@ public:
             size_.scales.resize(source.parts.size());
         faces_ = static_cast<double>(face_count(source));
     }
+
+    /// Factors on the costs, once it has run.
+    const VertexWeights& weights() const { return *weights_; }
 
     std::vector<SimplifiedParts> operator()(std::span<const std::uint64_t> targets) {
         begin(targets.size());
@@ -151,7 +159,7 @@ private:
             level.parts.resize(source_.parts.size());
             level.report.preset = options_.preset;
         }
-        if (options_.visibility == Visibility::weighted) compute_visibility();
+        if (!weights_) compute_weights();
     }
 
     std::vector<SimplifiedParts> run(const std::vector<std::vector<std::uint64_t>>& share) {
@@ -221,9 +229,17 @@ private:
         return run_to_targets(view, targets, own, context);
     }
 
-    void compute_visibility() {
+    void compute_weights() {
         const Stopwatch watch;
         context_.show(Phase::simplify, 0);
+        weights_.emplace();
+        if (options_.visibility == Visibility::weighted) return compute_visibility(watch);
+        if (separates_layers(source_, options_))
+            context_.in_time([&] { weights_ = contrast_weights(source_, context_); });
+        results_.front().report.seconds.simplify += watch.seconds();
+    }
+
+    void compute_visibility(const Stopwatch& watch) {
         VertexVisibility seen;
         if (!context_.in_time([&] { seen = vertex_visibility(source_, context_); })) return;
         weights_ = std::move(seen.weights);
@@ -261,7 +277,7 @@ private:
 
     std::vector<std::uint64_t> budget_by_cost(std::uint64_t target_faces, bool has_floors) {
         std::vector<double> shares;
-        if (has_floors) shares = proportional_shares(source_, target_faces, weights_);
+        if (has_floors) shares = proportional_shares(source_, target_faces, *weights_);
         std::vector<std::uint64_t> floors;
         for (const double share : shares)
             floors.push_back(static_cast<std::uint64_t>(std::ceil(min_share * share)));
@@ -312,7 +328,8 @@ private:
             const RunContext of_part = context_.step(Phase::simplify, done_ / (passes_ * faces_),
                                                      (done_ + size) / (passes_ * faces_));
             const auto& groups = keeps_groups() ? std::nullopt : groups_;
-            const std::span<const float> weights = weights_.empty() ? std::span<const float>() : weights_[p];
+            const std::span<const float> weights =
+                weights_->empty() ? std::span<const float>() : (*weights_)[p];
             const bool keeps_uvs = options_.bake.kind == Bake::keep || has_own_uvs_[p];
             const PartInput input(source_, part, groups, keeps_uvs, weights, own);
             work(p, input.view, own, of_part);
@@ -326,16 +343,16 @@ private:
     std::optional<MaterialGroups> groups_;
     std::vector<std::uint8_t> has_own_uvs_;  // by part
     std::vector<SimplifiedParts> results_;
-    std::span<const LevelTarget> levels_;      // see simplify_parts_to_targets()
+    std::span<const LevelTarget> levels_;  // see simplify_parts_to_targets()
+    std::optional<VertexWeights> weights_;
     StoredPrecision precision_;                // to which results are rounded
     std::vector<std::vector<double>> shares_;  // by target: of proportional_shares(), or empty
     std::vector<CostCurve> curves_;
     std::vector<double> cost_weights_;  // by part
     SceneSize size_;
-    std::vector<std::vector<float>> weights_;  // by part and vertex; empty: equal weights
-    double faces_ = 0;                         // of all parts
-    double done_ = 0;                          // faces of the parts that are finished, in all passes
-    double passes_ = 1;                        // number of passes over all parts
+    double faces_ = 0;   // of all parts
+    double done_ = 0;    // faces of the parts that are finished, in all passes
+    double passes_ = 1;  // number of passes over all parts
 };
 
 }  // namespace
@@ -356,11 +373,11 @@ bool has_appearance(const Asset& source) {
 
 // Simplifies all parts again, with UVs, to the face counts that they have.
 void add_parts_with_uvs(const Asset& source, Options own, const RunContext& context,
-                        SimplifiedParts& simplified) {
+                        const VertexWeights& weights, SimplifiedParts& simplified) {
     own.bake.kind = Bake::keep;
     std::vector<std::uint64_t> counts;
     for (const SimplifyResult& part : simplified.parts) counts.push_back(part.mesh.triangles.size());
-    SimplifiedParts with_uvs = PartsRun(source, own, context).to_face_counts(counts);
+    SimplifiedParts with_uvs = PartsRun(source, own, context, {}, weights).to_face_counts(counts);
     simplified.report.seconds.simplify += with_uvs.report.seconds.simplify;
     simplified.report.seconds.total += with_uvs.report.seconds.simplify;
     simplified.with_uvs = std::move(with_uvs.parts);
@@ -376,10 +393,10 @@ SimplifiedParts simplify_welded_parts(const Asset& source, const Options& option
     const bool tries_uvs = may_keep_uvs(options) && has_appearance(source) &&
                            !has_plain_materials(source, options.bake) && target < faces;
     const RunContext step = context.step(Phase::simplify, 0, tries_uvs ? 0.5 : 1);
-    SimplifiedParts result =
-        std::move(simplify_parts_to_targets(source, {&target, 1}, options, step, levels).front());
+    PartsRun run(source, options, step, levels);
+    SimplifiedParts result = std::move(run({&target, 1}).front());
     if (tries_uvs && !context.is_late())
-        add_parts_with_uvs(source, options, context.step(Phase::simplify, 0.5, 1), result);
+        add_parts_with_uvs(source, options, context.step(Phase::simplify, 0.5, 1), run.weights(), result);
     return result;
 }
 

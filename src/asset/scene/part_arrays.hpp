@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "faqem/asset.hpp"
+#include "faqem/surface_map.hpp"
 
 namespace faqem::detail {
 
@@ -33,6 +34,19 @@ inline constexpr std::array face_arrays = {material_array, object_array, group_a
 template <class T>
 bool some_part_has(const Asset& asset, std::vector<T> Part::*values) {
     return std::ranges::any_of(asset.parts, [&](const Part& part) { return !(part.*values).empty(); });
+}
+
+/// The value at a point, interpolated between those of the corners of its face.
+/// \tparam Sum    type of the sums and the result
+/// \param values  by vertex of `part`
+template <class Sum, class Value, std::size_t N>
+std::array<Sum, N> interpolated(const std::vector<std::array<Value, N>>& values, const Part& part,
+                                const SurfacePoint& point) {
+    std::array<Sum, N> result{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < N; ++k)
+            result[k] += static_cast<Sum>(point.barycentric[i]) * values[part.triangles[point.face][i]][k];
+    return result;
 }
 
 /// Number of faces of all parts.

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "asset/scene/part_arrays.hpp"
 #include "faqem/asset.hpp"
 #include "faqem/detail/base/vector.hpp"
 #include "faqem/surface_map.hpp"
@@ -29,19 +30,6 @@ struct FrameCorner {
 /// The frame at a point of a triangle: the axes of the corners, interpolated and normalized, as viewers do.
 /// \param weights  barycentric coordinates of the point
 TangentFrame blend_frames(const std::array<FrameCorner, 3>& corners, const Vec3& weights);
-
-/// The value at a point, interpolated between those of the corners of its face.
-/// \tparam Sum    type of the sums and the result
-/// \param values  by vertex of `part`
-template <class Sum, class Value, std::size_t N>
-std::array<Sum, N> interpolated(const std::vector<std::array<Value, N>>& values, const Part& part,
-                                const SurfacePoint& point) {
-    std::array<Sum, N> result{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < N; ++k)
-            result[k] += static_cast<Sum>(point.barycentric[i]) * values[part.triangles[point.face][i]][k];
-    return result;
-}
 
 /// Unit normal of a face by its winding; zero if it is degenerate.
 Vector3 winding_normal(const std::vector<Vec3>& positions, const Triangle& t);

@@ -1,0 +1,166 @@
+#include "scene/contrast.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <memory>
+
+#include "asset/image/srgb.hpp"
+#include "asset/scene/affine.hpp"
+#include "asset/scene/material_textures.hpp"
+#include "asset/scene/measured_instances.hpp"
+#include "asset/scene/part_arrays.hpp"
+#include "faqem/detail/base/parallel.hpp"
+#include "faqem/error.hpp"
+#include "render/texture_sampling.hpp"
+#include "render/visible_points.hpp"
+#include "scene/material_groups.hpp"
+#include "scene/part_components.hpp"
+
+namespace faqem::detail {
+namespace {
+
+using engine::RunContext;
+using engine::Vector3;
+using render::VisiblePoint;
+
+constexpr std::size_t view_count = 12;
+constexpr std::uint32_t picture_size = 256;
+constexpr double least_factor = 2, largest_factor = 10;
+
+// Of the pixels of a component: the sum of squared differences, and their number.
+using Sum = Eigen::Vector2d;
+
+TexelEncoding encoding_of(const Material& material) {
+    return material.alpha_mode == AlphaMode::opaque ? TexelEncoding::opaque_color : TexelEncoding::color;
+}
+
+DecodedImages base_color_images(const Asset& scene, const RunContext& context) {
+    DecodedImages result;
+    for (const Material& material : scene.materials) {
+        const Index image = material.base_color_texture.image;
+        if (image >= scene.images.size()) continue;
+        auto& decoded = result[{image, encoding_of(material)}];
+        try {
+            if (!decoded)
+                decoded = std::make_shared<const MipImage>(decode(scene.images[image]), encoding_of(material),
+                                                           context);
+        } catch (const Error&) {  // baking tells
+        }
+    }
+    return result;
+}
+
+// A scene as the cameras see it.
+class Pictures {
+public:
+    Pictures(const Asset& scene, const PartComponents& components, const RunContext& context)
+        : scene_(scene),
+          components_(components),
+          instances_(measured_instances(scene)),
+          images_(base_color_images(scene, context)),
+          positions_(instances_.size()),
+          sides_(instances_.size()) {
+        for (std::size_t i = 0; i < instances_.size(); ++i) {
+            const auto& [p, transform] = instances_[i];
+            const Part& part = scene.parts[p];
+            for (const Vec3& at : part.positions)
+                positions_[i].push_back(engine::to_eigen(transformed_point(transform, at)));
+            const std::int8_t front = NormalTransform(transform).is_mirrored() ? -1 : 1;
+            for (std::size_t f = 0; f < part.triangles.size(); ++f)
+                sides_[i].push_back(material_or_default(scene, face_material(part, f)).double_sided ? 0
+                                                                                                    : front);
+            meshes_.push_back({positions_[i], part.triangles, sides_[i]});
+        }
+    }
+
+    // The sums of all views, by component.
+    std::vector<Sum> sums(const RunContext& context) const {
+        std::vector<render::Camera> cameras;
+        for (const Vector3& direction : render::even_directions(view_count))
+            cameras.push_back(render::camera_from(direction));
+        render::show_all(meshes_, cameras);
+        std::vector<std::vector<Sum>> views(view_count);
+        parallel_each(view_count, 1, context, [&](std::size_t v) { views[v] = sums_of_view(cameras[v]); });
+        std::vector<Sum> result(components_.count, Sum::Zero());
+        for (const std::vector<Sum>& view : views)
+            for (std::size_t c = 0; c < view.size(); ++c) result[c] += view[c];
+        return result;
+    }
+
+private:
+    std::vector<Sum> sums_of_view(const render::Camera& camera) const {
+        const auto component = [&](Index mesh, Index face) {
+            return components_.of_face[instances_[mesh].part][face];
+        };
+        std::vector<VisiblePoint> behind;
+        const std::vector<VisiblePoint> front =
+            render::visible_points(meshes_, camera, picture_size, &behind, component);
+        std::vector<Sum> result(components_.count, Sum::Zero());
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            if (front[i].mesh == no_index) continue;
+            const Vec3 far = color(behind[i], {0.2, 0.2, 0.2}), near = color(front[i], far);
+            Vector3 difference;
+            for (int k = 0; k < 3; ++k) difference[k] = srgb_from_linear(near[k]) - srgb_from_linear(far[k]);
+            result[component(front[i].mesh, front[i].face)] += Sum(difference.squaredNorm(), 1);
+        }
+        return result;
+    }
+
+    // The base colour at a point in front of another colour, in linear light.
+    Vec3 color(const VisiblePoint& at, const Vec3& behind) const {
+        if (at.mesh == no_index) return behind;
+        const Part& part = scene_.parts[instances_[at.mesh].part];
+        const SurfacePoint point{at.face, at.barycentric};
+        const Material& material = material_or_default(scene_, face_material(part, at.face));
+        const TextureRef& texture_ref = material.base_color_texture;
+        LinearColor texel = {1, 1, 1, 1}, vertex = texel;
+        const auto image = images_.find({texture_ref.image, encoding_of(material)});
+        if (image != images_.end() && image->second && texture_ref.uv_set < part.uvs.size()) {
+            const auto uv = interpolated<double>(part.uvs[texture_ref.uv_set], part, point);
+            const auto [u, v] = uv_transform(texture_ref).apply(uv[0], uv[1]);
+            texel = image->second->sample(texture_ref, u, v, 0);
+        }
+        if (!part.colors.empty()) vertex = interpolated<float>(part.colors, part, point);
+        const bool is_opaque = material.alpha_mode == AlphaMode::opaque;
+        const double alpha = is_opaque ? 1 : double{material.base_color[3]} * vertex[3];
+        Vec3 result;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double own = alpha * material.base_color[k] * vertex[k] * texel[k];
+            result[k] = std::clamp(own + (1 - alpha * texel[3]) * behind[k], 0.0, 1.0);
+        }
+        return result;
+    }
+
+    const Asset& scene_;
+    const PartComponents& components_;
+    std::vector<Instance> instances_;
+    DecodedImages images_;
+    std::vector<std::vector<Vector3>> positions_;  // by instance
+    std::vector<std::vector<std::int8_t>> sides_;  // by instance
+    std::vector<render::PlacedMesh> meshes_;       // by instance
+};
+
+}  // namespace
+
+std::vector<std::vector<float>> contrast_weights(const Asset& scene, const RunContext& context) {
+    std::vector<std::vector<float>> result(scene.parts.size());
+    const PartComponents components = part_components(scene);
+    if (components.count < 2) return result;
+    const std::vector<Sum> sums = Pictures(scene, components, context).sums(context);
+    Sum all = Sum::Zero();
+    for (const Sum& sum : sums) all += sum;
+    for (std::size_t p = 0; p < result.size(); ++p) {
+        const Part& part = scene.parts[p];
+        for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+            const Sum& own = sums[components.of_face[p][f]];
+            const double factor = own[0] / own[1] / (all[0] / all[1]);
+            if (!(factor >= least_factor)) continue;
+            result[p].resize(part.positions.size(), 1.0f);
+            for (const Index v : part.triangles[f])
+                result[p][v] = static_cast<float>(std::min(factor, largest_factor));
+        }
+    }
+    return result;
+}
+
+}  // namespace faqem::detail
