@@ -129,16 +129,21 @@ void transfer_normals(const BakePart& part, bool keeps_vertices, const RunContex
         }
     }
     visit_corner_points(
-        part, context, [&](std::uint64_t corner, const SurfacePoint& point, const SurfacePoint& inner) {
+        part, context, [&](std::uint64_t corner, const SurfacePoint& nearby, const SurfacePoint& inner) {
             if (inner.face != no_index) raw.inner[corner] = interpolated_normal(*part.source, inner);
-            if (point.face == no_index) return;
-            const Vector3 original = interpolated_normal(*part.source, point);
-            if (original.isZero(0)) return;
-            raw.normals[corner] = original;
-            if (facets.of_face.empty()) return;
+            if (nearby.face == no_index) return;
+            Vector3 original = interpolated_normal(*part.source, nearby);
+            if (!original.isZero(0)) raw.normals[corner] = original;
+            if (original.isZero(0) || facets.of_face.empty()) return;
+            // A corner may be beyond the edge of the facet that its face shows.
+            const Vector3& of_face = raw.face_normals[corner / 3];
+            const bool is_beyond = inner.face != no_index &&
+                                   facets.of_face[inner.face] != facets.of_face[nearby.face] &&
+                                   raw.inner[corner].dot(of_face) > original.dot(of_face);
+            if (is_beyond) raw.normals[corner] = original = raw.inner[corner];
+            const Index face = is_beyond ? inner.face : nearby.face, facet = facets.of_face[face];
             raw.min_cosines[corner] = min_normal_cosine_at(
-                original.dot(winding_normal(part.source->positions, part.source->triangles[point.face])));
-            const Index facet = facets.of_face[point.face];
+                original.dot(winding_normal(part.source->positions, part.source->triangles[face])));
             raw.source_facets[corner] = facet;
             const double area = triangle_area(mesh.positions, mesh.triangles[corner / 3]);
             if (2 * facets.areas[facet] >= area) raw.facets[corner] = facet;
