@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,7 +12,6 @@
 #include "bake/source/source_normals.hpp"
 #include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/parallel.hpp"
-#include "faqem/detail/geometry/bvh.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
 #include "faqem/forward_map.hpp"
 #include "faqem/surface_map.hpp"
@@ -57,58 +55,33 @@ public:
     void search_vertex(Index v, const RunContext& context, const Visit& visit) const {
         const std::span<const Index> candidates = faces_[v];
         const std::span<const std::uint64_t> corners = corners_[v];
-        const auto search = [&](const auto& closest) {
-            for (const std::uint64_t corner : corners) {
-                context.count(2 * map_query_cost);
-                visit(corner, closest(query(corner, corner_insets[0])),
-                      closest(query(corner, corner_insets[1])));
-            }
-        };
-        if (candidates.size() * corners.size() > max_comparisons) {
-            const FaceTree tree(history_, candidates, context);
-            return search([&](const Query& q) {
-                return tree.closest(q.p, [&](Index f) { return is_accepted(f, q); });
-            });
-        }
         const Vector3 centre = to_eigen(mesh_.positions[v]);
         std::vector<double> distances;
         distances.reserve(candidates.size());
         for (const Index f : candidates)
             distances.push_back(std::sqrt(on_source(f, centre).distance_squared));
-        search([&](const Query& q) { return compare_all(q, candidates, distances, (q.p - centre).norm()); });
+        const auto closest = [&](std::uint64_t corner, double inset) {
+            const Query q = query(corner, inset);
+            return compare_all(q, candidates, distances, (q.p - centre).norm());
+        };
+        for (const std::uint64_t corner : corners) {
+            context.count(2 * map_query_cost);
+            visit(corner, closest(corner, corner_insets[0]), closest(corner, corner_insets[1]));
+        }
+    }
+
+    // Whether some vertex has so many corners and faces that their comparisons would be quadratic work.
+    bool is_slow() const {
+        constexpr std::size_t max_comparisons = 1 << 14;
+        for (std::size_t v = 0; v < mesh_.positions.size(); ++v)
+            if (faces_[v].size() * corners_[v].size() > max_comparisons) return true;
+        return false;
     }
 
 private:
-    // Vertices with more comparisons of corners and faces use a tree: otherwise the work would be quadratic.
-    static constexpr std::size_t max_comparisons = 1 << 14;
-
     struct Query {
         Vector3 p, normal;  // of the simplified face by its winding
         Index face;         // simplified
-    };
-
-    // The faces around a vertex.
-    struct FaceTree {
-        FaceTree(const CollapseHistory& history, std::span<const Index> all, const RunContext& context)
-            : faces(all) {
-            std::vector<Triangle> triangles;
-            triangles.reserve(faces.size());
-            for (const Index f : faces) triangles.push_back(history.triangles[f]);
-            tree = Bvh(history.positions, triangles, context);
-        }
-
-        template <class Filter>
-        SurfacePoint closest(const Vector3& p, const Filter& filter) const {
-            constexpr std::size_t max_rejections = 512;  // as for SuccessiveProjection
-            const Bvh::Hit hit = tree.closest_if(
-                to_array(p), [&](const Bvh::Corners& t) { return filter(faces[t.face]); },
-                std::numeric_limits<double>::infinity(), max_rejections);
-            if (hit.face == no_index) return {};
-            return {faces[hit.face], hit.barycentric, MapStep::history};
-        }
-
-        std::span<const Index> faces;
-        Bvh tree;
     };
 
     Query query(std::uint64_t corner, double inset) const {
@@ -158,21 +131,26 @@ private:
 /// barycentrics_near_corner() gives them for corner_insets. They are on faces with a corner that was collapsed into the
 /// vertex of the simplified corner, of the same group, and at most 80 degrees from the simplified face. BakePart::map gives
 /// the same points unless they are on faces of another vertex or of another surface patch, but takes longer to prepare; if
-/// there is one, it is used.
+/// there is one, it is used, and one is made for vertices with very many faces.
 /// \param visit  visit(corner, near, inner), called once for each corner, concurrently; the face of a point may be no_index
 /// \throws whatever `context` throws
 /// O(n log n) in the faces of both meshes
 inline void visit_corner_points(
     const BakePart& part, const RunContext& context,
     const std::function<void(std::uint64_t, const SurfacePoint&, const SurfacePoint&)>& visit) {
-    if (part.map)
-        return parallel_each(3 * part.faces(), 256, context, [&](std::size_t c) {
+    const auto visit_mapped = [&](const PointMap& map) {
+        parallel_each(3 * part.faces(), 256, context, [&](std::size_t c) {
             const auto at = [&](double inset) {
-                return part.map->map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, inset));
+                return map.map(static_cast<Index>(c / 3), barycentrics_near_corner(c % 3, inset));
             };
             visit(c, at(corner_insets[0]), at(corner_insets[1]));
         });
+    };
+    if (part.map) return visit_mapped(*part.map);
     const Search search(part);
+    if (search.is_slow())
+        return visit_mapped(
+            HistoryMap(make_surface_map(part.simplified->history, part.source->triangles, context)));
     parallel_blocks(part.simplified->mesh.positions.size(), 64, context,
                     [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
                         for (std::size_t v = begin; v < end; ++v)

@@ -125,7 +125,7 @@ TEST_CASE("corner points: normals are the same for every number of threads") {
     CHECK(simplified.normals(false, 1).normals == simplified.normals(false, 5).normals);
 }
 
-TEST_CASE("corner points: the normals around a vertex of many faces are found by a tree") {
+TEST_CASE("corner points: the normals around a vertex of many faces are those of the map") {
     // A flat cone with its tip in the middle of n faces.
     constexpr Index n = 3000;
     TriangleMesh cone;
