@@ -233,22 +233,22 @@ private:
         const Stopwatch watch;
         context_.show(Phase::simplify, 0);
         weights_.emplace();
-        if (options_.visibility == Visibility::weighted) return compute_visibility(watch);
-        if (separates_layers(source_, options_))
-            context_.in_time([&] { weights_ = contrast_weights(source_, context_); });
+        context_.in_time([&] {
+            if (options_.visibility == Visibility::weighted)
+                use_visibility(vertex_visibility(source_, context_));
+            else if (separates_layers(source_, options_))
+                weights_ = contrast_weights(source_, context_);
+        });
         results_.front().report.seconds.simplify += watch.seconds();
     }
 
-    void compute_visibility(const Stopwatch& watch) {
-        VertexVisibility seen;
-        if (!context_.in_time([&] { seen = vertex_visibility(source_, context_); })) return;
+    void use_visibility(VertexVisibility seen) {
         weights_ = std::move(seen.weights);
         const std::string warning = visibility_warning(source_);
         for (SimplifiedParts& level : results_) {
             level.report.vertices_hidden = seen.hidden_vertices;
             if (!warning.empty()) level.report.warnings.push_back(warning);
         }
-        results_.front().report.seconds.simplify += watch.seconds();
     }
 
     // Face counts by part and target; in descending order for every part.
