@@ -1,6 +1,5 @@
 #include "faqem/history.hpp"
 
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>

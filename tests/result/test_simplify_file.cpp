@@ -1,7 +1,6 @@
 // Options::format, and simplify() of files: the library and the command give the same bytes.
 
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 

@@ -3,7 +3,6 @@
 /// Small meshes for tests, and brute-force queries on meshes.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <string>
 #include <string_view>

@@ -1,9 +1,7 @@
-#include <cstdint>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "asset/file_format.hpp"
 #include "asset/io/set_folder.hpp"

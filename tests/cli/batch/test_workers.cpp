@@ -1,5 +1,4 @@
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "support/catch.hpp"

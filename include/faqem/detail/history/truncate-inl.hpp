@@ -3,7 +3,6 @@
 #include "faqem/truncate.hpp"
 
 #include <algorithm>
-#include <span>
 #include <string>
 #include <utility>
 

@@ -2,10 +2,6 @@
 
 #include "faqem/report.hpp"
 
-#include <array>
-#include <string>
-#include <string_view>
-
 #include "faqem/error.hpp"
 
 FAQEM_NAMESPACE_BEGIN

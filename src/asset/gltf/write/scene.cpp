@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "asset/gltf/scene.hpp"
-#include "asset/gltf/source_document.hpp"
 #include "asset/gltf/write/writer.hpp"
 
 namespace faqem::detail {
