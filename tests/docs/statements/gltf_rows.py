@@ -1,5 +1,5 @@
 """Checks of the rows about meshes and materials of glTF."""
-from model import Glb, expect, gltf_grid, grid, png, rows_of, warns
+from model import Glb, expect, expect_no_warning, gltf_grid, grid, png, rows_of, warns
 
 ROWS = {}
 row = rows_of(ROWS, "glTF")
@@ -13,10 +13,6 @@ def write(runs, glb, used=()):
     if used:
         glb.json["extensionsUsed"] = list(used)
     return runs.write("a.glb", glb.bytes())
-
-
-def expect_no_warning(runs):
-    expect(not runs.info("a.glb")["warnings"], "no warning on reading")
 
 
 def textured(pixels, texture=None, material=None, **attributes):
@@ -50,8 +46,7 @@ def triangles(runs):
                                       {"attributes": {"POSITION": fan, "TEXCOORD_0": uvs}, "mode": 6}]})
     glb.add("nodes", {"mesh": 0})
     glb.json["scenes"] = [{"nodes": [0]}]
-    write(runs, glb)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb))
     info = runs.info("a.glb")["total"]
     expect(info["faces"] == 4 and abs(info["area"] - 2) < 1e-6, "four triangles")
     expect(all(p.get("mode", 4) == 4 for p in runs.whole("a.glb").primitives()), "triangles")
@@ -65,8 +60,7 @@ def points(runs):
     glb.json["meshes"][0]["primitives"] += [
         {"attributes": attributes, "mode": mode, "material": glb.add("materials", {"name": "ink"}), "extras": "line",
          "indices": glb.accessor([1, 0], "I")} for mode in (0, 1)]
-    write(runs, glb)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb))
     for gltf in three(runs):
         modes = [p["mode"] for p in gltf.primitives() if p.get("mode", 4) < 4]
         expect(modes == [0, 1], "kept")
@@ -119,8 +113,7 @@ def skin(runs):
     matrices = [(1.0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 8, 7, 1) for x in (9, 6)]
     glb.add("skins", {"joints": [1, 2], "inverseBindMatrices": glb.accessor(matrices)})
     glb.json["scenes"][0]["nodes"].append(1)
-    write(runs, glb)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb))
     for gltf in three(runs):
         skin, = gltf.json["skins"]
         expect(skin["joints"] == [1, 2] and gltf.accessor(skin["inverseBindMatrices"]) == matrices, "the skin")
@@ -130,8 +123,7 @@ def skin(runs):
     primitive_of(glb)["attributes"].update(
         JOINTS_0=glb.accessor([(0, 1, 1, 0)] * VERTICES, "B"), WEIGHTS_0=glb.accessor([(0.125, 0.25, 0.25, 0)] * VERTICES),
         JOINTS_1=glb.accessor([(1, 0, 0, 0)] * VERTICES, "B"), WEIGHTS_1=glb.accessor([(0.25, 0.125, 0, 0)] * VERTICES))
-    write(runs, glb)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb))
     for gltf in three(runs):
         weights, joints = gltf.attribute("WEIGHTS_0"), gltf.attribute("JOINTS_0")
         expect(all(abs(w[0] - 0.75) < 0.01 and j[0] == 1 for w, j in zip(weights, joints)), "the weights of both sets")
@@ -152,8 +144,7 @@ def targets(runs):
     glb = textured(PATTERN)
     primitive_of(glb)["targets"] = [{"POSITION": glb.accessor([(0, 0, p[0]) for p in grid()[0]])}]
     glb.json["meshes"][0]["weights"] = [0.25]
-    write(runs, glb)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb))
     for gltf in three(runs):
         expect(gltf.json["meshes"][0]["weights"] == [0.25], "the weights")
         moves = gltf.accessor(gltf.primitive()["targets"][0]["POSITION"])
@@ -165,8 +156,7 @@ def custom(runs):
     number = [(i // 9) * 100 for i in range(VERTICES)]
     glb = textured(PATTERN, _BATCHID=([float(n) for n in number], "f"), _HEAT=([p[0] for p in grid()[0]], "f"),
                    _COUNT=(number, "I"))
-    write(runs, glb)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb))
     for gltf in three(runs):
         for name in ("_BATCHID", "_COUNT"):
             expect({v[0] for v in gltf.attribute(name)} <= set(number), f"numbers of {name} from vertices")
@@ -240,8 +230,7 @@ def variants(runs):
     glb.add("materials", {"name": "other", **RED})
     glb.json["extensions"] = {"KHR_materials_variants": {"variants": [{"name": "v"}]}}
     primitive_of(glb)["extensions"] = {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}}
-    write(runs, glb, ["KHR_materials_variants"])
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb, ["KHR_materials_variants"]))
     for gltf in (runs.whole("a.glb"), runs.kept("a.glb"), runs.simplify("a.glb", "--ratio", 0.5)):
         mapping, = gltf.primitive()["extensions"]["KHR_materials_variants"]["mappings"]
         expect(gltf.json["materials"][mapping["material"]]["name"] == "red", "kept by default")
@@ -302,8 +291,7 @@ def image_extensions(runs):
     write(runs, textured(png(lambda x, y: (x * 3 % 256, y * 5 % 256, (x * y) % 256, 255), size=64)))
     webp = runs.baked("a.glb", "--image-format", "webp")
     expect("EXT_texture_webp" in webp.json["textures"][0]["extensions"], "a WebP texture")
-    runs.write("a.glb", runs.read("out.glb"))
-    expect_no_warning(runs)
+    expect_no_warning(runs, runs.write("a.glb", runs.read("out.glb")))
     expect(runs.info("a.glb")["images"][0].get("width"), "decoded")
     expect(len(runs.baked("a.glb").list("images")) == 1, "baked")
 
@@ -315,8 +303,7 @@ def unused(runs):
     glb.texture(png((1, 2, 3, 255)))
     glb.accessor([1.0] * 1000)
     glb.add("meshes", dict(glb.json["meshes"][0], name="hidden"))
-    write(runs, glb)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb))
     for gltf in three(runs):
         expect(all(a["count"] < 1000 for a in gltf.list("accessors")), "accessors are not written")
         expect(len(gltf.list("materials")) == len(gltf.list("images")) == len(gltf.list("textures")) == 1,

@@ -1,6 +1,6 @@
 """Checks of the rows about scenes, compression and extensions of glTF."""
-from gltf_rows import PATTERN, RED, VERTICES, expect_no_warning, primitive_of, textured, three, write
-from model import expect, gltf_grid, grid, png, rows_of, warns
+from gltf_rows import PATTERN, RED, VERTICES, primitive_of, textured, three, write
+from model import expect, expect_no_warning, gltf_grid, grid, png, rows_of, warns
 
 ROWS = {}
 row = rows_of(ROWS, "glTF")
@@ -18,8 +18,7 @@ def scene(runs):
     glb.json["asset"].update(copyright="c", extras={"x": 1234567890123456789}, generator="someone")
     glb.json["scenes"].append({"name": "empty", "extras": 7})
     glb.json["meshes"][0]["extras"] = {"kept": True}
-    write(runs, glb, ["KHR_lights_punctual", "KHR_xmp_json_ld", "KHR_materials_sheen"])
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb, ["KHR_lights_punctual", "KHR_xmp_json_ld", "KHR_materials_sheen"]))
     for gltf in three(runs):
         for key in ("nodes", "scenes", "cameras", "extensions"):
             expect(gltf.json[key] == glb.json[key], f"the same {key}")
@@ -44,8 +43,7 @@ def animations(runs):
     channels = [{"sampler": i, "target": {"node": 0, "path": path}}
                 for i, path in enumerate(("translation", "weights"))]
     glb.add("animations", {"name": "move", "samplers": samplers, "channels": channels})
-    write(runs, glb)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb))
     for gltf in three(runs):
         animation, = gltf.json["animations"]
         expect(animation["channels"] == channels and animation["name"] == "move", "the channels")
@@ -87,8 +85,7 @@ def numbers(runs):
     glb.add("materials", {"name": "unused"})
     for name in ("VRM", "VRMC_vrm"):
         glb.json["extensions"] = {name: {"meta": {"texture": 2}, "materials": [1, 0]}}
-        write(runs, glb, [name])
-        expect_no_warning(runs)
+        expect_no_warning(runs, write(runs, glb, [name]))
         runs.results.clear()
         for gltf in three(runs):
             expect(gltf.json["extensions"] == glb.json["extensions"], "kept")
@@ -104,8 +101,7 @@ def center(runs):
     glb = gltf_grid(RED)
     glb.json["extensions"] = {"CESIUM_RTC": {"center": [1000, 2000, 3000]}}
     glb.json["extensionsRequired"] = ["CESIUM_RTC"]
-    write(runs, glb, ["CESIUM_RTC"])
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb, ["CESIUM_RTC"]))
     for gltf in three(runs):
         expect(gltf.json["extensions"] == glb.json["extensions"], "kept")
     # The grid, from 0 to 1 along x and y and bumpy along z, stands upright.
@@ -134,8 +130,7 @@ NUMBERED = ("CESIUM_primitive_outline", "FB_ngon_encoding", "EXT_mesh_manifold")
 
 @row("CESIUM_primitive_outline, EXT_mesh_manifold, FB_ngon_encoding")
 def index_extensions(runs):
-    write(runs, numbered(), NUMBERED)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, numbered(), NUMBERED))
     whole, kept, baked = three(runs)
     outline = whole.primitive()["extensions"]["CESIUM_primitive_outline"]["indices"]
     expect(whole.accessor(outline) == [(0,), (1,), (1,), (2,)], "the outline")
@@ -153,8 +148,7 @@ def features(runs):
     texture = {"channels": [0], "index": 0, "texCoord": 0}
     ids = [{"featureCount": 9, "attribute": 0}, {"featureCount": 9, "texture": texture}, {"featureCount": VERTICES}]
     primitive_of(glb)["extensions"] = {"EXT_mesh_features": {"featureIds": ids}}
-    write(runs, glb, ["EXT_mesh_features"])
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb, ["EXT_mesh_features"]))
 
     def kinds(gltf):
         left = gltf.primitive().get("extensions", {}).get("EXT_mesh_features", {}).get("featureIds", [])
@@ -176,8 +170,7 @@ def metadata(runs):
         "schema": schema, "propertyTables": [{"class": "c", "count": 2, "properties": {"p": {"values": values}}}],
         "propertyTextures": [property_texture]}}
     primitive_of(glb)["extensions"] = {"EXT_structural_metadata": {"propertyTextures": [0]}}
-    write(runs, glb, ["EXT_structural_metadata"])
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb, ["EXT_structural_metadata"]))
     whole, kept, baked = three(runs)
     for gltf in (whole, kept, baked):
         table, = gltf.json["extensions"]["EXT_structural_metadata"]["propertyTables"]
@@ -203,8 +196,7 @@ def levels_of_detail(runs):
     glb.json["nodes"][0]["extras"] = {"MSFT_screencoverage": [0.5, 0.1, 0]}
     glb.json["materials"][fine["material"]]["extensions"] = {"MSFT_lod": {"ids": [2]}}
     glb.json["extensionsRequired"] = ["MSFT_lod"]
-    write(runs, glb, ["MSFT_lod"])
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb, ["MSFT_lod"]))
     expect([p["faces"] for p in runs.info("a.glb")["parts"]] == [128, 32], "`info` lists all")
     for gltf in three(runs):
         expect(gltf.warns("2 coarser levels of 1 node and 1 coarser level of 1 material"), "a warning counts them")
@@ -228,8 +220,7 @@ def unknown(runs):
     glb.json["nodes"][0]["extensions"] = {"EXT_of_node": {"a": 1}}
     glb.json["extensions"] = {"EXT_of_document": {"a": "b"}}
     names = ["EXT_of_primitive", "EXT_of_node", "EXT_of_document"]
-    write(runs, glb, names)
-    expect_no_warning(runs)
+    expect_no_warning(runs, write(runs, glb, names))
     expect(runs.info("a.glb")["not_understood"] == [f"extension {n}" for n in sorted(names)], "`info` names them")
     whole, kept, baked = three(runs)
     expect(whole.primitive()["extensions"] == {"EXT_of_primitive": {"a": 1}}, "kept where nothing changed")

@@ -1,7 +1,7 @@
 """Small models of every format, runs of the command on them, and what the results say."""
 import json
 import math
-import os
+import pathlib
 import struct
 import subprocess
 import zlib
@@ -61,18 +61,16 @@ class Runs:
     """A folder with files, and the command applied to them."""
 
     def __init__(self, tool, folder):
-        self.tool, self.folder, self.results = tool, folder, {}
-        os.makedirs(folder, exist_ok=True)
+        self.tool, self.folder, self.results = tool, pathlib.Path(folder), {}
+        self.folder.mkdir(exist_ok=True)
 
     def write(self, name, content):
         self.results.clear()
-        with open(os.path.join(self.folder, name), "wb") as f:
-            f.write(content.encode() if isinstance(content, str) else content)
+        (self.folder / name).write_bytes(content.encode() if isinstance(content, str) else content)
         return name
 
     def read(self, name):
-        with open(os.path.join(self.folder, name), "rb") as f:
-            return f.read()
+        return (self.folder / name).read_bytes()
 
     def run(self, *arguments):
         return subprocess.run([self.tool, *map(str, arguments)], cwd=self.folder, capture_output=True, timeout=60)
@@ -119,6 +117,17 @@ class Runs:
 def warns(texts, part):
     """Whether one of the texts, those of `info` or of a report, contains the part."""
     return any(part in text for text in texts)
+
+
+def expect_repair(runs, name, message):
+    """A repair is in `info` and in the report, and an error with --strict."""
+    expect(warns(runs.info(name)["warnings"], message), f"`info` warns: {message}")
+    expect(runs.baked(name).warns(message), f"the report warns: {message}")
+    expect(runs.is_strict(name), f"--strict rejects it: {message}")
+
+
+def expect_no_warning(runs, name):
+    expect(not runs.info(name)["warnings"], "no warning on reading")
 
 
 class Gltf:

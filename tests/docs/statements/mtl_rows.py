@@ -1,5 +1,5 @@
 """Checks of the rows about material libraries."""
-from model import expect, grid, png, rows_of, warns
+from model import expect, expect_no_warning, expect_repair, grid, png, rows_of
 
 ROWS = {}
 row = rows_of(ROWS, "MTL")
@@ -17,17 +17,6 @@ def write_obj(runs, library, images=None):
     for name, image in (images or {}).items():
         runs.write(name, image if isinstance(image, bytes) else png(image))
     return "a.obj"
-
-
-def expect_repair(runs, name, message):
-    """A repair is in `info` and in the report, and an error with --strict."""
-    expect(warns(runs.info(name)["warnings"], message), f"`info` warns: {message}")
-    expect(runs.baked(name).warns(message), f"the report warns: {message}")
-    expect(runs.is_strict(name), f"--strict rejects it: {message}")
-
-
-def expect_no_warning(runs, name):
-    expect(not runs.info(name)["warnings"], "no warning")
 
 
 def both(runs, name):
@@ -48,18 +37,15 @@ def base_color(runs):
     expect("baseColorTexture" in pbr(whole) and whole.has_color((1, 0.5, 0.5, 1)), "a texture and its factor")
     expect(abs(baked.factor()[0] - 0.2158) < 0.01 and abs(baked.factor()[1] - 0.0462) < 0.01, "their product, baked")
     expect_no_warning(runs, write_obj(runs, "Kd 0 0 0"))
-    write_obj(runs, "Kd 0 0 0\nmap_Kd c.png", {"c.png": GREY})
-    expect_repair(runs, "a.obj", "Kd 0 0 0 with a map_Kd")
+    expect_repair(runs, write_obj(runs, "Kd 0 0 0\nmap_Kd c.png", {"c.png": GREY}), "Kd 0 0 0 with a map_Kd")
     expect(runs.baked("a.obj").has_color((0.5, 0.5, 0.5, 1)), "the colour of the image")
 
 
 @row("`map_Ka`")
 def ambient_image(runs):
-    write_obj(runs, "map_Ka a.png", {"a.png": GREY})
-    expect_repair(runs, "a.obj", "map_Ka")
+    expect_repair(runs, write_obj(runs, "map_Ka a.png", {"a.png": GREY}), "map_Ka")
     expect(runs.baked("a.obj").has_color((0.5, 0.5, 0.5, 1)), "the colour of the image")
-    write_obj(runs, "map_Ka a.png\nmap_Kd c.png", {"a.png": BLACK, "c.png": GREY})
-    expect_no_warning(runs, "a.obj")
+    expect_no_warning(runs, write_obj(runs, "map_Ka a.png\nmap_Kd c.png", {"a.png": BLACK, "c.png": GREY}))
     expect(runs.info("a.obj")["not_understood"] == ["'map_Ka': 1 statement"], "`info` counts it")
     expect(runs.baked("a.obj").has_color((0.5, 0.5, 0.5, 1)), "the colour of map_Kd")
 
@@ -88,8 +74,7 @@ def alpha_image(runs):
         expect(whole.material().get("alphaMode") == "BLEND", f"{name}: mode blend")
         expect(len(whole.list("images")) == 1, f"{name}: one image")
         expect(baked.has_color((200 / 255, 100 / 255, 50 / 255, 0.5)), f"{name}: colour and alpha")
-    write_obj(runs, "map_Kd c.png\nmap_d m.png", {"c.png": color, "m.png": WHITE})
-    expect_no_warning(runs, "a.obj")
+    expect_no_warning(runs, write_obj(runs, "map_Kd c.png\nmap_d m.png", {"c.png": color, "m.png": WHITE}))
     expect("alphaMode" not in runs.whole("a.obj").material(), "white: opaque")
     for library, image in (("map_d m.png", (0, 0, 0, 0)), ("map_d m.png", BLACK), ("map_d -s 2 2 m.png", GREY),
                            ("map_d m.png", b"\x89PNG\r\n\x1a\nno"), ("map_d a.obj", GREY), ("map_d gone.png", GREY)):
@@ -170,17 +155,14 @@ def bump(runs):
 def tiles(runs):
     images = {"c.1001.png": GREY, "c.1002.png": WHITE, "c.u1_v1.png": GREY, "c.u2_v1.png": WHITE}
     for mark in ("<UDIM>", "%(UDIM)d", "<UVTILE>"):
-        write_obj(runs, f"map_Kd -s 2 1 1 c.{mark}.png", images)
-        expect_no_warning(runs, "a.obj")
+        expect_no_warning(runs, write_obj(runs, f"map_Kd -s 2 1 1 c.{mark}.png", images))
         whole = runs.whole("a.obj")
         expect([m["name"] for m in whole.list("materials")] == ["m.1001", "m.1002"], "a material for each tile")
         expect(len(whole.list("images")) == 2, "its image")
     write_obj(runs, "map_Kd -s 4 1 1 c.<UDIM>.png", images)
     expect_repair(runs, "a.obj", "material 'm.1003': texture left out")
-    write_obj(runs, "map_Kd -o -1 0 c.<UDIM>.png", images)
-    expect_repair(runs, "a.obj", "outside of the UDIM tiles")
-    write_obj(runs, "map_Kd -o 0.55 0 c.<UDIM>.png", images)
-    expect_repair(runs, "a.obj", "across borders of UDIM tiles")
+    expect_repair(runs, write_obj(runs, "map_Kd -o -1 0 c.<UDIM>.png", images), "outside of the UDIM tiles")
+    expect_repair(runs, write_obj(runs, "map_Kd -o 0.55 0 c.<UDIM>.png", images), "across borders of UDIM tiles")
 
 
 @row("`-o`, `-s`, `-clamp`")
@@ -226,18 +208,14 @@ def other_statements(runs):
 
 @row("values outside 0 to 1")
 def clamped(runs):
-    write_obj(runs, "Kd 2 0 0")
-    expect_repair(runs, "a.obj", "clamped")
+    expect_repair(runs, write_obj(runs, "Kd 2 0 0"), "clamped")
     expect(runs.whole("a.obj").factor() == [1, 0, 0, 1], "the clamped colour")
 
 
 @row("a missing file, or one that is not in the folder")
 def missing_file(runs):
-    write_obj(runs, "Kd 1 0 0\nmap_Kd gone.png")
-    expect_repair(runs, "a.obj", "gone.png")
+    expect_repair(runs, write_obj(runs, "Kd 1 0 0\nmap_Kd gone.png"), "gone.png")
     runs.write("../outside.png", png(GREY))
-    write_obj(runs, "Kd 1 0 0\nmap_Kd ../outside.png")
-    expect_repair(runs, "a.obj", "outside.png")
-    write_obj(runs, "Kd 1 1 1\nmap_Kd C:\\job\\C.PNG", {"c.png": GREY})
-    expect_repair(runs, "a.obj", "c.png")
+    expect_repair(runs, write_obj(runs, "Kd 1 0 0\nmap_Kd ../outside.png"), "outside.png")
+    expect_repair(runs, write_obj(runs, "Kd 1 1 1\nmap_Kd C:\\job\\C.PNG", {"c.png": GREY}), "c.png")
     expect(runs.baked("a.obj").has_color((0.5, 0.5, 0.5, 1)), "the file beside the model")

@@ -1,8 +1,8 @@
 """Checks of the rows about OBJ, PLY, STL and OFF."""
 import struct
 
-from model import expect, grid, png, rows_of, warns
-from mtl_rows import GREY, expect_no_warning, expect_repair
+from model import expect, expect_no_warning, expect_repair, grid, png, rows_of
+from mtl_rows import GREY
 
 ROWS = {}
 row = rows_of(ROWS)
@@ -97,16 +97,13 @@ def materials(runs):
 @row("OBJ", "`v` with a colour or a weight")
 def obj_colors(runs):
     triangles = grid()[2]
-    runs.write("a.obj", obj_vertices(" 0.8 0.2 0") + obj_faces(triangles))
-    expect_no_warning(runs, "a.obj")
+    expect_no_warning(runs, runs.write("a.obj", obj_vertices(" 0.8 0.2 0") + obj_faces(triangles)))
     expect(runs.info("a.obj")["parts"][0]["vertex_colors"], "vertex colours")
     expect_no_warning(runs, runs.write("b.obj", obj_vertices(" 1") + obj_faces(triangles)))
     expect(runs.baked("a.obj").has_color((0.8, 0.2, 0, 1)), "baked")
     expect("COLOR_0" in runs.kept("a.obj").primitive()["attributes"], "kept")
-    runs.write("a.obj", obj_vertices(" 2") + obj_faces(triangles))
-    expect_repair(runs, "a.obj", "with a weight")
-    runs.write("a.obj", obj_vertices(" 204 51 0") + obj_faces(triangles))
-    expect_repair(runs, "a.obj", "divided by 255")
+    expect_repair(runs, runs.write("a.obj", obj_vertices(" 2") + obj_faces(triangles)), "with a weight")
+    expect_repair(runs, runs.write("a.obj", obj_vertices(" 204 51 0") + obj_faces(triangles)), "divided by 255")
     expect(runs.baked("a.obj").has_color((0.8, 0.2, 0, 1)), "from 0 to 255")
 
 
@@ -114,8 +111,7 @@ def obj_colors(runs):
 def zbrush_colors(runs):
     positions, _, triangles = grid()
     block = "".join("#MRGB ffcc3300\n" for _ in positions)
-    runs.write("a.obj", obj_vertices() + block + obj_faces(triangles))
-    expect_no_warning(runs, "a.obj")
+    expect_no_warning(runs, runs.write("a.obj", obj_vertices() + block + obj_faces(triangles)))
     expect(runs.baked("a.obj").has_color((0.8, 0.2, 0, 1)), "baked")
     runs.write("a.obj", obj_vertices() + "#MRGB 0\n" + block + obj_faces(triangles))
     expect_repair(runs, "a.obj", "1 line of #MRGB")
@@ -140,7 +136,7 @@ def write_ply(runs, vertex="", face="", vertex_data=None, face_data=None, commen
     lines += ["%.6f %.6f %.6f " % p + (vertex_data(i) if vertex_data else "") for i, p in enumerate(positions)]
     if faces:
         lines += ["3 %d %d %d " % t + (face_data(i) if face_data else "") for i, t in enumerate(triangles)]
-    runs.write("a.ply", "\n".join(lines) + "\n" + other_data)
+    return runs.write("a.ply", "\n".join(lines) + "\n" + other_data)
 
 
 RGB = "".join(f"property uchar {c}\n" for c in ("red", "green", "blue"))
@@ -167,8 +163,7 @@ def ply_texture(runs):
     expect_no_warning(runs, "a.ply")
     expect(images_of(runs.whole("a.ply")) == ["a"], "a material for a file that faces refer to")
     expect(runs.baked("a.ply").has_color((0.5, 0.5, 0.5, 1)), "baked")
-    write_ply(runs, comments=comments)
-    expect_repair(runs, "a.ply", "texture files are not read")
+    expect_repair(runs, write_ply(runs, comments=comments), "texture files are not read")
 
 
 @row("PLY", "`texcoord` (face), `s t` (vertex)")
@@ -208,8 +203,7 @@ def ply_texture_numbers(runs):
 
 @row("PLY", "`red green blue alpha` (vertex)")
 def ply_vertex_colors(runs):
-    write_ply(runs, RGB + "property uchar alpha", vertex_data=lambda i: "204 51 0 255")
-    expect_no_warning(runs, "a.ply")
+    expect_no_warning(runs, write_ply(runs, RGB + "property uchar alpha", vertex_data=lambda i: "204 51 0 255"))
     expect(runs.baked("a.ply").has_color((0.8, 0.2, 0, 1)), "baked")
     expect(runs.kept("a.ply").attribute("COLOR_0") is not None, "kept")
     write_ply(runs, RGB.replace("uchar", "float"), vertex_data=lambda i: "204 51 0")
@@ -219,8 +213,7 @@ def ply_vertex_colors(runs):
 
 @row("PLY", "`red green blue alpha` (face)")
 def ply_face_colors(runs):
-    write_ply(runs, face=RGB, face_data=lambda t: "255 0 0" if t % 2 else "0 0 255")
-    expect_no_warning(runs, "a.ply")
+    expect_no_warning(runs, write_ply(runs, face=RGB, face_data=lambda t: "255 0 0" if t % 2 else "0 0 255"))
     expect(len(set(runs.whole("a.ply").attribute("COLOR_0"))) == 2, "constant on each face")
     write_ply(runs, RGB, RGB, lambda i: "204 51 0", lambda t: "0 0 255")
     expect_repair(runs, "a.ply", "face colours are ignored")
@@ -265,7 +258,7 @@ def write_stl(runs, attribute, header=b""):
     data = header.ljust(80, b" ") + struct.pack("<I", len(triangles))
     for i, t in enumerate(triangles):
         data += struct.pack("<12fH", 0, 0, 0, *(x for v in t for x in positions[v]), attribute(i))
-    runs.write("a.stl", data)
+    return runs.write("a.stl", data)
 
 
 @row("STL", "colours of facets (binary)")
@@ -286,8 +279,7 @@ def stl_colors(runs):
 
 @row("STL", "other attributes of facets")
 def stl_attributes(runs):
-    write_stl(runs, lambda i: 5)
-    expect_repair(runs, "a.stl", "attributes of 128 facets ignored")
+    expect_repair(runs, write_stl(runs, lambda i: 5), "attributes of 128 facets ignored")
 
 
 def solid(name, triangles):
@@ -300,8 +292,7 @@ def solid(name, triangles):
 @row("STL", "several solids (ASCII)")
 def stl_solids(runs):
     _, _, low, high = halves()
-    runs.write("a.stl", solid("low", low) + solid("high", high))
-    expect_no_warning(runs, "a.stl")
+    expect_no_warning(runs, runs.write("a.stl", solid("low", low) + solid("high", high)))
     for gltf in (runs.whole("a.stl"), runs.baked("a.stl")):
         expect([m["name"] for m in gltf.list("meshes")] == ["low", "high"], "a mesh for each solid")
 
@@ -318,8 +309,7 @@ def stl_rest(runs):
 def stl_sizes(runs):
     write_stl(runs, lambda i: 0)
     data = runs.read("a.stl")
-    runs.write("a.stl", data + b"rest")
-    expect_repair(runs, "a.stl", "4 bytes after the last facet ignored")
+    expect_repair(runs, runs.write("a.stl", data + b"rest"), "4 bytes after the last facet ignored")
     runs.write("a.stl", data[:80] + struct.pack("<I", 999) + data[84:])
     expect_repair(runs, "a.stl", "the header states 999 facets")
     expect(runs.info("a.stl")["total"]["faces"] == 128, "all facets")
@@ -327,26 +317,23 @@ def stl_sizes(runs):
 
 def write_off(runs, color, keyword="OFF", vertex=""):
     positions, _, triangles = grid()
-    runs.write("a.off", f"{keyword}\n{len(positions)} {len(triangles)} 0\n"
-               + "".join("%.6f %.6f %.6f" % p + vertex + "\n" for p in positions)
-               + "".join("3 %d %d %d" % t + color(i) + "\n" for i, t in enumerate(triangles)))
+    return runs.write("a.off", f"{keyword}\n{len(positions)} {len(triangles)} 0\n"
+                      + "".join("%.6f %.6f %.6f" % p + vertex + "\n" for p in positions)
+                      + "".join("3 %d %d %d" % t + color(i) + "\n" for i, t in enumerate(triangles)))
 
 
 @row("OFF", "colours of faces")
 def off_face_colors(runs):
-    write_off(runs, lambda i: (" 255 0 0", " 0.0 1.0 0.0 0.5", "")[i % 3])
-    expect_no_warning(runs, "a.off")
+    expect_no_warning(runs, write_off(runs, lambda i: (" 255 0 0", " 0.0 1.0 0.0 0.5", "")[i % 3]))
     colors = {tuple(round(c / 65535, 3) for c in color) for color in runs.whole("a.off").attribute("COLOR_0")}
     expect(colors == {(1, 0, 0, 1), (0, 1, 0, 0.5), (1, 1, 1, 1)}, "constant on each face, and white")
-    write_off(runs, lambda i: " 0 0 255", "COFF", " 204 51 0")
-    expect_repair(runs, "a.off", "face colours are ignored")
+    expect_repair(runs, write_off(runs, lambda i: " 0 0 255", "COFF", " 204 51 0"), "face colours are ignored")
     expect(runs.baked("a.off").has_color((0.8, 0.2, 0, 1)), "the colours of the vertices")
 
 
 @row("OFF", "index into a colour map")
 def off_color_map(runs):
-    write_off(runs, lambda i: " 3")
-    expect_repair(runs, "a.off", "colours of 128 faces ignored")
+    expect_repair(runs, write_off(runs, lambda i: " 3"), "colours of 128 faces ignored")
 
 
 @row("OFF", "bytes after the last face")
