@@ -82,44 +82,34 @@ int is_disturbed(const char* name) {
 #define DISTURBED(name) \
     if (is_disturbed(#name)) return -1
 
-#define MODE_ARGUMENT(mode)               \
-    mode_t mode = 0;                      \
-    if (flags & (O_CREAT | O_TMPFILE)) {  \
-        va_list arguments;                \
-        va_start(arguments, flags);       \
-        mode = va_arg(arguments, mode_t); \
-        va_end(arguments);                \
+// Replaces a function, of which all arguments are given.
+#define REPLACE(name, signature, ...)   \
+    int name signature {                \
+        DISTURBED(name);                \
+        return NEXT(name)(__VA_ARGS__); \
+    }
+
+// Replaces a function whose last argument, the mode, is given only if a file may be created.
+#define REPLACE_OPEN(name, signature, ...)    \
+    int name signature {                      \
+        mode_t mode = 0;                      \
+        if (flags & (O_CREAT | O_TMPFILE)) {  \
+            va_list arguments;                \
+            va_start(arguments, flags);       \
+            mode = va_arg(arguments, mode_t); \
+            va_end(arguments);                \
+        }                                     \
+        on_open(path);                        \
+        DISTURBED(name);                      \
+        return NEXT(name)(__VA_ARGS__, mode); \
     }
 
 extern "C" {
 
-int open(const char* path, int flags, ...) {
-    MODE_ARGUMENT(mode)
-    on_open(path);
-    DISTURBED(open);
-    return NEXT(open)(path, flags, mode);
-}
-
-int open64(const char* path, int flags, ...) {
-    MODE_ARGUMENT(mode)
-    on_open(path);
-    DISTURBED(open64);
-    return NEXT(open64)(path, flags, mode);
-}
-
-int openat(int folder, const char* path, int flags, ...) {
-    MODE_ARGUMENT(mode)
-    on_open(path);
-    DISTURBED(openat);
-    return NEXT(openat)(folder, path, flags, mode);
-}
-
-int openat64(int folder, const char* path, int flags, ...) {
-    MODE_ARGUMENT(mode)
-    on_open(path);
-    DISTURBED(openat64);
-    return NEXT(openat64)(folder, path, flags, mode);
-}
+REPLACE_OPEN(open, (const char* path, int flags, ...), path, flags)
+REPLACE_OPEN(open64, (const char* path, int flags, ...), path, flags)
+REPLACE_OPEN(openat, (int folder, const char* path, int flags, ...), folder, path, flags)
+REPLACE_OPEN(openat64, (int folder, const char* path, int flags, ...), folder, path, flags)
 
 ssize_t write(int file, const void* bytes, size_t size) {
     if (calls + 1 == wanted_call && kind != 't' && size > 1)
@@ -128,64 +118,21 @@ ssize_t write(int file, const void* bytes, size_t size) {
     return NEXT(write)(file, bytes, size);
 }
 
-int fsync(int file) {
-    DISTURBED(fsync);
-    return NEXT(fsync)(file);
-}
-
-int fdatasync(int file) {
-    DISTURBED(fdatasync);
-    return NEXT(fdatasync)(file);
-}
-
-int link(const char* from, const char* to) noexcept {
-    DISTURBED(link);
-    return NEXT(link)(from, to);
-}
-
-int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
-    DISTURBED(linkat);
-    return NEXT(linkat)(from_folder, from, to_folder, to, flags);
-}
-
-int rename(const char* from, const char* to) noexcept {
-    DISTURBED(rename);
-    return NEXT(rename)(from, to);
-}
-
-int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
-    DISTURBED(renameat);
-    return NEXT(renameat)(from_folder, from, to_folder, to);
-}
-
-int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) noexcept {
-    DISTURBED(renameat2);
-    return NEXT(renameat2)(from_folder, from, to_folder, to, flags);
-}
-
-int unlink(const char* path) noexcept {
-    DISTURBED(unlink);
-    return NEXT(unlink)(path);
-}
-
-int unlinkat(int folder, const char* path, int flags) noexcept {
-    DISTURBED(unlinkat);
-    return NEXT(unlinkat)(folder, path, flags);
-}
-
-int mkdirat(int folder, const char* path, mode_t mode) noexcept {
-    DISTURBED(mkdirat);
-    return NEXT(mkdirat)(folder, path, mode);
-}
-
-int fchmod(int file, mode_t mode) noexcept {
-    DISTURBED(fchmod);
-    return NEXT(fchmod)(file, mode);
-}
-
-int flock(int file, int operation) noexcept {
-    DISTURBED(flock);
-    return NEXT(flock)(file, operation);
-}
+REPLACE(fsync, (int file), file)
+REPLACE(fdatasync, (int file), file)
+REPLACE(link, (const char* from, const char* to) noexcept, from, to)
+REPLACE(linkat, (int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept,
+        from_folder, from, to_folder, to, flags)
+REPLACE(rename, (const char* from, const char* to) noexcept, from, to)
+REPLACE(renameat, (int from_folder, const char* from, int to_folder, const char* to) noexcept, from_folder,
+        from, to_folder, to)
+REPLACE(renameat2,
+        (int from_folder, const char* from, int to_folder, const char* to, unsigned flags) noexcept,
+        from_folder, from, to_folder, to, flags)
+REPLACE(unlink, (const char* path) noexcept, path)
+REPLACE(unlinkat, (int folder, const char* path, int flags) noexcept, folder, path, flags)
+REPLACE(mkdirat, (int folder, const char* path, mode_t mode) noexcept, folder, path, mode)
+REPLACE(fchmod, (int file, mode_t mode) noexcept, file, mode)
+REPLACE(flock, (int file, int operation) noexcept, file, operation)
 
 }  // extern "C"
