@@ -93,7 +93,8 @@ inline Part uv_mapped(Part part) {
     return uv_mapped(std::move(part), [](const Vec3& p) { return std::array{p[0], p[1]}; });
 }
 
-inline Asset textured_square(const Pixels& pixels) {
+/// An asset of a part whose material 0 has an image.
+inline Asset textured(const Pixels& pixels, Part part) {
     Asset asset;
     asset.materials.resize(1);
     asset.materials[0].name = "paint";
@@ -101,12 +102,16 @@ inline Asset textured_square(const Pixels& pixels) {
     TextureRef& use = asset.materials[0].base_color_texture;
     use.image = add_texture(asset, pixels);
     use.wrap_u = use.wrap_v = Wrap::clamp;
-    asset.parts = {square()};
+    asset.parts = {std::move(part)};
     return asset;
 }
 
+inline Asset textured_square(const Pixels& pixels) { return textured(pixels, square()); }
+
 /// Options of which the images are the baked texels.
-inline Options lossless() { return {.bake = {.image_format = ImageFormat::png}}; }
+inline Options lossless(std::uint32_t texture_size = BakeOptions().texture_size) {
+    return {.bake = {.texture_size = texture_size, .image_format = ImageFormat::png}};
+}
 
 /// The parts of an asset as simplified parts without collapses. Vertices are not welded.
 inline SimplifiedParts unchanged(const Asset& asset) {

@@ -23,8 +23,9 @@ std::vector<Index> all_of(std::size_t n) {
     return result;
 }
 
-// Checks the invariants of charts for any input.
-void check_charts(const std::vector<PageTriangle>& faces, const Charts& charts) {
+// The charts of faces, whose invariants for any input are checked.
+Charts checked_charts(const std::vector<PageTriangle>& faces) {
+    Charts charts = make_charts(faces, 1);
     std::vector<int> seen(faces.size(), 0);
     for (const Chart& chart : charts.charts) {
         REQUIRE(chart.points.size() == chart.faces.size());
@@ -36,6 +37,7 @@ void check_charts(const std::vector<PageTriangle>& faces, const Charts& charts) 
         CHECK(test::worst_overlap(chart.points) < 1e-6);
     }
     CHECK(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
+    return charts;
 }
 
 // Largest relative difference between the lengths of an edge in its chart and on the surface.
@@ -59,8 +61,7 @@ double worst_edge(const std::vector<PageTriangle>& faces, const Charts& charts) 
 
 TEST_CASE("the sides of a cube are at most six charts without distortion") {
     const auto faces = test::chart_faces(test::cube(), 10);
-    const Charts charts = make_charts(faces, 1);
-    check_charts(faces, charts);
+    const Charts charts = checked_charts(faces);
     CHECK(worst_edge(faces, charts) < 1e-9);
     // Without creases several sides can be in one chart.
     CHECK(charts.charts.size() <= 6);
@@ -74,8 +75,7 @@ TEST_CASE("the sides of a cube are at most six charts without distortion") {
             face.crease[c] = n(face).dot(n(faces[face.adjacent[c].triangle])) == 0;
         }
     }
-    const Charts sides = make_charts(creased, 1);
-    check_charts(creased, sides);
+    const Charts sides = checked_charts(creased);
     CHECK(sides.charts.size() == 6);
 }
 
@@ -91,23 +91,20 @@ TEST_CASE("a flat square that fills the page is one chart, on a square page") {
 
 TEST_CASE("a cylinder is unrolled without distortion") {
     const auto faces = test::chart_faces(test::cylinder(48, 6, 2), 20);
-    const Charts charts = make_charts(faces, 1);
-    check_charts(faces, charts);
+    const Charts charts = checked_charts(faces);
     CHECK(worst_edge(faces, charts) < 1e-6);
     CHECK(charts.charts.size() < 8);
 }
 
 TEST_CASE("a sphere has few charts with low stretch") {
     const auto faces = test::chart_faces(test::icosphere(3), 40);
-    const Charts charts = make_charts(faces, 1);
-    check_charts(faces, charts);
+    const Charts charts = checked_charts(faces);
     CHECK(charts.charts.size() < 16);
 }
 
 TEST_CASE("a Moebius strip is cut into few charts") {
     const auto faces = test::chart_faces(test::moebius(48, 4), 40);
-    const Charts charts = make_charts(faces, 1);
-    check_charts(faces, charts);
+    const Charts charts = checked_charts(faces);
     CHECK(charts.charts.size() > 1);
     CHECK(charts.charts.size() < 16);
 }
@@ -124,8 +121,7 @@ TEST_CASE("a helical surface does not overlap itself") {
         mesh.triangles.push_back({2 * i, 2 * i + 3, 2 * i + 2});
     }
     const auto faces = test::chart_faces(mesh, 20);
-    const Charts charts = make_charts(faces, 1);
-    check_charts(faces, charts);
+    const Charts charts = checked_charts(faces);
     CHECK(charts.charts.size() > 1);
 }
 
@@ -139,14 +135,13 @@ TEST_CASE("charts of triangle soup, duplicate and degenerate faces are valid") {
     mesh.triangles.push_back({line, line + 1, line + 2});
     mesh.triangles.push_back({line, line, line});
     const auto faces = test::chart_faces(mesh, 30);
-    check_charts(faces, make_charts(faces, 1));
+    checked_charts(faces);
 }
 
 TEST_CASE("charts have at most max_faces_per_chart faces") {
     const auto faces = test::chart_faces(test::grid(70), 1);
     REQUIRE(faces.size() > max_faces_per_chart);
-    const Charts charts = make_charts(faces, 1);
-    check_charts(faces, charts);
+    const Charts charts = checked_charts(faces);
     CHECK(charts.faces_over_work_limit == 0);
     CHECK(charts.charts.size() < 8);
     for (const Chart& chart : charts.charts) CHECK(chart.faces.size() <= max_faces_per_chart);
@@ -168,8 +163,7 @@ TEST_CASE("charts do not depend on the number of threads") {
     for (const TriangleMesh& mesh :
          {test::shaken(test::torus(40, 20), 0.01, 5), test::shaken(test::torus(40, 20), 0.1, 5)}) {
         const auto faces = test::chart_faces(mesh, 30);
-        const Charts one = make_charts(faces, 1), three = make_charts(faces, 3);
-        check_charts(faces, one);
+        const Charts one = checked_charts(faces), three = make_charts(faces, 3);
         REQUIRE(one.charts.size() == three.charts.size());
         for (std::size_t i = 0; i < one.charts.size(); ++i) {
             CHECK(one.charts[i].faces == three.charts[i].faces);

@@ -53,8 +53,7 @@ Asset sheet_and_square() {
 }  // namespace
 
 TEST_CASE("untouched: a part with no more faces than the target keeps its arrays and image bytes") {
-    Asset asset = textured_square(ramp(64));
-    asset.parts = {odd_square()};
+    Asset asset = textured(ramp(64), odd_square());
     Options options{.target = GENERATE(ratio(1), faces(1000))};
     options.bake.kind = GENERATE(Bake::automatic, Bake::keep);
     options.bake.image_format = GENERATE(ImageFormat::automatic, ImageFormat::source);
@@ -74,8 +73,7 @@ TEST_CASE("untouched: a part with no more faces than the target keeps its arrays
 }
 
 TEST_CASE("untouched: an option that would change the part bakes it") {
-    Asset asset = textured_square(ramp(64));
-    asset.parts = {odd_square()};
+    Asset asset = textured(ramp(64), odd_square());
     Options options{.target = ratio(1)};
     BakeOptions& bake = options.bake;
     SECTION("texture size") { bake.texture_size = 256; }
@@ -93,8 +91,7 @@ TEST_CASE("untouched: an option that would change the part bakes it") {
 }
 
 TEST_CASE("untouched: with UntouchedParts::kept no option changes the part") {
-    Asset asset = textured_square(ramp(64));
-    asset.parts = {odd_square()};
+    Asset asset = textured(ramp(64), odd_square());
     Options options{.target = ratio(1)};
     options.bake.untouched = UntouchedParts::kept;
     options.bake.texture_size = 64;
@@ -109,8 +106,7 @@ TEST_CASE("untouched: with UntouchedParts::kept no option changes the part") {
 
 TEST_CASE("untouched: the other parts of the scene are baked, beside the images that are kept") {
     const Asset asset = sheet_and_square();
-    Options options{.target = faces(100)};
-    options.bake.kind = GENERATE(Bake::automatic, Bake::keep);
+    const Options options{.target = faces(100), .bake = {.kind = GENERATE(Bake::automatic, Bake::keep)}};
     const SimplifiedAsset simplified = simplify(asset, options);
     const Asset& result = simplified.asset;
     CHECK(simplified.report.untouched_parts == std::vector<std::string>{"part 'odd'"});
@@ -137,8 +133,7 @@ TEST_CASE("untouched: the other parts of the scene are baked, beside the images 
 }
 
 TEST_CASE("untouched: images of untouched parts are not decoded") {
-    Asset asset = textured_square(ramp(64));
-    asset.parts = {odd_square()};
+    Asset asset = textured(ramp(64), odd_square());
     asset.images[0].encoded.resize(40);
     Options options{.target = ratio(1)};
     CHECK(simplify(asset, options).asset.images[0].encoded == asset.images[0].encoded);
@@ -147,8 +142,7 @@ TEST_CASE("untouched: images of untouched parts are not decoded") {
 }
 
 TEST_CASE("untouched: duplicate faces are dropped, the rest of the part stays") {
-    Asset asset = textured_square(ramp(64));
-    asset.parts = {odd_square()};
+    Asset asset = textured(ramp(64), odd_square());
     Part& part = asset.parts[0];
     part.triangles = {{3, 2, 1}, {2, 1, 3}, {3, 1, 0}, {0, 0, 1}};
     part.face_material.assign(4, 0);
@@ -164,8 +158,7 @@ TEST_CASE("untouched: duplicate faces are dropped, the rest of the part stays") 
 }
 
 TEST_CASE("untouched: a part whose vertices are welded at a distance is baked") {
-    Asset asset = textured_square(ramp(64));
-    asset.parts = {odd_square()};
+    Asset asset = textured(ramp(64), odd_square());
     Part& part = asset.parts[0];
     part.positions.push_back({1 + 1e-4, 1, 0});
     part.uvs[0].push_back({1, 0});
@@ -179,11 +172,8 @@ TEST_CASE("untouched: a part whose vertices are welded at a distance is baked") 
 }
 
 TEST_CASE("untouched: every preset leaves a part with few faces as it is") {
-    Asset asset = textured_square(ramp(16));
-    asset.parts = {textured_sheet(4)};
-    Options options;
-    options.preset = GENERATE(from_range(all_presets));
-    options.target = faces(32);
+    const Asset asset = textured(ramp(16), textured_sheet(4));
+    const Options options{.target = faces(32), .preset = GENERATE(from_range(all_presets))};
     const SimplifiedAsset simplified = simplify(asset, options);
     CHECK(simplified.report.untouched_parts.size() == 1);
     CHECK(same_arrays(simplified.asset.parts[0], asset.parts[0]));
@@ -191,8 +181,7 @@ TEST_CASE("untouched: every preset leaves a part with few faces as it is") {
 
 TEST_CASE("untouched: both stages decide as one call, and a restored history as the run") {
     const Asset asset = sheet_and_square();
-    Options options{.target = faces(100)};
-    options.history = Recording::on;
+    const Options options{.target = faces(100), .history = Recording::on};
     const SimplifiedAsset one_call = simplify(asset, options);
     const SimplifiedParts parts = simplify_parts(asset, options);
     SimplifiedParts restored;

@@ -57,9 +57,7 @@ TEST_CASE("adjacent triangles in the atlas do not bleed into each other") {
     part.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     part.triangles = {{0, 1, 2}, {3, 4, 5}};
     part.uvs = {{{0, 0}, {0.4f, 0}, {0, 0.4f}, {1, 1}, {0.6f, 1}, {1, 0.6f}}};
-    Options options = lossless();
-    options.bake.texture_size = GENERATE(64u, 256u);
-    const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
+    const SimplifiedAsset simplified = bake(asset, unchanged(asset), lossless(GENERATE(64u, 256u)));
     CHECK(worst(part, split, simplified.asset.parts[0], base_pixels(simplified)) < 0.01);
 }
 
@@ -243,8 +241,7 @@ TEST_CASE("parts share a page") {
 
 TEST_CASE("pages are not larger than texture_size") {
     const Asset asset = textured_square(ramp(256));
-    Options options = lossless();
-    options.bake.texture_size = 64;
+    Options options = lossless(64);
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     const Pixels atlas = base_pixels(simplified);
     CHECK(atlas.width <= 64);
@@ -258,8 +255,7 @@ TEST_CASE("minified textures are averaged") {
         return Rgba{c, c, c, 255};
     });
     const Asset asset = textured_square(noise);
-    Options options = lossless();
-    options.bake.texture_size = 64;
+    Options options = lossless(64);
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     const Pixels atlas = base_pixels(simplified);
     for (std::size_t f = 0; f < 2; ++f) {
@@ -273,8 +269,7 @@ TEST_CASE("with more charts or triangles than texels vertex colours are baked wi
     Part& part = asset.parts[0];
     for (int i = 0; i < 70 * 70; ++i) part.triangles.push_back(part.triangles[i % 2]);
     part.face_material.assign(part.triangles.size(), 0);
-    Options options = lossless();
-    options.bake.texture_size = 64;
+    Options options = lossless(64);
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     CHECK(simplified.asset.images.empty());
     CHECK(simplified.asset.parts[0].colors.size() == simplified.asset.parts[0].positions.size());

@@ -40,8 +40,7 @@ TEST_CASE("images with one value become factors, and UVs without images are left
     material.emissive = {1, 1, 1};
     material.emissive_texture.image = add_plain(asset, {0, 188, 0, 255});
     material.normal_texture.image = add_plain(asset, {128, 127, 255, 255});
-    Options options{.target = ratio(1)};
-    options.bake.kind = Bake::atlas;
+    const Options options{.target = ratio(1), .bake = {.kind = Bake::atlas}};
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     CHECK(simplified.asset.images.empty());
     const Material& made = simplified.asset.materials.at(0);
@@ -63,8 +62,7 @@ TEST_CASE("constant metal and roughness are factors beside a varying occlusion m
     material.metallic = 1;
     material.occlusion_texture.image = add_texture(asset, ramp(16));
     material.metallic_roughness_texture.image = add_plain(asset, {0, 51, 204, 255});
-    Options options{.target = ratio(1)};
-    options.bake.kind = Bake::atlas;
+    const Options options{.target = ratio(1), .bake = {.kind = Bake::atlas}};
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     const Material& made = simplified.asset.materials.at(0);
     CHECK(simplified.asset.images.size() == 1);
@@ -77,9 +75,7 @@ TEST_CASE("constant metal and roughness are factors beside a varying occlusion m
 
 TEST_CASE("UVs of constant pages are kept for a correspondence") {
     const Asset asset = textured_square(plain({188, 0, 255, 255}));
-    Options options{.target = ratio(1)};
-    options.bake.kind = Bake::atlas;
-    options.bake.correspondence = Recording::on;
+    const Options options{.target = ratio(1), .bake = {.kind = Bake::atlas, .correspondence = Recording::on}};
     const SimplifiedAsset simplified = bake(asset, unchanged(asset), options);
     CHECK(simplified.asset.images.empty());
     CHECK(simplified.correspondence.size() == 1);
