@@ -27,7 +27,8 @@ bool is_crease(const CornerNormals& normals, std::size_t face, std::size_t corne
 
 /// Computes the normals of a simplified part according to BakeOptions::normals.
 /// Unless they are smooth or flat, the normal of a corner is that of the source (of its face, if it has no normals) at
-/// a point slightly inside the simplified face; with Normals::smooth it is the normal of the simplified face.
+/// a point slightly inside the simplified face, or at a third of its height, if that is on another facet with a normal
+/// closer to the face's; with Normals::smooth it is the normal of the simplified face.
 /// Corners of a vertex whose normals differ by at most the crease angle get their mean, weighted by corner
 /// angle times face area; those on different facets of the source (normal_facets()) do not, if the facets are as large
 /// as the faces. If they are on one facet, their normal is then fitted, by least squares, to those of the source at three
