@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <tuple>
 
+#include "asset/scene/value_numbers.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 
 namespace faqem::detail {
@@ -41,20 +41,14 @@ Vec4f any_tangent(const Vector3f& normal) {
     return {tangent.x(), tangent.y(), tangent.z(), 1};
 }
 
-// By corner: index of the first equal corner. -0 and 0 are equal.
+// By corner: the number of its vertex, in the order of the first corners. -0 and 0 are equal.
 std::vector<std::uint32_t> weld(std::span<const TangentCorner> corners) {
-    std::vector<std::uint32_t> order(corners.size()), result(corners.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t c) {
-        return std::tie(corners[c].position, corners[c].normal, corners[c].uv);
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        if (key(a) < key(b)) return true;
-        return !(key(b) < key(a)) && a < b;
-    });
-    for (std::size_t i = 0, first = 0; i < order.size(); ++i) {
-        if (key(order[first]) != key(order[i])) first = i;
-        result[order[i]] = order[first];
+    UniqueValues<std::array<float, 8>> vertices;
+    std::vector<std::uint32_t> result;
+    for (const auto& [p, n, uv] : corners) {
+        std::array key = {p[0], p[1], p[2], n[0], n[1], n[2], uv[0], uv[1]};
+        for (float& x : key) x += 0.0f;
+        result.push_back(vertices.insert(key));
     }
     return result;
 }
