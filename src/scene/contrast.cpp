@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "asset/image/srgb.hpp"
@@ -29,6 +30,7 @@ constexpr double least_factor = 2, largest_factor = 10;
 
 // Of the pixels of a component: the sum of squared differences, and their number.
 using Sum = Eigen::Vector2d;
+using Color = Eigen::Array3d;
 
 TexelEncoding encoding_of(const Material& material) {
     return material.alpha_mode == AlphaMode::opaque ? TexelEncoding::opaque_color : TexelEncoding::color;
@@ -98,37 +100,34 @@ private:
         std::vector<Sum> result(components_.count, Sum::Zero());
         for (std::size_t i = 0; i < front.size(); ++i) {
             if (front[i].mesh == no_index) continue;
-            const Vec3 far = color(behind[i], {0.2, 0.2, 0.2}), near = color(front[i], far);
-            Vector3 difference;
-            for (int k = 0; k < 3; ++k) difference[k] = srgb_from_linear(near[k]) - srgb_from_linear(far[k]);
-            result[component(front[i].mesh, front[i].face)] += Sum(difference.squaredNorm(), 1);
+            const Color far = color(behind[i], Color::Constant(0.2)), near = color(front[i], far);
+            const Color difference = near.unaryExpr(&srgb_from_linear) - far.unaryExpr(&srgb_from_linear);
+            result[component(front[i].mesh, front[i].face)] += Sum(difference.square().sum(), 1);
         }
         return result;
     }
 
     // The base colour at a point in front of another colour, in linear light.
-    Vec3 color(const VisiblePoint& at, const Vec3& behind) const {
+    Color color(const VisiblePoint& at, const Color& behind) const {
         if (at.mesh == no_index) return behind;
         const Part& part = scene_.parts[instances_[at.mesh].part];
         const SurfacePoint point{at.face, at.barycentric};
         const Material& material = material_or_default(scene_, face_material(part, at.face));
+        const auto array = [](const std::array<float, 4>& rgba) {
+            return Eigen::Array4d(Eigen::Map<const Eigen::Array4f>(rgba.data()).cast<double>());
+        };
+        Eigen::Array4d own = array(material.base_color);
+        if (!part.colors.empty()) own *= array(interpolated<float>(part.colors, part, point));
+        if (material.alpha_mode == AlphaMode::opaque) own[3] = 1;
+        own.head<3>() *= own[3];
         const TextureRef& texture_ref = material.base_color_texture;
-        LinearColor texel = {1, 1, 1, 1}, vertex = texel;
         const auto image = images_.find({texture_ref.image, encoding_of(material)});
         if (image != images_.end() && image->second && texture_ref.uv_set < part.uvs.size()) {
             const auto uv = interpolated<double>(part.uvs[texture_ref.uv_set], part, point);
             const auto [u, v] = uv_transform(texture_ref).apply(uv[0], uv[1]);
-            texel = image->second->sample(texture_ref, u, v, 0);
+            own *= array(image->second->sample(texture_ref, u, v, 0));
         }
-        if (!part.colors.empty()) vertex = interpolated<float>(part.colors, part, point);
-        const bool is_opaque = material.alpha_mode == AlphaMode::opaque;
-        const double alpha = is_opaque ? 1 : double{material.base_color[3]} * vertex[3];
-        Vec3 result;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double own = alpha * material.base_color[k] * vertex[k] * texel[k];
-            result[k] = std::clamp(own + (1 - alpha * texel[3]) * behind[k], 0.0, 1.0);
-        }
-        return result;
+        return (own.head<3>() + (1 - own[3]) * behind).max(0).min(1);
     }
 
     const Asset& scene_;
@@ -153,7 +152,8 @@ std::vector<std::vector<float>> contrast_weights(const Asset& scene, const RunCo
         const Part& part = scene.parts[p];
         for (std::size_t f = 0; f < part.triangles.size(); ++f) {
             const Sum& own = sums[components.of_face[p][f]];
-            const double factor = own[0] / own[1] / (all[0] / all[1]);
+            // Rounded, so that it does not depend on the last digits of the C library.
+            const double factor = std::round(4 * own[0] / own[1] / (all[0] / all[1])) / 4;
             if (!(factor >= least_factor)) continue;
             result[p].resize(part.positions.size(), 1.0f);
             for (const Index v : part.triangles[f])

@@ -60,13 +60,30 @@ public:
         distances.reserve(candidates.size());
         for (const Index f : candidates)
             distances.push_back(std::sqrt(on_source(f, centre).distance_squared));
-        const auto closest = [&](std::uint64_t corner, double inset) {
-            const Query q = query(corner, inset);
-            return compare_all(q, candidates, distances, (q.p - centre).norm());
-        };
         for (const std::uint64_t corner : corners) {
+            const Triangle& t = mesh_.triangles[corner / 3];
+            const Vector3 normal = winding_normal(mesh_.positions, t);
+            const auto closest = [&](double inset) {
+                const Vec3 w = barycentrics_near_corner(corner % 3, inset);
+                Vector3 p = Vector3::Zero();
+                for (std::size_t i = 0; i < 3; ++i) p += w[i] * to_eigen(mesh_.positions[t[i]]);
+                // Distances of the candidates change by at most the way from the centre.
+                const double away = (p - centre).norm() * (1 + 1e-9);
+                ClosestPoint best;
+                Index found = no_index;
+                for (std::size_t i = 0; i < candidates.size(); ++i) {
+                    const double least = distances[i] - away;
+                    if (least > 0 && least * least > best.distance_squared) continue;
+                    const ClosestPoint at = on_source(candidates[i], p);
+                    if (!(at.distance_squared < best.distance_squared)) continue;
+                    if (!is_accepted(candidates[i], corner / 3, normal)) continue;
+                    best = at;
+                    found = candidates[i];
+                }
+                return SurfacePoint{found, to_array(best.barycentric), MapStep::history};
+            };
             context.count(2 * map_query_cost);
-            visit(corner, closest(corner, corner_insets[0]), closest(corner, corner_insets[1]));
+            visit(corner, closest(corner_insets[0]), closest(corner_insets[1]));
         }
     }
 
@@ -79,46 +96,18 @@ public:
     }
 
 private:
-    struct Query {
-        Vector3 p, normal;  // of the simplified face by its winding
-        Index face;         // simplified
-    };
-
-    Query query(std::uint64_t corner, double inset) const {
-        const Triangle& t = mesh_.triangles[corner / 3];
-        const Vec3 w = barycentrics_near_corner(corner % 3, inset);
-        Vector3 p = Vector3::Zero();
-        for (std::size_t i = 0; i < 3; ++i) p += w[i] * to_eigen(mesh_.positions[t[i]]);
-        return {p, winding_normal(mesh_.positions, t), static_cast<Index>(corner / 3)};
-    }
-
-    // distances: of the candidates from a point that is `away` from the query's
-    SurfacePoint compare_all(const Query& q, std::span<const Index> candidates,
-                             std::span<const double> distances, double away) const {
-        ClosestPoint best;
-        Index found = no_index;
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            const double least = distances[i] - away * (1 + 1e-9);  // distances change by at most the way
-            if (least > 0 && least * least > best.distance_squared) continue;
-            const ClosestPoint at = on_source(candidates[i], q.p);
-            if (!(at.distance_squared < best.distance_squared) || !is_accepted(candidates[i], q)) continue;
-            best = at;
-            found = candidates[i];
-        }
-        return {found, to_array(best.barycentric), MapStep::history};
-    }
-
     ClosestPoint on_source(Index f, const Vector3& p) const {
         const auto [a, b, c] = corners_of(history_.positions, history_.triangles[f]);
         return closest_point_on_triangle(p, a, b, c);
     }
 
-    bool is_accepted(Index candidate, const Query& q) const {
+    // \param face, normal  of the simplified mesh, the latter by its winding
+    bool is_accepted(Index candidate, std::size_t face, const Vector3& normal) const {
         const std::vector<Index>& groups = history_.face_groups;
-        if (!groups.empty() && groups[candidate] != groups[history_.remaining_faces[q.face]]) return false;
-        if (q.normal.isZero(0)) return true;
+        if (!groups.empty() && groups[candidate] != groups[history_.remaining_faces[face]]) return false;
+        if (normal.isZero(0)) return true;
         const Vector3 area = area_vector(history_.positions, history_.triangles[candidate]);
-        return area.dot(q.normal) >= min_facing_cosine * area.norm();
+        return area.dot(normal) >= min_facing_cosine * area.norm();
     }
 
     const TriangleMesh& mesh_;
