@@ -286,20 +286,32 @@ std::vector<std::pair<Index, std::vector<Index>>> faces_by_material(const Part& 
     return groups;
 }
 
+/// Number of triangles with two corners for which fits(corner, corner) is true.
+template <class Fits>
+std::size_t triangles_with(const std::vector<Index>& corners, const Fits& fits) {
+    std::size_t count = 0;
+    for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {
+        const Index* t = &corners[c];
+        count += fits(t[0], t[1]) || fits(t[1], t[2]) || fits(t[2], t[0]);
+    }
+    return count;
+}
+
+/// Number of triangles that have two different positions which become equal as floats.
+std::size_t degenerate_as_floats(const Part& part, const PrimitiveData& data) {
+    return triangles_with(data.corners, [&](Index a, Index b) {
+        return data.positions[a] == data.positions[b] &&
+               part.positions[data.vertices[a]] != part.positions[data.vertices[b]];
+    });
+}
+
 /// Number of triangles that have two different positions which become equal on the grid.
 std::size_t degenerate_on_grid(const PrimitiveData& data, const MeshGrid& grid) {
-    const auto is_rounded_to_zero = [&](Index a, Index b) {
+    return triangles_with(data.corners, [&](Index a, Index b) {
         const Vec3f &p = data.positions[a], &q = data.positions[b];
         return p != q && grid.step(p[0], 0) == grid.step(q[0], 0) &&
                grid.step(p[1], 1) == grid.step(q[1], 1) && grid.step(p[2], 2) == grid.step(q[2], 2);
-    };
-    std::size_t count = 0;
-    for (std::size_t c = 0; c + 2 < data.corners.size(); c += 3) {
-        const Index* t = &data.corners[c];
-        count += is_rounded_to_zero(t[0], t[1]) || is_rounded_to_zero(t[1], t[2]) ||
-                 is_rounded_to_zero(t[2], t[0]);
-    }
-    return count;
+    });
 }
 
 void warn_degenerate(GltfWriter& writer, const Part& part, std::size_t faces, const char* why) {
@@ -342,7 +354,7 @@ void write_part(GltfWriter& writer, const Part& part, const MeshGrid& grid, Json
     const bool names_groups = has_group_names(writer, part);
     for (const auto& [material, faces] : faces_by_material(part)) {
         const PrimitiveData data = gather_primitive(part, faces, writer.origin, scratch);
-        degenerate_faces += data.degenerate_faces;
+        degenerate_faces += degenerate_as_floats(part, data);
         if (grid.is_on()) degenerate_grid_faces += degenerate_on_grid(data, grid);
         Json primitive = carried_primitive_members(writer, part, material, data);
         const bool is_draco =

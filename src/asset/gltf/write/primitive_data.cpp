@@ -62,15 +62,6 @@ void gather_positions(const Part& part, const Vec3& origin, PrimitiveData& data)
                              ": the position is too large for glTF, which stores floats");
         data.positions.push_back(q);
     }
-    for (std::size_t c = 0; c < data.corners.size(); c += 3) {
-        const auto is_rounded_to_zero = [&](std::size_t i, std::size_t k) {
-            const Index a = data.corners[c + i], b = data.corners[c + k];
-            return data.positions[a] == data.positions[b] &&
-                   part.positions[data.vertices[a]] != part.positions[data.vertices[b]];
-        };
-        data.degenerate_faces +=
-            is_rounded_to_zero(0, 1) || is_rounded_to_zero(1, 2) || is_rounded_to_zero(2, 0);
-    }
 }
 
 /// For each vertex, the area-weighted sum of the normals of the adjacent faces.

@@ -25,8 +25,6 @@ struct PrimitiveData {
     std::vector<Vec3f> positions, normals;
     std::vector<Vec4f> tangents, colors, weights;
     std::vector<std::array<std::uint16_t, 4>> joints;
-    /// Triangles of which two distinct corner positions are equal after rounding to float.
-    std::size_t degenerate_faces = 0;
 };
 
 /// The output document under construction, and maps from source and asset objects to output objects.
