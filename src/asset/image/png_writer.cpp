@@ -15,10 +15,9 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
-
-#include "asset/scene/value_numbers.hpp"
 
 namespace faqem::detail {
 namespace {
@@ -143,17 +142,30 @@ struct PaletteRows {
 
 /// Returns nothing if the image has more than 256 colours.
 std::optional<PaletteRows> palette_rows(const Pixels& pixels) {
-    UniqueValues<std::array<std::uint8_t, 4>> colors;
-    PngBytes rows;
-    rows.reserve((std::size_t{pixels.width} + 1) * pixels.height);
+    using Color = std::array<std::uint8_t, 4>;
+    PaletteRows result;
+    result.rows.reserve((std::size_t{pixels.width} + 1) * pixels.height);
+    std::unordered_map<std::uint32_t, std::uint8_t> indices;
+    Color last = {};
+    std::uint8_t index = 0;
     for (std::size_t i = 0; i < pixels.rgba.size(); i += 4) {
-        if (i / 4 % pixels.width == 0) rows.push_back(0);  // no filter
-        const std::uint8_t* const p = &pixels.rgba[i];
-        const Index color = colors.insert({p[0], p[1], p[2], pixels.has_alpha ? p[3] : std::uint8_t{255}});
-        if (color == 256) return {};
-        rows.push_back(static_cast<std::uint8_t>(color));
+        if (i / 4 % pixels.width == 0) result.rows.push_back(0);  // no filter
+        Color color;
+        std::memcpy(color.data(), &pixels.rgba[i], 4);
+        if (!pixels.has_alpha) color[3] = 255;
+        if (i == 0 || color != last) {
+            std::uint32_t key;
+            std::memcpy(&key, color.data(), 4);
+            const auto [found, is_new] =
+                indices.emplace(key, static_cast<std::uint8_t>(result.colors.size()));
+            if (is_new && result.colors.size() == 256) return {};
+            if (is_new) result.colors.push_back(color);
+            last = color;
+            index = found->second;
+        }
+        result.rows.push_back(index);
     }
-    return PaletteRows{std::move(colors.values()), std::move(rows)};
+    return result;
 }
 
 /// Compressed bytes, in a buffer that may be larger and whose unused pages take no memory.

@@ -16,7 +16,7 @@ namespace faqem::detail {
 
 /// Assigns consecutive indices to distinct values with an open-addressing hash table. The indices do not
 /// depend on the hash function. Values are compared bitwise: 0 and -0 differ.
-/// \tparam Value  std::array of numbers of 4 or 8 bytes, or of bytes, a multiple of four of them
+/// \tparam Value  std::array of numbers of 4 or 8 bytes
 template <class Value>
 class UniqueValues {
 public:
