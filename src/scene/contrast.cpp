@@ -53,9 +53,9 @@ DecodedImages base_color_images(const Asset& scene, const RunContext& context) {
 }
 
 // A scene as the cameras see it.
-class Pictures {
+class SceneViews {
 public:
-    Pictures(const Asset& scene, const PartComponents& components, const RunContext& context)
+    SceneViews(const Asset& scene, const PartComponents& components, const RunContext& context)
         : scene_(scene),
           components_(components),
           instances_(measured_instances(scene)),
@@ -145,7 +145,7 @@ std::vector<std::vector<float>> contrast_weights(const Asset& scene, const RunCo
     std::vector<std::vector<float>> result(scene.parts.size());
     const PartComponents components = part_components(scene);
     if (components.count < 2) return result;
-    const std::vector<Sum> sums = Pictures(scene, components, context).sums(context);
+    const std::vector<Sum> sums = SceneViews(scene, components, context).sums(context);
     Sum all = Sum::Zero();
     for (const Sum& sum : sums) all += sum;
     for (std::size_t p = 0; p < result.size(); ++p) {
