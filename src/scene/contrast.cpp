@@ -100,8 +100,8 @@ private:
         std::vector<Sum> result(components_.count, Sum::Zero());
         for (std::size_t i = 0; i < front.size(); ++i) {
             if (front[i].mesh == no_index) continue;
-            const Color far = color(behind[i], Color::Constant(0.2)), near = color(front[i], far);
-            const Color difference = near.unaryExpr(&srgb_from_linear) - far.unaryExpr(&srgb_from_linear);
+            const Color back = color(behind[i], Color::Constant(0.2)), seen = color(front[i], back);
+            const Color difference = seen.unaryExpr(&srgb_from_linear) - back.unaryExpr(&srgb_from_linear);
             result[component(front[i].mesh, front[i].face)] += Sum(difference.square().sum(), 1);
         }
         return result;
@@ -122,8 +122,10 @@ private:
         own.head<3>() *= own[3];
         const TextureRef& texture_ref = material.base_color_texture;
         const auto image = images_.find({texture_ref.image, encoding_of(material)});
-        if (image != images_.end() && image->second && texture_ref.uv_set < part.uvs.size()) {
-            const auto uv = interpolated<double>(part.uvs[texture_ref.uv_set], part, point);
+        const std::size_t set = texture_ref.uv_set;
+        const bool has_uvs = set < part.uvs.size() && !part.uvs[set].empty();
+        if (has_uvs && image != images_.end() && image->second) {
+            const auto uv = interpolated<double>(part.uvs[set], part, point);
             const auto [u, v] = uv_transform(texture_ref).apply(uv[0], uv[1]);
             own *= array(image->second->sample(texture_ref, u, v, 0));
         }
