@@ -155,7 +155,7 @@ enum class Normals {
     /// In OBJ and PLY as `transfer` if the source has normals, where vertices are only split if those of the source are,
     /// and else only beside a normal map; in glTF `transfer`; for STL, which has none, `flat` or `none`.
     automatic,
-    transfer,  ///< normals of the original at the mapped points
+    transfer,  ///< normals of the original at the mapped points, fitted to it over the faces
     smooth,    ///< normals of the result's faces, averaged up to BakeOptions::crease_angle
     flat,      ///< normals of the result's faces, not averaged
     none,  ///< no normals, so that faces are shown flat, and no new normal map; not with an atlas that is asked for

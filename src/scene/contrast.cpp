@@ -46,7 +46,7 @@ DecodedImages base_color_images(const Asset& scene, const RunContext& context) {
             if (!decoded)
                 decoded = std::make_shared<const MipImage>(decode(scene.images[image]), encoding_of(material),
                                                            context);
-        } catch (const Error&) {  // baking tells
+        } catch (const Error&) {  // Baking reports it.
         }
     }
     return result;
