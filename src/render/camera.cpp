@@ -73,6 +73,13 @@ bool show_all(std::span<const PlacedMesh> meshes, std::span<Camera> cameras) {
     return true;
 }
 
+std::vector<Camera> cameras_around(std::span<const PlacedMesh> meshes, std::size_t count) {
+    std::vector<Camera> result;
+    for (const Vector3& direction : even_directions(count)) result.push_back(camera_from(direction));
+    show_all(meshes, result);
+    return result;
+}
+
 ScreenPoint project(const Camera& camera, const Vector3& point, std::uint32_t size) {
     const double half = size / 2.0;
     const Vector3 d = point - camera.eye;

@@ -49,6 +49,10 @@ Eigen::AlignedBox3d bounding_box(std::span<const PlacedMesh> meshes);
 /// Complexity: O(cameras faces).
 bool show_all(std::span<const PlacedMesh> meshes, std::span<Camera> cameras);
 
+/// Creates cameras that see all faces, evenly distributed around their centre at the same distance from it; see show_all()
+/// if there are no faces.
+std::vector<Camera> cameras_around(std::span<const PlacedMesh> meshes, std::size_t count);
+
 /// A point in a picture.
 struct ScreenPoint {
     Eigen::Vector2d at;  ///< in pixels, y points down

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "asset/image/srgb.hpp"
-#include "asset/scene/affine.hpp"
 #include "asset/scene/material_textures.hpp"
 #include "asset/scene/measured_instances.hpp"
 #include "asset/scene/part_arrays.hpp"
@@ -16,12 +15,12 @@
 #include "render/visible_points.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/part_components.hpp"
+#include "scene/placed_parts.hpp"
 
 namespace faqem::detail {
 namespace {
 
 using engine::RunContext;
-using engine::Vector3;
 using render::VisiblePoint;
 
 constexpr std::size_t view_count = 12;
@@ -59,28 +58,17 @@ public:
         : scene_(scene),
           components_(components),
           instances_(measured_instances(scene)),
-          images_(base_color_images(scene, context)),
-          positions_(instances_.size()),
-          sides_(instances_.size()) {
-        for (std::size_t i = 0; i < instances_.size(); ++i) {
-            const auto& [p, transform] = instances_[i];
+          images_(base_color_images(scene, context)) {
+        for (const auto& [p, transform] : instances_) {
             const Part& part = scene.parts[p];
-            for (const Vec3& at : part.positions)
-                positions_[i].push_back(engine::to_eigen(transformed_point(transform, at)));
-            const std::int8_t front = NormalTransform(transform).is_mirrored() ? -1 : 1;
-            for (std::size_t f = 0; f < part.triangles.size(); ++f)
-                sides_[i].push_back(material_or_default(scene, face_material(part, f)).double_sided ? 0
-                                                                                                    : front);
-            meshes_.push_back({positions_[i], part.triangles, sides_[i]});
+            placed_.add(part.positions, part.triangles, transform, scene,
+                        [&](std::size_t f) { return face_material(part, f); });
         }
     }
 
     // The sums of all views, by component.
     std::vector<Sum> sums(const RunContext& context) const {
-        std::vector<render::Camera> cameras;
-        for (const Vector3& direction : render::even_directions(view_count))
-            cameras.push_back(render::camera_from(direction));
-        render::show_all(meshes_, cameras);
+        const std::vector<render::Camera> cameras = render::cameras_around(placed_.meshes, view_count);
         std::vector<std::vector<Sum>> views(view_count);
         parallel_each(view_count, 1, context, [&](std::size_t v) { views[v] = sums_of_view(cameras[v]); });
         std::vector<Sum> result(components_.count, Sum::Zero());
@@ -96,7 +84,7 @@ private:
         };
         std::vector<VisiblePoint> behind;
         const std::vector<VisiblePoint> front =
-            render::visible_points(meshes_, camera, picture_size, &behind, component);
+            render::visible_points(placed_.meshes, camera, picture_size, &behind, component);
         std::vector<Sum> result(components_.count, Sum::Zero());
         for (std::size_t i = 0; i < front.size(); ++i) {
             if (front[i].mesh == no_index) continue;
@@ -136,9 +124,7 @@ private:
     const PartComponents& components_;
     std::vector<Instance> instances_;
     DecodedImages images_;
-    std::vector<std::vector<Vector3>> positions_;  // by instance
-    std::vector<std::vector<std::int8_t>> sides_;  // by instance
-    std::vector<render::PlacedMesh> meshes_;       // by instance
+    PlacedParts placed_;  // by instance
 };
 
 }  // namespace

@@ -7,11 +7,11 @@
 
 #include "asset/image/srgb.hpp"
 #include "asset/scene/affine.hpp"
-#include "asset/scene/material_textures.hpp"
 #include "bake/parts/corner_normals.hpp"
 #include "bake/source/source_normals.hpp"
 #include "render/visible_points.hpp"
 #include "scene/material_groups.hpp"
+#include "scene/placed_parts.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
@@ -47,27 +47,6 @@ struct Placement {
     std::array<double, 16> matrix;
     NormalTransform normals;
     double scale = 1;  // of lengths, the mean over the axes
-};
-
-// One version of the parts in the scene.
-struct PlacedParts {
-    // \param material_of  gives the material of a face, of the asset
-    template <class MaterialOf>
-    void add(std::span<const Vec3> of_part, std::span<const Triangle> triangles, const Asset& asset,
-             const Placement& at, const MaterialOf& material_of) {
-        std::vector<Vector3>& own = positions.emplace_back();
-        for (const Vec3& p : of_part) own.push_back(engine::to_eigen(transformed_point(at.matrix, p)));
-        // Viewers hide the back of single-sided faces.
-        const std::int8_t front = at.normals.is_mirrored() ? -1 : 1;
-        std::vector<std::int8_t>& seen = sides.emplace_back();
-        for (std::size_t f = 0; f < triangles.size(); ++f)
-            seen.push_back(material_or_default(asset, material_of(f)).double_sided ? 0 : front);
-        meshes.push_back({own, triangles, seen});
-    }
-
-    std::vector<std::vector<Vector3>> positions;  // by mesh
-    std::vector<std::vector<std::int8_t>> sides;  // by mesh
-    std::vector<render::PlacedMesh> meshes;
 };
 
 // How the surface at a point is seen.
@@ -135,20 +114,17 @@ public:
             const Part &part = scenes.source.parts[p], &kept = scenes.kept.parts[p];
             const TriangleMesh& baked = scenes.parts[p].simplified->mesh;
             const std::vector<Index>& origin = scenes.parts[p].simplified->history.remaining_faces;
-            source_.add(part.positions, part.triangles, scenes.source, at,
+            source_.add(part.positions, part.triangles, at.matrix, scenes.source,
                         [&](std::size_t f) { return face_material(part, f); });
-            kept_.add(kept.positions, kept.triangles, scenes.kept, at,
+            kept_.add(kept.positions, kept.triangles, at.matrix, scenes.kept,
                       [&](std::size_t f) { return face_material(kept, f); });
-            baked_.add(baked.positions, baked.triangles, scenes.source, at,
+            baked_.add(baked.positions, baked.triangles, at.matrix, scenes.source,
                        [&](std::size_t f) { return face_material(part, origin[f]); });
         }
     }
 
     ComparedPictures compare(std::uint32_t size, const RunContext& context) const {
-        std::vector<Camera> cameras;
-        for (const Vector3& direction : render::even_directions(view_count))
-            cameras.push_back(render::camera_from(direction));
-        render::show_all(source_.meshes, cameras);
+        const std::vector<Camera> cameras = render::cameras_around(source_.meshes, view_count);
         std::vector<ComparedPictures> sums(view_count);
         parallel_blocks(view_count, 1, context,
                         [&](std::size_t v, std::size_t, const RunContext& block_context) {

@@ -16,15 +16,12 @@
 #include "bake/source/source_normals.hpp"
 #include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/bvh.hpp"
+#include "faqem/detail/mapping/successive_projection.hpp"
 #include "faqem/engine/util/run_context.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
-
-/// Minimum cosine between the normals of a point of the mesh and of a face of the source on the same side; as for
-/// SuccessiveProjection.
-inline constexpr double min_facing_cosine = 0.17;
 
 inline Vector3 point_on(const TriangleMesh& mesh, Index face, const Vec3& w) {
     Vector3 p = Vector3::Zero();

@@ -13,15 +13,12 @@
 #include "faqem/detail/base/buckets.hpp"
 #include "faqem/detail/base/parallel.hpp"
 #include "faqem/detail/geometry/triangle.hpp"
+#include "faqem/detail/mapping/successive_projection.hpp"
 #include "faqem/forward_map.hpp"
 #include "faqem/surface_map.hpp"
 #include "scene/vector_conversion.hpp"
 
 namespace faqem::detail {
-
-/// Minimum cosine between the normals of a simplified face and of a face of the source on the same side; as for
-/// SuccessiveProjection.
-inline constexpr double min_facing_cosine = 0.17;
 
 /// Fractions of the way from a corner to the middle of the opposite edge: just inside the face, and at the three points
 /// with which the integral of a quadratic function over it is exact.

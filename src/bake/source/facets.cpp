@@ -9,6 +9,7 @@
 #include "faqem/detail/base/vector.hpp"
 #include "faqem/detail/geometry/halfedges.hpp"
 #include "faqem/engine/mesh/union_find.hpp"
+#include "faqem/engine/mesh/weld.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/vector_conversion.hpp"
 
@@ -70,14 +71,10 @@ constexpr double split_vertices_per_face = 0.7;
 
 // The half-edges of all faces, with vertices at equal positions as one.
 std::vector<Halfedge> welded_halfedges(const Part& part) {
-    UniqueValues<Vec3> positions;
-    positions.reserve(part.positions.size());
-    std::vector<Index> welded;
-    welded.reserve(part.positions.size());
-    for (const Vec3& p : part.positions) welded.push_back(positions.insert(p));
-    std::vector<Triangle> triangles;
-    triangles.reserve(part.triangles.size());
-    for (const Triangle& t : part.triangles) triangles.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    const std::vector<Index> welded = engine::weld_exact(part.positions);
+    std::vector<Triangle> triangles = part.triangles;
+    for (Triangle& t : triangles)
+        for (Index& v : t) v = welded[v];
     return sorted_halfedges(triangles);
 }
 

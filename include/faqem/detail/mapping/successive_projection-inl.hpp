@@ -11,8 +11,6 @@
 
 FAQEM_DETAIL_BEGIN
 
-// Minimum cosine between the normals of faces that have the same orientation.
-inline constexpr double min_facing_cosine = 0.17;
 // Penalties of the score, in mean edge lengths of the patch.
 inline constexpr double component_penalty = 0.3;
 inline constexpr double surface_patch_penalty = 1.0;

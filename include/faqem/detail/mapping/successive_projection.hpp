@@ -18,6 +18,9 @@
 
 FAQEM_DETAIL_BEGIN
 
+/// Minimum cosine between the normals of faces that have the same orientation.
+inline constexpr double min_facing_cosine = 0.17;
+
 /// Maps points of the simplified mesh to the original by successive projection, with rules that keep a point
 /// on its side of thin walls. Immutable after construction; map() and map_near() may be called from several
 /// threads concurrently.
