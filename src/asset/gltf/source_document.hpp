@@ -17,9 +17,8 @@ namespace faqem {
 struct SourceDocument {
     detail::Json document;                           ///< validated
     std::vector<std::vector<std::uint8_t>> buffers;  ///< one per buffer, byteLength bytes each
-    std::vector<Image> images;        ///< one per image of the document; `encoded` is empty if it is missing
-    bool has_meshopt = false;         ///< the file was compressed with EXT_meshopt_compression
-    bool has_draco = false;           ///< the file was compressed with KHR_draco_mesh_compression
+    std::vector<Image> images;  ///< one per image of the document; `encoded` is empty if it is missing
+    Compression compression = Compression::none;  ///< of the geometry of the file; meshopt before Draco
     std::vector<Material> materials;  ///< one per material as read; TextureRef::image is an index in `images`
     std::string unused;  ///< unused_objects() of the file: what save() leaves out, with a warning
 };

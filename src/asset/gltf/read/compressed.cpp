@@ -45,7 +45,7 @@ void decompress_views(SourceDocument& source, const std::string& file) {
                 decode_meshopt(compressed, view_bytes(source, compressed), file, where);
             views[i]["buffer"] = add_buffer(source, std::move(bytes));
             views[i].erase("byteOffset");
-            source.has_meshopt = true;
+            source.compression = Compression::meshopt;
         }
 #endif
         erase_extension(views[i], meshopt_name);
@@ -145,7 +145,7 @@ void decompress_primitives(SourceDocument& source, const std::string& file) {
                 const std::string where = child_path(child_path("/meshes", m) + "/primitives", p);
                 limit.consume(draco_element_count(source.document, primitives[p]), where, draco_name);
                 decompress_primitive(source, primitives[p], file, where);
-                source.has_draco = true;
+                if (source.compression == Compression::none) source.compression = Compression::draco;
             }
 #endif
             erase_extension(primitives[p], draco_name);

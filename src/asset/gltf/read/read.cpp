@@ -93,8 +93,7 @@ Asset read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path
         throw InputError(loaded.file, "/meshes", "all faces have a non-finite position");
     read_vertex_bits(loaded, asset);
     asset.precision.type = StoredPrecision::Type::float32;
-    if (loaded.source->has_draco) asset.compression = Compression::draco;
-    if (loaded.source->has_meshopt) asset.compression = Compression::meshopt;
+    asset.compression = loaded.source->compression;
     loaded.source->unused = unused_objects(loaded.source->document);
     asset.source = std::move(loaded.source);
     asset.warnings = std::move(loaded.warnings);
