@@ -54,6 +54,14 @@ std::vector<std::uint8_t> dense_bytes(const SourceDocument& source, Index access
 template <class T, std::size_t N>
 std::vector<std::array<T, N>> read_vectors(const SourceDocument& source, Index accessor, T fill = 0);
 
+/// The same, or `count` times `neutral` if the accessor is no_index. Missing components are the last one of `neutral`.
+template <class T, std::size_t N>
+std::vector<std::array<T, N>> vectors_or(const SourceDocument& source, Index accessor, std::size_t count,
+                                         const std::array<T, N>& neutral) {
+    if (accessor == no_index) return std::vector<std::array<T, N>>(count, neutral);
+    return read_vectors<T, N>(source, accessor, neutral[N - 1]);
+}
+
 /// Reads a SCALAR accessor of unsigned integers. \pre as for dense_bytes()
 std::vector<Index> read_indices(const SourceDocument& source, Index accessor);
 

@@ -18,16 +18,6 @@ const Json& instancing_attributes(const Json& node) {
     return member(node, "extensions", instancing_name, "attributes");
 }
 
-/// The values of an attribute; `neutral` if the node does not have it.
-template <class T, std::size_t N>
-std::vector<std::array<T, N>> attribute_values(const SourceDocument& source, const Json& attributes,
-                                               const char* name, std::size_t count,
-                                               const std::array<T, N>& neutral) {
-    const Index accessor = index_member(attributes, name);
-    if (accessor == no_index) return std::vector<std::array<T, N>>(count, neutral);
-    return read_vectors<T, N>(source, accessor);
-}
-
 std::vector<Index> nodes_without_parent(const Json& document) {
     std::vector<Index> roots;
     const std::vector<Index> parents = parents_of(member(document, "nodes"));
@@ -126,9 +116,10 @@ std::vector<Matrix4> instance_matrices(const SourceDocument& source, const Json&
     const Index any = attributes.begin()->get<Index>();
     const auto count =
         static_cast<std::size_t>(unsigned_member(member(source.document, "accessors")[any], "count", 0));
-    const auto translation = attribute_values<double, 3>(source, attributes, "TRANSLATION", count, {0, 0, 0});
-    const auto rotation = attribute_values<float, 4>(source, attributes, "ROTATION", count, {0, 0, 0, 1});
-    const auto scale = attribute_values<double, 3>(source, attributes, "SCALE", count, {1, 1, 1});
+    const auto translation =
+        vectors_or(source, index_member(attributes, "TRANSLATION"), count, Vec3{0, 0, 0});
+    const auto rotation = vectors_or(source, index_member(attributes, "ROTATION"), count, Vec4f{0, 0, 0, 1});
+    const auto scale = vectors_or(source, index_member(attributes, "SCALE"), count, Vec3{1, 1, 1});
     matrices.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
         matrices.push_back(transform_matrix(translation[i], converted<double>(rotation[i]), scale[i]));

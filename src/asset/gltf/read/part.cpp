@@ -97,11 +97,7 @@ PartLayout layout_of(const Json& mesh, const Json& accessors) {
 template <class T, std::size_t N>
 void append(std::vector<std::array<T, N>>& out, const SourceDocument& source, Index accessor,
             std::size_t count, const std::array<T, N>& fill) {
-    if (accessor == no_index) {
-        out.insert(out.end(), count, fill);
-        return;
-    }
-    const std::vector<std::array<T, N>> values = read_vectors<T, N>(source, accessor, fill[N - 1]);
+    const std::vector<std::array<T, N>> values = vectors_or(source, accessor, count, fill);
     out.insert(out.end(), values.begin(), values.end());
 }
 
