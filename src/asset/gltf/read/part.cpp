@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -192,18 +191,6 @@ std::vector<Triangle> triangles_of(const std::vector<Index>& v, std::uint64_t mo
     return triangles;
 }
 
-/// Part::position_spacing: that of the primitives, if they all have the same.
-double position_spacing(const Json& mesh, const Json& accessors) {
-    std::optional<double> spacing;
-    for (const Json& primitive : member(mesh, "primitives")) {
-        if (!has_triangles(primitive)) continue;
-        const double own = integer_step(accessors[index_member(primitive["attributes"], "POSITION")]);
-        if (spacing.value_or(own) != own) return 0;
-        spacing = own;
-    }
-    return spacing.value_or(0);
-}
-
 void warn(LoadedGltf& loaded, const std::string& where, std::uint64_t count, const std::string& what) {
     if (count != 0) loaded.warnings.push_back(where + ": " + std::to_string(count) + " " + what);
 }
@@ -244,6 +231,7 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
     part.custom_attributes = layout.custom;
     TrimmedWeights trimmed;
     std::uint64_t excess = 0;
+    std::set<double> spacings;  // of the positions of all primitives
     // Primitives often share their vertices and differ only in indices and material.
     std::map<std::pair<Json, Json>, std::uint64_t> first_vertex;
     const Json& primitives = member(mesh, "primitives");
@@ -261,9 +249,10 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
         const std::uint64_t first = entry->second;
         if (part.positions.size() >= no_index)
             throw InputError(loaded.file, where, "has more than 2^32 - 2 vertices");
-        const std::uint64_t count =
-            unsigned_member(accessors[index_member(primitive["attributes"], "POSITION")], "count", 0);
-        const std::vector<Index> corners = corners_of(loaded, primitive, count, at);
+        const Json& position = accessors[index_member(primitive["attributes"], "POSITION")];
+        spacings.insert(integer_step(position));
+        const std::vector<Index> corners =
+            corners_of(loaded, primitive, unsigned_member(position, "count", 0), at);
         if (mode == triangle_list) excess += corners.size() % 3;
         const Index material = index_member(primitive, "material");
         for (Triangle triangle : triangles_of(corners, mode)) {
@@ -272,7 +261,7 @@ Part read_part(LoadedGltf& loaded, Index mesh_index, std::uint64_t& dropped_face
             part.face_material.push_back(material);
         }
     }
-    part.position_spacing = position_spacing(mesh, accessors);
+    if (spacings.size() == 1) part.position_spacing = *spacings.begin();
     std::vector<std::string> warnings;
     dropped_faces += repair_vertices(part, 0, warnings);
     for (const std::string& warning : warnings) loaded.warnings.push_back(where + ": " + warning);
