@@ -8,7 +8,6 @@
 #include "asset/io/file.hpp"
 #include "asset/io/set_folder.hpp"
 #include "asset/model_files.hpp"
-#include "asset/scene/rest_pose.hpp"
 #include "faqem/error.hpp"
 
 namespace faqem {
@@ -83,10 +82,7 @@ Asset from_glb(std::span<const std::uint8_t> bytes) {
 }
 
 std::vector<Instance> instances(const Asset& asset) {
-    if (asset.source) return detail::instances_at(asset, detail::placed_nodes(asset.source->document));
-    std::vector<Instance> all;
-    for (Index i = 0; i < asset.parts.size(); ++i) all.push_back({i, detail::identity_transform});
-    return all;
+    return detail::instances_at(asset, detail::placed_nodes(detail::source_document(asset).document));
 }
 
 }  // namespace faqem

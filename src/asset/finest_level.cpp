@@ -242,9 +242,8 @@ void remove_materials(const Marks& removed_sources, Asset& asset) {
 }  // namespace
 
 std::optional<FinestLevel> finest_level(const Asset& asset) {
-    if (!asset.source) return std::nullopt;
-    const Json &nodes = member(asset.source->document, "nodes"),
-               &materials = member(asset.source->document, "materials");
+    const Json& document = source_document(asset).document;
+    const Json &nodes = member(document, "nodes"), &materials = member(document, "materials");
     if (std::ranges::none_of(nodes, has_levels) && std::ranges::none_of(materials, has_levels))
         return std::nullopt;
     const CoarserLevels of_nodes = coarser_levels(nodes, parents_of(nodes));

@@ -178,7 +178,7 @@ std::vector<Matrix4> node_transforms(const Json& document) {
 
 std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNode> nodes,
                                    std::vector<Index>* node_of) {
-    const Json& document = asset.source->document;
+    const Json& document = source_document(asset).document;
     std::vector<std::vector<Index>> parts_of(array_size(document, "meshes"));
     std::vector<Instance> instances;
     std::vector<Index> unassigned_parts;
@@ -191,7 +191,7 @@ std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNod
         const Json& node = document["nodes"][index];
         const Index mesh = index_member(node, "mesh");
         if (mesh == no_index || parts_of[mesh].empty()) continue;
-        std::vector<Matrix4> transforms = instance_matrices(*asset.source, node);
+        std::vector<Matrix4> transforms = instance_matrices(source_document(asset), node);
         if (transforms.empty()) transforms.push_back(identity_transform);
         for (const Matrix4& transform : transforms)
             for (const Index part : parts_of[mesh]) instances.push_back({part, product(world, transform)});
@@ -203,8 +203,7 @@ std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNod
 }
 
 std::optional<Vec3> scene_center(const Asset& asset) {
-    if (!asset.source) return std::nullopt;
-    const Json& extension = member(asset.source->document, "extensions", center_name);
+    const Json& extension = member(source_document(asset).document, "extensions", center_name);
     if (!extension.contains("center")) return std::nullopt;
     return number_array<3>(extension, "center", {0, 0, 0});
 }
@@ -242,12 +241,7 @@ InverseBinds inverse_binds(const SourceDocument& source, const Json& skin) {
 
 std::vector<PosedInstance> posed_instances(const Asset& asset) {
     std::vector<PosedInstance> posed;
-    if (!asset.source) {
-        for (const Instance& instance : instances(asset))
-            posed.push_back({instance.part, instance.transform});
-        return posed;
-    }
-    const Json& document = asset.source->document;
+    const Json& document = source_document(asset).document;
     std::vector<Index> node_of;
     const std::vector<Instance> all = instances_at(asset, placed_nodes(document), &node_of);
     std::vector<Matrix4> worlds;
@@ -259,7 +253,8 @@ std::vector<PosedInstance> posed_instances(const Asset& asset) {
         // The instances of a node follow each other.
         if (node_of[i] != node) {
             node = node_of[i];
-            pose = node == no_index ? nullptr : pose_of(*asset.source, document["nodes"][node], worlds);
+            pose =
+                node == no_index ? nullptr : pose_of(source_document(asset), document["nodes"][node], worlds);
         }
         const bool is_posed = pose && ((!pose->joints.empty() && is_skinned(part)) ||
                                        (!pose->morph_weights.empty() && !part.morph_targets.empty()));

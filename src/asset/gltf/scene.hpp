@@ -76,7 +76,6 @@ std::vector<Matrix4> node_transforms(const Json& document);
 /// without a source mesh follow, with the identity transform.
 /// \param nodes    as placed_nodes() lists them
 /// \param node_of  if not null: receives the node of each instance, no_index for parts without a source mesh
-/// \pre asset.source is set
 std::vector<Instance> instances_at(const Asset& asset, std::span<const PlacedNode> nodes,
                                    std::vector<Index>* node_of = nullptr);
 

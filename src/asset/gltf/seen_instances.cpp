@@ -92,9 +92,9 @@ std::optional<double> posed_scale(const Asset& asset, Index mesh, const std::vec
 }  // namespace
 
 std::vector<Instance> seen_instances(const Asset& asset) {
-    if (!asset.source) return instances(asset);
-    const Json& document = asset.source->document;
-    std::vector<PlacedNode> nodes = placed_nodes(document, largest_scales(*asset.source));
+    const SourceDocument& source = source_document(asset);
+    const Json& document = source.document;
+    std::vector<PlacedNode> nodes = placed_nodes(document, largest_scales(source));
     const std::vector<PlacedNode> unposed = nodes;
     std::vector<const PlacedNode*> node_at(array_size(document, "nodes"), nullptr);
     for (const PlacedNode& placed : unposed) node_at[placed.node] = &placed;
@@ -103,7 +103,7 @@ std::vector<Instance> seen_instances(const Asset& asset) {
         const Index skin = index_member(node, "skin"), mesh = index_member(node, "mesh");
         if (skin == no_index || mesh == no_index) continue;
         const std::optional<double> scale =
-            posed_scale(asset, mesh, joint_scales(*asset.source, document["skins"][skin], node_at));
+            posed_scale(asset, mesh, joint_scales(source, document["skins"][skin], node_at));
         if (!scale) continue;
         placed.world = identity_transform;
         for (const std::size_t diagonal : {0u, 5u, 10u}) placed.world[diagonal] = *scale;
@@ -113,11 +113,7 @@ std::vector<Instance> seen_instances(const Asset& asset) {
 
 std::vector<std::vector<InstanceMotion>> instance_motions(const Asset& asset) {
     std::vector<std::vector<InstanceMotion>> result(asset.parts.size());
-    if (!asset.source) {
-        for (auto& motions : result) motions.push_back({identity_transform});
-        return result;
-    }
-    const Json& document = asset.source->document;
+    const Json& document = source_document(asset).document;
     const std::vector<std::uint8_t> is_animated = animated_nodes(document);
     const std::vector<Index> parents = parents_of(member(document, "nodes"));
     std::vector<Index> node_of;

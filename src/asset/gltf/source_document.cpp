@@ -16,8 +16,7 @@ namespace {
 /// The primitives of the mesh of a part, or null.
 const Json& primitives_of(const Asset& asset, const Part& part) {
     static const Json none;
-    if (!asset.source) return none;
-    const Json& meshes = member(asset.source->document, "meshes");
+    const Json& meshes = member(source_document(asset).document, "meshes");
     return part.source < meshes.size() ? member(meshes[part.source], "primitives") : none;
 }
 
@@ -139,8 +138,8 @@ std::uint64_t stored_bytes(const Json& view) {
 }  // namespace
 
 bool is_dynamic(const Asset& asset) {
-    if (asset.source && !member(asset.source->document, "animations").empty()) return true;
-    return some_part_has(asset, &Part::joints) || some_part_has(asset, &Part::morph_targets);
+    return !member(source_document(asset).document, "animations").empty() ||
+           some_part_has(asset, &Part::joints) || some_part_has(asset, &Part::morph_targets);
 }
 
 std::vector<Index> variant_materials(const Asset& asset, const Part& part) {
@@ -158,8 +157,7 @@ std::vector<Index> variant_materials(const Asset& asset, const Part& part) {
 
 std::vector<std::uint8_t> materials_with_moving_textures(const Asset& asset) {
     std::vector<std::uint8_t> result(asset.materials.size(), 0);
-    if (!asset.source) return result;
-    for (const Json& animation : member(asset.source->document, "animations")) {
+    for (const Json& animation : member(source_document(asset).document, "animations")) {
         for (const Json& channel : member(animation, "channels")) {
             const std::string pointer = animated_pointer(channel);
             if (pointer.find("/KHR_texture_transform/") == std::string::npos) continue;
@@ -212,12 +210,12 @@ bool names_objects_by_number(const Json& document) {
 }
 
 bool names_objects_by_number(const Asset& asset) {
-    return asset.source && names_objects_by_number(asset.source->document);
+    return names_objects_by_number(source_document(asset).document);
 }
 
 void carry_materials(const Asset& from, Asset& to) {
     if (!from.source) return;
-    const auto joined = std::make_shared<SourceDocument>(to.source ? *to.source : SourceDocument());
+    const auto joined = std::make_shared<SourceDocument>(source_document(to));
     const auto first = static_cast<Index>(joined->materials.size());
     for (const Json& material : member(from.source->document, "materials"))
         joined->document["materials"].push_back(material);

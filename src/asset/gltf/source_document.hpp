@@ -25,6 +25,12 @@ struct SourceDocument {
 
 namespace detail {
 
+/// The document that an asset was read from; an empty one if there is none.
+inline const SourceDocument& source_document(const Asset& asset) {
+    static const SourceDocument none;
+    return asset.source ? *asset.source : none;
+}
+
 /// Whether an extension names materials, textures and images by number: VRM and VRMC_*.
 bool names_by_number(std::string_view extension);
 

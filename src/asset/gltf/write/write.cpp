@@ -95,8 +95,7 @@ void encode_json_with_files(GltfWriter& writer, const fs::path& file, EncodedMod
 
 /// The origin is not changed if there is a source document with meshes, whose nodes, skins and animations depend on it.
 GltfWriter make_writer(const Asset& asset) {
-    static const SourceDocument none;
-    const SourceDocument& source = asset.source ? *asset.source : none;
+    const SourceDocument& source = source_document(asset);
     GltfWriter writer{asset, source, start_document(source.document),
                       array_size(source.document, "meshes") > 0 ? Vec3{} : local_origin(asset.parts),
                       GltfBufferBuilder(asset.compression, {asset.normal_bits, asset.uv_bits})};
