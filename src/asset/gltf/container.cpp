@@ -112,16 +112,14 @@ std::vector<std::uint8_t> join_glb(std::string_view json, std::span<const std::u
     put_number(out, glb_magic);
     put_number(out, std::uint32_t{2});
     put_number(out, static_cast<std::uint32_t>(total));
-    put_number(out, static_cast<std::uint32_t>(json_size));
-    put_number(out, json_chunk);
-    out.insert(out.end(), json.begin(), json.end());
-    out.resize(glb_header_bytes + chunk_header_bytes + json_size, ' ');
-    if (!bin.empty()) {
-        put_number(out, static_cast<std::uint32_t>(bin_size));
-        put_number(out, bin_chunk);
-        out.insert(out.end(), bin.begin(), bin.end());
-        out.resize(total, 0);
-    }
+    const auto put_chunk = [&](std::uint32_t type, const auto& content, std::uint64_t size, char padding) {
+        put_number(out, static_cast<std::uint32_t>(size));
+        put_number(out, type);
+        out.insert(out.end(), content.begin(), content.end());
+        out.resize(out.size() + size - content.size(), static_cast<std::uint8_t>(padding));
+    };
+    put_chunk(json_chunk, json, json_size, ' ');
+    if (!bin.empty()) put_chunk(bin_chunk, bin, bin_size, 0);
     return out;
 }
 
