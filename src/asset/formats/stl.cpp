@@ -38,8 +38,6 @@ public:
         triangles_.push_back(t);
     }
 
-    std::size_t facets() const { return triangles_.size(); }
-
     Part part(const std::string& file) {
         const std::vector<std::array<double, 4>>& vertices = vertices_.values();
         check_index_count(vertices.size(), file, "vertices");
@@ -113,7 +111,7 @@ Part read_ascii(std::span<const std::uint8_t> text, const std::string& file, Sto
         expect(in, "endsolid");
         in.next_line();
         if (!in.skip_to_content()) break;
-        if (welder.facets() > 0 && is_junk(in)) {
+        if (!solids.empty() && is_junk(in)) {
             warnings.push_back(pluralized(in.remaining().size(), "byte") + " after the last solid ignored");
             break;
         }
