@@ -11,19 +11,13 @@
 namespace faqem::detail {
 namespace {
 
-/// Vertex attributes of the flattened part.
-struct VertexLayout {
-    bool normals = false, colors = false;
-    std::size_t uv_sets = 0;
-};
-
+/// Appends an array by vertex, if there is one. Earlier vertices without a value get the neutral one.
+/// \param first  number of these vertices
 template <class Value>
-void append(std::vector<Value>& to, const std::vector<Value>& values, std::size_t count,
-            const Value& neutral) {
-    if (values.empty())
-        to.insert(to.end(), count, neutral);
-    else
-        to.insert(to.end(), values.begin(), values.end());
+void append(std::vector<Value>& to, const std::vector<Value>& values, Index first, const Value& neutral) {
+    if (values.empty()) return;
+    to.resize(first, neutral);
+    to.insert(to.end(), values.begin(), values.end());
 }
 
 /// Appends an array by face, with its names. Faces of other parts have no_index. Objects are not kept.
@@ -41,21 +35,18 @@ void append_faces(Part& flat, const Part& part, const FaceArray& array) {
     for (const Index value : values) to.push_back(value == no_index ? no_index : first_name + value);
 }
 
-void append(Part& flat, const Part& part, const Matrix4& m, const VertexLayout& layout) {
+void append(Part& flat, const Part& part, const Matrix4& m) {
     const auto first = static_cast<Index>(flat.positions.size());
-    const std::size_t vertices = part.positions.size();
     const bool is_identity = m == identity_transform;
     const NormalTransform normal_transform(m);
     for (const Vec3& p : part.positions) flat.positions.push_back(is_identity ? p : transformed_point(m, p));
-    if (layout.normals) {
-        append(flat.normals, part.normals, vertices, {0, 0, 0});
-        for (std::size_t v = first; v < flat.normals.size() && !is_identity; ++v)
-            flat.normals[v] = normal_transform(flat.normals[v]);
-    }
-    if (layout.colors) append(flat.colors, part.colors, vertices, {1, 1, 1, 1});
-    static const std::vector<Vec2f> none;
-    for (std::size_t set = 0; set < layout.uv_sets; ++set)
-        append(flat.uvs[set], set < part.uvs.size() ? part.uvs[set] : none, vertices, {0, 0});
+    append(flat.normals, part.normals, first, {0, 0, 0});
+    for (std::size_t v = first; v < flat.normals.size() && !is_identity; ++v)
+        flat.normals[v] = normal_transform(flat.normals[v]);
+    append(flat.colors, part.colors, first, {1, 1, 1, 1});
+    flat.uvs.resize(std::max(flat.uvs.size(), part.uvs.size()));
+    for (std::size_t set = 0; set < part.uvs.size(); ++set)
+        append(flat.uvs[set], part.uvs[set], first, {0, 0});
     for (const Triangle& t : part.triangles) {
         const bool is_mirrored = normal_transform.is_mirrored();
         flat.triangles.push_back(
@@ -89,28 +80,26 @@ Part flatten(const Asset& asset) { return flatten(asset, posed_instances(asset))
 
 Part flatten(const Asset& asset, const std::vector<PosedInstance>& all) {
     Part flat;
-    VertexLayout layout;
     std::uint64_t vertices = 0, faces = 0;
     for (const PosedInstance& instance : all) {
         const Part& part = asset.parts[instance.part];
         vertices += part.positions.size();
         faces += part.triangles.size();
-        layout.normals |= !part.normals.empty();
-        layout.colors |= !part.colors.empty();
-        layout.uv_sets = std::max(layout.uv_sets, part.uvs.size());
     }
     check_index_count(vertices, "", "vertices of the flattened scene");
     check_index_count(faces, "", "faces of the flattened scene");
-    flat.uvs.resize(layout.uv_sets);
     flat.positions.reserve(vertices);
     flat.triangles.reserve(faces);
     for (const PosedInstance& instance : all) {
         const Part& part = asset.parts[instance.part];
         if (instance.pose)
-            append(flat, posed_part(part, instance), identity_transform, layout);
+            append(flat, posed_part(part, instance), identity_transform);
         else
-            append(flat, part, instance.transform, layout);
+            append(flat, part, instance.transform);
     }
+    if (!flat.normals.empty()) flat.normals.resize(vertices, {0, 0, 0});
+    if (!flat.colors.empty()) flat.colors.resize(vertices, {1, 1, 1, 1});
+    for (std::vector<Vec2f>& uvs : flat.uvs) uvs.resize(vertices, {0, 0});
     if (const std::optional<Vec3> center = scene_center(asset)) place(flat, *center);
     flat.face_material.resize(faces, no_index);
     for (const FaceArray& array : face_arrays)
