@@ -185,24 +185,18 @@ TriangulatedPolygons triangulate_polygons(const Polygons& polygons, std::span<co
     for (std::size_t p = 0; p < polygons.sizes.size(); ++p) {
         const std::span<const Index> corners(polygons.vertices.data() + first, polygons.sizes[p]);
         first += corners.size();
-        if (corners.size() == 3) {  // fast path: nearly all polygons of large files are triangles
-            if (is_finite(positions[corners[0]]) && is_finite(positions[corners[1]]) &&
-                is_finite(positions[corners[2]])) {
-                split.triangles.push_back({corners[0], corners[1], corners[2]});
-                split.source_polygon.push_back(static_cast<Index>(p));
-            } else {
-                ++split.non_finite;
-            }
-            continue;
-        }
-        ring.clear();
-        for (const Index v : corners) ring.push_back(positions[v]);
-        const bool finite = std::ranges::all_of(ring, is_finite<double, 3>);
+        const bool finite = std::ranges::all_of(corners, [&](Index v) { return is_finite(positions[v]); });
         split.too_few_corners += corners.size() < 3;
         split.non_finite += corners.size() >= 3 && !finite;
         if (corners.size() < 3 || !finite) continue;
-        local.clear();
-        triangulate(ring, local);
+        if (corners.size() == 3) {  // fast path: nearly all polygons of large files are triangles
+            local.assign(1, {0, 1, 2});
+        } else {
+            ring.clear();
+            local.clear();
+            for (const Index v : corners) ring.push_back(positions[v]);
+            triangulate(ring, local);
+        }
         for (const Triangle& t : local) {
             split.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
             split.source_polygon.push_back(static_cast<Index>(p));
