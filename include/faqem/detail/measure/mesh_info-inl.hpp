@@ -46,15 +46,6 @@ inline std::uint64_t count_edges(const std::vector<Triangle>& faces, MeshInfo& r
     return count;
 }
 
-inline std::uint64_t count_components(const std::vector<Triangle>& faces, const std::vector<bool>& used) {
-    engine::UnionFind joined(used.size());
-    for (const Triangle& t : faces)
-        for (const Index v : {t[1], t[2]}) joined.unite(t[0], v);
-    std::uint64_t count = 0;
-    for (Index v = 0; v < used.size(); ++v) count += used[v] && joined.find(v) == v;
-    return count;
-}
-
 }  // namespace detail
 
 FAQEM_INLINE MeshInfo info(const MeshView& mesh) {
@@ -62,11 +53,13 @@ FAQEM_INLINE MeshInfo info(const MeshView& mesh) {
     const std::vector<Triangle> faces = detail::welded_faces(mesh, result);
     if (faces.empty()) return result;
     std::vector<bool> used(mesh.positions.size());
+    engine::UnionFind joined(used.size());
     const auto position = [&](Index v) { return engine::to_eigen(mesh.positions[v]); };
     engine::Vector3 low = position(faces[0][0]), high = low;
     for (const Triangle& t : faces) {
         for (const Index v : t) {
             used[v] = true;
+            joined.unite(t[0], v);
             low = low.cwiseMin(position(v));
             high = high.cwiseMax(position(v));
         }
@@ -74,7 +67,7 @@ FAQEM_INLINE MeshInfo info(const MeshView& mesh) {
     }
     result.vertices = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
     const std::uint64_t edges = detail::count_edges(faces, result);
-    result.components = detail::count_components(faces, used);
+    for (Index v = 0; v < used.size(); ++v) result.components += used[v] && joined.find(v) == v;
     result.euler = static_cast<std::int64_t>(result.vertices) - static_cast<std::int64_t>(edges) +
                    static_cast<std::int64_t>(result.faces);
     result.box_min = engine::to_array(low);
