@@ -74,6 +74,7 @@ public:
         : arguments_(arguments),
           has_list_(!arguments.list.empty()),
           models_(files.size()),
+          work_(work),
           print_(print),
           ledger_(arguments.out_folder, has_list_ ? arguments.shard.name() : "directory",
                   has_list_ ? !arguments.redoes : arguments.resumes) {
@@ -87,12 +88,13 @@ public:
         for (BatchFile file : files) {
             const std::string own = file.options ? detail::options_key(*file.options) : "";
             file.options_id = sha256(work.options_key + own).substr(0, 16);
-            has_list_ ? add_by_history(std::move(file)) : add(std::move(file));
+            if (!has_list_) file.earlier = ledger_.earlier_result(file);
+            if (!has_list_ || !has_end(file)) todo_.push_back(std::move(file));
         }
     }
 
-    ExitCode run(const BatchContext& work, const WorkerOptions& workers) {
-        process_batch(todo_, work, workers,
+    ExitCode run() {
+        process_batch(todo_, work_,
                       {[this](std::size_t i) { begin(i); },
                        [this](std::size_t i, const Json& line) { return end(i, line); }});
         if (!has_list_) return code_;
@@ -104,17 +106,10 @@ public:
     }
 
 private:
-    void add(BatchFile&& file, std::uint32_t crashes = 0) {
-        if (!has_list_) file.earlier = ledger_.earlier_result(file);
-        file.alone = crashes > 0;
-        todo_.push_back(std::move(file));
-        crashes_.push_back(crashes);
-        has_begun_.push_back(false);
-    }
-
-    /// Decides by its history what is to be done with a model.
-    void add_by_history(BatchFile&& file) {
+    /// Whether nothing is left to do with a model, by its history.
+    bool has_end(BatchFile& file) {
         const ModelHistory history = ledger_.history(file);
+        file.crashes = history.crashes;
         std::error_code error;
         if (history.end == "done" && fs::file_size(file.out, error) == history.bytes && !error)
             ++done_;
@@ -125,7 +120,8 @@ private:
         else if (history.unended >= max_unended)
             poison(file, std::to_string(history.unended) + " attempts have begun it and recorded no end");
         else
-            add(std::move(file), history.crashes);
+            return false;
+        return true;
     }
 
     void poison(const BatchFile& file, const std::string& reason) {
@@ -135,24 +131,24 @@ private:
     }
 
     void begin(std::size_t i) {
-        has_begun_[i] = true;
+        todo_[i].has_begun = true;
         ledger_.begin(todo_[i]);
     }
 
     NextStep end(std::size_t i, const Json& line) {
-        const BatchFile& file = todo_[i];
+        BatchFile& file = todo_[i];
         const auto code = line.at("code").get<ExitCode>();
         if (code == exit_internal) {
             record(file, "crashed", line);
             // Without a list only what the kernel kills is tried again: it does so when the machine has no memory left.
-            if (++crashes_[i] < max_crashes && (has_list_ || line.value("killed", false)))
+            if (++file.crashes < max_crashes && (has_list_ || line.value("killed", false)))
                 return NextStep::again_alone;
             if (has_list_) {
                 poison(file, line.at("message"));
                 return NextStep::go_on;
             }
         } else if (code != exit_ok) {
-            if (has_list_ && code == exit_cancelled && !has_begun_[i]) return NextStep::go_on;
+            if (has_list_ && code == exit_cancelled && !file.has_begun) return NextStep::go_on;
             record(file, is_final(code) ? "refused" : "interrupted", line);
             refused_ += is_final(code);
         } else if (line.at("status") == "done") {
@@ -180,12 +176,11 @@ private:
     const RunArguments& arguments_;
     bool has_list_;
     std::uint64_t models_, done_ = 0, refused_ = 0, poisoned_ = 0;
+    const BatchContext& work_;
     const std::function<void(const std::string&)>& print_;
     Ledger ledger_;
     RunIdentity run_;
     std::vector<BatchFile> todo_;
-    std::vector<std::uint32_t> crashes_;
-    std::vector<bool> has_begun_;
     ExitCode code_ = exit_ok;
 };
 
@@ -212,9 +207,8 @@ std::vector<BatchFile> models_of_shard(RunArguments& arguments, const GivenOptio
 }
 
 ExitCode run_batch(const std::vector<BatchFile>& files, const RunArguments& arguments,
-                   const BatchContext& work, const WorkerOptions& workers,
-                   const std::function<void(const std::string&)>& print) {
-    return BatchRun(files, arguments, work, print).run(work, workers);
+                   const BatchContext& work, const std::function<void(const std::string&)>& print) {
+    return BatchRun(files, arguments, work, print).run();
 }
 
 }  // namespace faqem::cli

@@ -41,7 +41,6 @@ std::vector<BatchFile> models_of_shard(RunArguments& arguments, const GivenOptio
 /// written
 /// \throws OptionError, WriteError  as Ledger and join_run()
 ExitCode run_batch(const std::vector<BatchFile>& files, const RunArguments& arguments,
-                   const BatchContext& work, const WorkerOptions& workers,
-                   const std::function<void(const std::string&)>& print);
+                   const BatchContext& work, const std::function<void(const std::string&)>& print);
 
 }  // namespace faqem::cli

@@ -33,7 +33,9 @@ struct BatchFile {
     std::uint64_t bytes = 0;    ///< size of the input file; 0 if it cannot be read
     std::string problem = {};   ///< why the input cannot be read; empty: it can, as far as is known
     std::string hash = {};      ///< model_hash() that the input must have; empty: any
-    bool alone = false;         ///< no other model may use memory at the same time
+    std::uint32_t crashes =
+        0;                   ///< attempts that ended so: the next one begins when no other model uses memory
+    bool has_begun = false;  ///< in this run
     std::optional<Options> options = {};  ///< instead of those of the batch
     std::string options_id = {};          ///< of everything except the input files that the result depends on
     std::optional<EarlierResult> earlier = {};  ///< that may be skipped or replaced

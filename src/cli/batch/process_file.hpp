@@ -21,6 +21,10 @@ struct BatchContext {
     Strictness strictness = Strictness::lenient;
     bool strict_target = false;
     std::uint64_t max_memory = 0;  ///< bytes, of all models at the same time
+    std::uint32_t jobs = 1;        ///< processes at a time
+    double end_after = 0;          ///< seconds that a model may take before its process is killed
+    Overwrite overwrite = Overwrite::no;
+    bool until_eof = false;  ///< the end of standard input counts as SIGTERM
 };
 
 /// How one model is to be simplified.

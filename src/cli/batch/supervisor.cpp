@@ -60,10 +60,9 @@ struct Slot {
 struct Supervisor {
     const std::vector<BatchFile>& files;
     const BatchContext& work;
-    const WorkerOptions& workers;
     const BatchEvents& events;
     MemoryQueue memory{work.max_memory};
-    std::vector<Slot> slots = std::vector<Slot>(workers.jobs);
+    std::vector<Slot> slots = std::vector<Slot>(work.jobs);
     std::size_t next_model = 0;  ///< the first one that was not begun
 
     void run() {
@@ -83,18 +82,19 @@ struct Supervisor {
         Slot& slot = slots[i];
         slot.model = next_model++;
         slot.has_model = true;
-        slot.has_begun = slot.is_cancelled = false;
-        slot.overwrite = workers.overwrite == Overwrite::yes;
-        begin_attempt(i, files[slot.model].alone);
-    }
-
-    void begin_attempt(std::size_t i, bool alone) {
-        Slot& slot = slots[i];
-        slot.alone = alone;
-        if (alone)
-            wait_for_memory(i, all_memory);
+        slot.has_begun = slot.is_cancelled = slot.alone = false;
+        slot.overwrite = work.overwrite == Overwrite::yes;
+        if (files[slot.model].crashes > 0)
+            begin_alone(i);
         else
             tell_model(slot);
+    }
+
+    /// Begins a model, perhaps anew, in a new process, as soon as it can have all memory.
+    void begin_alone(std::size_t i) {
+        slots[i].worker.reset();
+        slots[i].alone = true;
+        wait_for_memory(i, all_memory);
     }
 
     void wait_for_memory(std::size_t i, std::uint64_t bytes) {
@@ -147,7 +147,7 @@ struct Supervisor {
             owners.push_back(i);
         }
         if (polled.empty()) return next_model < files.size();
-        if (workers.until_eof && !is_interrupted()) polled.push_back({STDIN_FILENO, POLLIN, 0});
+        if (work.until_eof && !is_interrupted()) polled.push_back({STDIN_FILENO, POLLIN, 0});
         const int ready = ::poll(polled.data(), polled.size(), poll_milliseconds);
         if (char byte; polled.size() > owners.size() && polled.back().revents != 0 &&
                        ::read(STDIN_FILENO, &byte, 1) <= 0)
@@ -156,9 +156,9 @@ struct Supervisor {
             Slot& slot = slots[owners[k]];
             if (ready > 0 && polled[k].revents != 0)
                 on_message(owners[k]);
-            else if (slot.watch.seconds() > workers.end_after)
+            else if (slot.watch.seconds() > work.end_after)
                 on_end(owners[k],
-                       "did not end within " + std::to_string(std::lround(workers.end_after)) + " seconds");
+                       "did not end within " + std::to_string(std::lround(work.end_after)) + " seconds");
             else if (is_interrupted() && !std::exchange(slot.is_cancelled, true))
                 slot.worker->cancel();
         }
@@ -175,19 +175,11 @@ struct Supervisor {
             // After a signal no model begins: the process sees it and needs no memory.
             wait_for_memory(i, is_interrupted() ? 0 : message->at("memory").get<std::uint64_t>());
         } else if (message->contains("retry")) {
-            retry_alone(i, message->at("overwrite"));
+            slot.overwrite = message->at("overwrite");
+            begin_alone(i);
         } else {
             end_model(i, *message);
         }
-    }
-
-    /// Continues with a model in a new process, as soon as it can have all memory.
-    void retry_alone(std::size_t i, bool overwrite) {
-        Slot& slot = slots[i];
-        slot.worker.reset();
-        slot.alone = true;
-        slot.overwrite = overwrite;
-        wait_for_memory(i, all_memory);
     }
 
     void on_death(std::size_t i) {
@@ -205,7 +197,7 @@ struct Supervisor {
             end_model(i, batch_line(exit_no_memory, "failed", "not enough memory"));
         } else {
             remove_leftovers_of(slot);
-            retry_alone(i, slot.overwrite);
+            begin_alone(i);
         }
     }
 
@@ -229,9 +221,8 @@ struct Supervisor {
         Slot& slot = slots[i];
         const NextStep next = events.ended(slot.model, members);
         if (next == NextStep::again_alone) {
-            slot.worker.reset();
             slot.has_begun = false;
-            return begin_attempt(i, true);
+            return begin_alone(i);
         }
         slot.has_model = false;
         if (next == NextStep::stop) next_model = files.size();
@@ -240,9 +231,8 @@ struct Supervisor {
 
 }  // namespace
 
-void process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
-                   const WorkerOptions& workers, const BatchEvents& events) {
-    Supervisor{files, work, workers, events}.run();
+void process_batch(const std::vector<BatchFile>& files, const BatchContext& work, const BatchEvents& events) {
+    Supervisor{files, work, events}.run();
 }
 
 }  // namespace faqem::cli

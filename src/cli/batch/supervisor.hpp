@@ -2,21 +2,12 @@
 /// \file
 /// Distribution of the models of a batch among worker processes.
 
-#include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "cli/batch/process_file.hpp"
 
 namespace faqem::cli {
-
-/// The processes of a batch.
-struct WorkerOptions {
-    std::uint32_t jobs = 1;  ///< processes at a time
-    double end_after = 0;    ///< seconds that a model may take before its process is killed
-    Overwrite overwrite = Overwrite::no;
-    bool until_eof = false;  ///< the end of standard input counts as SIGTERM
-};
 
 /// What a batch does after a model.
 enum class NextStep {
@@ -38,7 +29,6 @@ struct BatchEvents {
 /// other uses memory. After a signal, models that are being simplified are cancelled, and the others end without having
 /// begun.
 /// \pre this process has one thread
-void process_batch(const std::vector<BatchFile>& files, const BatchContext& work,
-                   const WorkerOptions& workers, const BatchEvents& events);
+void process_batch(const std::vector<BatchFile>& files, const BatchContext& work, const BatchEvents& events);
 
 }  // namespace faqem::cli

@@ -47,10 +47,18 @@ void check_outputs_unprotected(const std::vector<BatchFile>& files) {
     check_models_unprotected(results);
 }
 
-/// The state that all models share.
-BatchContext make_context(const BatchArguments& arguments, std::size_t jobs) {
+/// The state that all models share. \param models  their number
+BatchContext make_context(const BatchArguments& arguments, std::size_t models) {
     BatchContext work;
     work.options = make_options(arguments.options);
+    work.jobs =
+        static_cast<std::uint32_t>(std::clamp<std::size_t>(models, 1, detail::thread_count(arguments.jobs)));
+    work.end_after = arguments.end_after > 0    ? arguments.end_after
+                     : work.options.max_seconds ? 2 * *work.options.max_seconds + 60
+                                                : 3600;
+    work.until_eof = arguments.until_eof;
+    // The records of a list say whose results are in the directory.
+    work.overwrite = arguments.force || !arguments.list.empty() ? Overwrite::yes : Overwrite::no;
     const std::string extension = extension_of_format(arguments.format);
     work.options.format = format_of_output("model" + extension);
     for (const std::string& idle :
@@ -59,7 +67,7 @@ BatchContext make_context(const BatchArguments& arguments, std::size_t jobs) {
     // Processing several files at a time uses the threads better than using several threads per file.
     if (work.options.threads == 0)
         work.options.threads =
-            static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / jobs, 1));
+            static_cast<std::uint32_t>(std::max<std::size_t>(detail::thread_count(0) / work.jobs, 1));
     work.options.progress = [](Phase, double) { return is_interrupted() ? Continue::cancel : Continue::yes; };
     work.options_key = std::string(version()) + " " + extension + " " + detail::options_key(work.options) +
                        (arguments.strict ? " strict" : "") +
@@ -68,18 +76,6 @@ BatchContext make_context(const BatchArguments& arguments, std::size_t jobs) {
     work.strict_target = arguments.strict_target;
     work.max_memory = arguments.max_memory > 0 ? arguments.max_memory : machine_memory() / 4 * 3;
     return work;
-}
-
-WorkerOptions make_workers(const BatchArguments& arguments, std::size_t models, const Options& options) {
-    WorkerOptions workers;
-    workers.jobs =
-        static_cast<std::uint32_t>(std::clamp<std::size_t>(models, 1, detail::thread_count(arguments.jobs)));
-    workers.end_after = arguments.end_after > 0 ? arguments.end_after
-                        : options.max_seconds   ? 2 * *options.max_seconds + 60
-                                                : 3600;
-    workers.until_eof = arguments.until_eof;
-    workers.overwrite = arguments.force ? Overwrite::yes : Overwrite::no;
-    return workers;
 }
 
 /// Prints the lines of models, and how many there are of each status.
@@ -125,17 +121,14 @@ int run_models(const BatchArguments& arguments, const std::string& out) {
     const std::vector<BatchFile> files = arguments.list.empty()
                                              ? plan_batch(arguments.in, out, run.extension, others)
                                              : models_of_shard(run, arguments.options);
-    WorkerOptions workers = make_workers(arguments, files.size(), make_options(arguments.options));
-    // The records of a list say whose results are in the directory.
-    if (!arguments.list.empty()) workers.overwrite = Overwrite::yes;
-    const BatchContext work = make_context(arguments, workers.jobs);
+    const BatchContext work = make_context(arguments, files.size());
     check_outputs_unprotected(files);
     make_folder(out);
     install_signal_handlers();
     try {
         BatchOutput output(files.size());
         const ExitCode code =
-            run_batch(files, run, work, workers, [&](const std::string& line) { output.print(line); });
+            run_batch(files, run, work, [&](const std::string& line) { output.print(line); });
         output.end(others);
         return code;
     } catch (const WriteError& error) {
