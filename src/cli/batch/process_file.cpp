@@ -69,11 +69,10 @@ Json simplify_and_save(const BatchFile& file, const BatchContext& work, const st
         file.in, options, [&](const Asset& source) { check_strictness(source, file.in, work.strictness); });
     const Report& report = simplified.report;
     if (report.stop == StopReason::cancelled) return cancelled_line();
-    const ExitCode code = rejection_code(report, work.strict_target);
-    const std::string message = code == exit_ok ? "" : rejection_message(code, file.in, file.out, report);
-    Json line =
-        batch_line(code, code == exit_ok ? "done" : "failed", message, report.faces_in, report.faces_out);
-    if (code == exit_ok) {
+    const auto rejected = rejection(report, work.strict_target, file.in, file.out);
+    Json line = batch_line(rejected ? rejected->code : exit_ok, rejected ? "failed" : "done",
+                           rejected ? rejected->what() : "", report.faces_in, report.faces_out);
+    if (!rejected) {
         detail::save_result(simplified, file.out, options, std::exchange(overwrite, Overwrite::yes));
         std::error_code error;
         line["record"] = {{"bytes", fs::file_size(file.out, error)},

@@ -164,15 +164,15 @@ int run(SimplifyCommandArguments arguments) {
         simplified = simplified_model(arguments, options, diagonal);
         require_not_cancelled(simplified.report);
     }
+    const auto rejected = rejection(simplified.report, arguments.strict_target, arguments.in, arguments.out);
     write_together([&] {
-        if (rejection_code(simplified.report, arguments.strict_target) == exit_ok)
-            save_files(arguments, options, simplified);
+        if (!rejected) save_files(arguments, options, simplified);
         simplified.report.seconds.total = watch.seconds();
         if (!arguments.report.empty())
             write_output(arguments.report, to_json(simplified.report), arguments.overwrite);
     });
     if (!arguments.quiet) print_summary(arguments, simplified.report, diagonal);
-    require_accepted(simplified.report, arguments.strict_target, arguments.in, arguments.out);
+    if (rejected) throw *rejected;
     return exit_ok;
 }
 

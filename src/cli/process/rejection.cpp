@@ -13,28 +13,26 @@ std::string warnings_text(const std::vector<std::string>& warnings) {
     return text;
 }
 
-ExitCode rejection_code(const Report& report, bool strict_target) {
-    if (report.faces_out == 0) return exit_bad_input;
-    if (strict_target && report.faces_out > report.target_faces) return exit_target_missed;
-    if (report.max_error && !report.max_error->within()) return exit_error_exceeded;
-    return exit_ok;
-}
-
-std::string rejection_message(ExitCode rejection, const std::filesystem::path& in,
-                              const std::filesystem::path& out, const Report& report) {
+std::optional<CommandError> rejection(const Report& report, bool strict_target,
+                                      const std::filesystem::path& in, const std::filesystem::path& out) {
+    ExitCode code = exit_bad_input;
     std::ostringstream text;
-    if (rejection == exit_bad_input) {
+    if (report.faces_out == 0) {
         text << "nothing is left of " << in.string() << "; ";
-    } else if (rejection == exit_target_missed) {
+    } else if (strict_target && report.faces_out > report.target_faces) {
+        code = exit_target_missed;
         text << in.string() << ": target missed: the result has " << report.faces_out
              << " faces, the target is " << report.target_faces << "; ";
-    } else {
+    } else if (report.max_error && !report.max_error->within()) {
+        code = exit_error_exceeded;
         text << in.string() << ": max error exceeded: the result with " << report.faces_out
              << " faces may have a distance of up to " << report.max_error->bound << ", "
              << report.max_error->allowed << " is allowed; ";
+    } else {
+        return std::nullopt;
     }
     text << out.string() << " was not written";
-    return text.str();
+    return CommandError(code, text.str());
 }
 
 void require_not_cancelled(const Report& report) {
@@ -44,8 +42,7 @@ void require_not_cancelled(const Report& report) {
 
 void require_accepted(const Report& report, bool strict_target, const std::filesystem::path& in,
                       const std::filesystem::path& out) {
-    const ExitCode rejection = rejection_code(report, strict_target);
-    if (rejection != exit_ok) throw CommandError(rejection, rejection_message(rejection, in, out, report));
+    if (const auto rejected = rejection(report, strict_target, in, out)) throw *rejected;
 }
 
 }  // namespace faqem::cli

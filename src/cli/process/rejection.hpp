@@ -3,6 +3,7 @@
 /// Results that must not be written, and the warnings of results, as text.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,20 +15,17 @@ namespace faqem::cli {
 /// `2 warnings`, and a line for each, as the summaries of commands print them.
 std::string warnings_text(const std::vector<std::string>& warnings);
 
-/// Returns exit_bad_input (nothing is left), exit_target_missed or exit_error_exceeded if the result must not be
-/// written, otherwise exit_ok. An empty model is useless to the next program, and usually means that the faces of
-/// the input have no area, or that --weld is larger than the model.
-ExitCode rejection_code(const Report& report, bool strict_target);
-
-/// Returns the error message for a rejected result. \pre `rejection` is not exit_ok
+/// Returns the error of a result that must not be written, with exit_bad_input (nothing is left), exit_target_missed or
+/// exit_error_exceeded; nothing for other results. An empty model is useless to the next program, and usually means that
+/// the faces of the input have no area, or that --weld is larger than the model.
 /// \param in, out  names of the input and of the file that was not written
-std::string rejection_message(ExitCode rejection, const std::filesystem::path& in,
-                              const std::filesystem::path& out, const Report& report);
+std::optional<CommandError> rejection(const Report& report, bool strict_target,
+                                      const std::filesystem::path& in, const std::filesystem::path& out);
 
 /// \throws CommandError  exit_cancelled: a signal or the progress callback has ended the run
 void require_not_cancelled(const Report& report);
 
-/// \throws CommandError  the result is rejected, see rejection_code() and rejection_message()
+/// \throws CommandError  the result is rejected, see rejection()
 void require_accepted(const Report& report, bool strict_target, const std::filesystem::path& in,
                       const std::filesystem::path& out);
 
