@@ -1,6 +1,5 @@
 #include "cli/commands/command_line.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "cli/commands/commands.hpp"
@@ -17,19 +16,6 @@ std::vector<OptionInfo> help_options() {
             rare({{"--help-all"}, "", "Print all options", detail::OptionKind::flag})};
 }
 
-void exclude_mutually(std::vector<OptionInfo>& options) {
-    for (const OptionInfo& option : options) {
-        for (OptionInfo& other : options) {
-            const auto& excluded = option.excludes;
-            const std::string& name = option.names.back();
-            const bool is_excluded = std::ranges::find(excluded, other.names.back()) != excluded.end();
-            if (!is_excluded || std::ranges::find(other.excludes, name) != other.excludes.end()) continue;
-            other.excludes.push_back(name);
-            std::ranges::sort(other.excludes);
-        }
-    }
-}
-
 }  // namespace
 
 void complete_options(CommandTree& tree) {
@@ -37,7 +23,6 @@ void complete_options(CommandTree& tree) {
     for (CommandInfo& command : tree.commands) {
         const std::vector<OptionInfo> help = help_options();
         command.options.insert(command.options.begin(), help.begin(), help.end());
-        exclude_mutually(command.options);
     }
 }
 

@@ -9,7 +9,7 @@ namespace faqem::cli {
 /// All commands with their options. Each result has variables of its own for the values.
 CommandTree command_tree();
 
-/// Adds --help to each command, to options that others exclude that they exclude these, and the reading of profiles.
+/// Adds --help to each command, and the reading of profiles.
 void complete_options(CommandTree& tree);
 
 }  // namespace faqem::cli

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <span>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -24,28 +23,19 @@ constexpr const char* version_key = "faqem-profile";
 constexpr int profile_version = 1;
 constexpr std::uint64_t max_file_size = 1'000'000;
 
-/// The name of an option without dashes, and its value; a flag of profiles has the value `true`, as in a file.
-using ProfileEntry = std::pair<std::string_view, std::string_view>;
-
 /// A named set of options that is part of the command.
 struct BuiltinProfile {
     std::string_view name, purpose;
-    std::span<const ProfileEntry> options;
+    std::string_view options;  ///< as in a file, without the version
 };
-
-constexpr std::array<ProfileEntry, 4> web_options = {
-    {{"image-format", "webp"}, {"image-quality", "34"}, {"compress", "meshopt"}, {"quantize", "on"}}};
-
-constexpr std::array<ProfileEntry, 3> game_options = {
-    {{"image-format", "png-or-jpeg"}, {"compress", "none"}, {"quantize", "off"}}};
 
 constexpr std::array<BuiltinProfile, 2> all_profiles = {
     {{"web",
       "the fewest bytes for web viewers that know EXT_texture_webp, EXT_meshopt_compression and "
       "KHR_mesh_quantization",
-      web_options},
+      R"({"image-format": "webp", "image-quality": "34", "compress": "meshopt", "quantize": "on"})"},
      {"game", "files that every importer of glTF reads: PNG and JPEG images, and geometry without extensions",
-      game_options}}};
+      R"({"image-format": "png-or-jpeg", "compress": "none", "quantize": "off"})"}}};
 
 std::string names(const std::string& separator) {
     return CLI::detail::join(
@@ -59,8 +49,9 @@ const BuiltinProfile& builtin_profile(std::string_view name) {
                       "); --config reads a profile from a file");
 }
 
-/// Parses a profile. Rejects duplicate keys, of which nlohmann::json would silently keep the last.
-Json parse_profile(const std::string& file) {
+/// Reads a profile. Rejects duplicate keys, of which nlohmann::json would silently keep the last.
+Json read_profile(const std::string& file) {
+    protect_input(file);
     const std::vector<std::uint8_t> bytes = detail::read_file(file, max_file_size);
     std::set<std::string> keys;
     const auto reject_duplicate_keys = [&](int depth, Json::parse_event_t event, Json& value) {
@@ -71,6 +62,12 @@ Json parse_profile(const std::string& file) {
     try {
         Json profile = Json::parse(bytes, reject_duplicate_keys);
         if (!profile.is_object()) throw InputError(file, "", "is not a JSON object");
+        if (!profile.contains(version_key))
+            throw OptionError(file + ": is not a profile: \"" + version_key + "\": 1 is missing");
+        if (profile[version_key] != profile_version)
+            throw OptionError(file + ": " + version_key + ": version " + profile[version_key].dump() +
+                              " is not supported, only version 1");
+        profile.erase(version_key);
         return profile;
     } catch (const Json::exception& error) {
         throw InputError(file, "", std::string("is not valid JSON: ") + error.what());
@@ -130,29 +127,19 @@ std::vector<std::string> words_of(const OptionInfo& option, const Json& value, c
 /// The value by which an entry of a profile for an option is overridden; null if there is none.
 const ParsedValue* overriding(const std::vector<ParsedValue>& values, const OptionInfo& option) {
     const auto found = std::ranges::find_if(values, [&](const ParsedValue& value) {
-        return value.option == &option ||
-               std::ranges::binary_search(option.excludes, value.option->names.back());
+        return value.option == &option || value.option->names.back() == option.excludes ||
+               value.option->excludes == option.names.back();
     });
     return found == values.end() ? nullptr : &*found;
 }
 
-void check_version(const Json& profile, const std::string& file) {
-    if (!profile.contains(version_key))
-        throw OptionError(file + ": is not a profile: \"" + version_key + "\": 1 is missing");
-    if (profile[version_key] != profile_version)
-        throw OptionError(file + ": " + version_key + ": version " + profile[version_key].dump() +
-                          " is not supported, only version 1");
-}
-
-void add_profile_file(const CommandTree& tree, const CommandInfo& command, const std::string& file,
-                      std::vector<ParsedValue>& values) {
-    protect_input(file);
-    const Json profile = parse_profile(file);
-    check_version(profile, file);
+/// Adds the entries of a profile. \param file  empty: a built-in one, which also has options of other commands
+void add_entries(const CommandTree& tree, const CommandInfo& command, const std::string& file,
+                 const Json& profile, std::vector<ParsedValue>& values) {
     std::vector<ParsedValue> added;
     for (const auto& [key, entry] : profile.items()) {
-        if (key == version_key) continue;
         const OptionInfo* option = find_option(command, key);
+        if (!option && file.empty()) continue;
         if (!option) throw_unknown_key(tree, command, file, key);
         ParsedValue value{option, words_of(*option, entry, file + ": " + key), false};
         if (value.words.empty() || overriding(values, *option)) continue;
@@ -161,14 +148,6 @@ void add_profile_file(const CommandTree& tree, const CommandInfo& command, const
         added.push_back(std::move(value));
     }
     values.insert(values.end(), added.begin(), added.end());
-}
-
-void add_builtin_profile(const CommandInfo& command, const BuiltinProfile& profile,
-                         std::vector<ParsedValue>& values) {
-    for (const auto& [key, value] : profile.options) {
-        const OptionInfo* option = find_option(command, std::string(key));
-        if (option && !overriding(values, *option)) values.push_back({option, {std::string(value)}, false});
-    }
 }
 
 }  // namespace
@@ -192,7 +171,7 @@ OptionInfo builtin_profile_option() {
 
 std::string profile_file(const std::string& name) {
     Json json = {{version_key, profile_version}};
-    for (const auto& [key, value] : builtin_profile(name).options) json[std::string(key)] = value;
+    json.update(Json::parse(builtin_profile(name).options));
     return json.dump(2) + "\n";
 }
 
@@ -200,8 +179,9 @@ std::string profile_list() {
     std::string text;
     for (const BuiltinProfile& profile : all_profiles) {
         text.append(profile.name).append(": ").append(profile.purpose).append("\n ");
-        for (const auto& [key, value] : profile.options)
-            text.append(" --").append(key).append("=").append(value);
+        const Json options = Json::parse(profile.options);
+        for (const auto& [key, value] : options.items())
+            text.append(" --").append(key).append("=").append(value.get<std::string>());
         text.append("\n");
     }
     return text;
@@ -215,8 +195,8 @@ void add_profile_values(const CommandTree& tree, const CommandInfo& command,
         return std::string();
     };
     const std::string file = word_of("--config"), name = word_of("--profile");
-    if (!file.empty()) add_profile_file(tree, command, file, values);
-    if (!name.empty()) add_builtin_profile(command, builtin_profile(name), values);
+    if (!file.empty()) add_entries(tree, command, file, read_profile(file), values);
+    if (!name.empty()) add_entries(tree, command, "", Json::parse(builtin_profile(name).options), values);
 }
 
 }  // namespace faqem::cli

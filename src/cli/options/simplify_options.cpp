@@ -35,7 +35,7 @@ std::vector<OptionInfo> table_options(detail::EntryPoint command, GivenOptions& 
         if (!(row.entry_points & command)) continue;
         OptionInfo& info = options.emplace_back(option_of(row, given));
         if (!row.excludes.empty() && (named_option(row.excludes, table).entry_points & command))
-            info.excludes = {"--" + std::string(row.excludes)};
+            info.excludes = "--" + std::string(row.excludes);
     }
     return options;
 }

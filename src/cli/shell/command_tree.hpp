@@ -18,9 +18,9 @@ struct OptionInfo {
     std::string description = {};    ///< what precedes the first semicolon is the line in --help
     detail::OptionKind kind = detail::OptionKind::text;
     detail::OptionRange range = {};
-    std::string group = "Options";           ///< heading in help; empty: only in --help-all
-    std::string suffix_choice = {};          ///< choice that a number may follow: `smooth:30`
-    std::vector<std::string> excludes = {};  ///< options that cannot be given together with this one, sorted
+    std::string group = "Options";   ///< heading in help; empty: only in --help-all
+    std::string suffix_choice = {};  ///< choice that a number may follow: `smooth:30`
+    std::string excludes = {};       ///< option that cannot be given together with this one
     bool is_required = false;
     bool is_positional = false;        ///< of an option: it may also be the last word
     int min_words = 1, max_words = 1;  ///< number of values

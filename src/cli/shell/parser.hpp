@@ -13,10 +13,6 @@
 #include "faqem/detail/base/closest_word.hpp"
 #include "faqem/version.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace faqem::cli {
 
 using ParsedOption = std::pair<const OptionInfo*, CLI::Option*>;
@@ -55,7 +51,7 @@ inline void add_command(CLI::App& app, const CommandTree& tree, const CommandInf
             if (option.read) options.emplace_back(&option, add_to_command(command, option));
     }
     for (const auto& [option, parsed] : options)
-        for (const std::string& other : option->excludes) parsed->excludes(command.get_option(other));
+        if (!option->excludes.empty()) parsed->excludes(command.get_option(option->excludes));
     command.final_callback([options, &tree, &info, &action] {
         std::vector<ParsedValue> values = typed_values(options);
         if (tree.add_profiles) tree.add_profiles(tree, info, values);
