@@ -59,7 +59,7 @@ BatchContext make_context(const BatchArguments& arguments, std::size_t models) {
     work.until_eof = arguments.until_eof;
     // The records of a list say whose results are in the directory.
     work.overwrite = arguments.force || !arguments.list.empty() ? Overwrite::yes : Overwrite::no;
-    const std::string extension = extension_of_format(arguments.format);
+    const std::string extension = "." + arguments.format;
     work.options.format = format_of_output("model" + extension);
     for (const std::string& idle :
          detail::idle_options(work.options, typed_names(arguments.options), detail::command_spelling))
@@ -112,7 +112,7 @@ private:
 };
 
 int run_models(const BatchArguments& arguments, const std::string& out) {
-    RunArguments run{arguments.list, out, extension_of_format(arguments.format)};
+    RunArguments run{arguments.list, out, "." + arguments.format};
     run.shard = parse_shard(arguments.shard);
     run.resumes = arguments.resume;
     run.redoes = arguments.force;

@@ -63,7 +63,7 @@ struct Outputs {
             manifest = fs::path(a.out).replace_extension(".json");
             return;
         }
-        const std::string extension = extension_of_format(a.format.empty() ? default_format() : a.format);
+        const std::string extension = "." + (a.format.empty() ? default_format() : a.format);
         const std::string stem = (fs::path(a.out) / fs::path(a.in).stem()).string() + "_LOD";
         for (std::size_t i = 0; i < count; ++i) models.push_back(stem + std::to_string(i) + extension);
         manifest = stem + ".json";

@@ -117,21 +117,13 @@ void check_extension(const fs::path& file, const std::vector<std::string_view>& 
                       CLI::detail::join(extensions, ", "));
 }
 
-std::string format_names(const std::string& separator) {
+std::string format_names() {
     return CLI::detail::join(
         detail::format_extensions(detail::FormatUse::write),
-        [](std::string_view extension) { return extension.substr(1); }, separator);
+        [](std::string_view extension) { return extension.substr(1); }, "|");
 }
 
-std::string default_format() {
-    return std::string(detail::format_extensions(detail::FormatUse::write).front().substr(1));
-}
-
-std::string extension_of_format(const std::string& format) {
-    const std::vector<std::string_view> known = detail::format_extensions(detail::FormatUse::write);
-    if (std::ranges::find(known, "." + format) != known.end()) return "." + format;
-    throw OptionError("--format: unknown value '" + format + "' (known: " + format_names() + ")");
-}
+std::string default_format() { return format_names().substr(0, format_names().find('|')); }
 
 ModelFormat format_of_output(const fs::path& file) {
     const detail::FileFormat* format = detail::format_by_name(file);

@@ -36,16 +36,12 @@ Overwrite check_outputs(std::vector<std::filesystem::path> files, bool force);
 /// \throws OptionError  the extension is another one
 void check_extension(const std::filesystem::path& file, const std::vector<std::string_view>& extensions);
 
-/// Values of --format: the extensions of the formats that can be written, without the dot. The first is the default.
-/// \param separator  between them
-std::string format_names(const std::string& separator = ", ");
+/// Values of --format, with bars between: the extensions of the formats that can be written, without the dot. The first
+/// is the default.
+std::string format_names();
 
 /// The default value of --format.
 std::string default_format();
-
-/// Returns the file extension of a value of --format, for example `.glb` for `glb`.
-/// \throws OptionError  --format has no such value
-std::string extension_of_format(const std::string& format);
 
 /// Returns Options::format for an output file; `automatic` if its extension is unknown.
 ModelFormat format_of_output(const std::filesystem::path& file);

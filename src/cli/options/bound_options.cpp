@@ -81,7 +81,7 @@ OptionInfo report_option(std::string& file) {
 }
 
 OptionInfo format_option(std::string& format) {
-    return text_option("--format", format_names("|"), format,
+    return text_option("--format", format_names(), format,
                        "Output format (default " + default_format() + ")");
 }
 
