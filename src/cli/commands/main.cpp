@@ -20,20 +20,6 @@ namespace faqem::cli {
 
 namespace {
 
-int fail(const std::exception& error) {
-    std::cerr << "faqem: " << message_of(error) << "\n";
-    return exit_code_of(error);
-}
-
-int run(const Action& action) try {
-    const int code = action();
-    std::cout.flush();
-    if (!std::cout) throw WriteError("cannot write to standard output");
-    return code;
-} catch (const std::exception& error) {
-    return fail(error);
-}
-
 /// Returns the command line that a short form stands for: `faqem`, `faqem help [COMMAND]`, `faqem IN OUT`.
 std::vector<std::string> without_short_form(const CommandTree& tree, std::vector<std::string> words) {
     if (!words.empty() && words[0] == "help") {
@@ -71,6 +57,10 @@ int parse_and_run(std::vector<std::string> words) {
     try {
         std::vector<std::string> reversed(words.rbegin(), words.rend());  // as CLI11 expects them
         app.parse(std::move(reversed));
+        const int code = action();
+        std::cout.flush();
+        if (!std::cout) throw WriteError("cannot write to standard output");
+        return code;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         std::cerr << "faqem: " << usage_message(app, tree, error) << "\n";
@@ -78,9 +68,9 @@ int parse_and_run(std::vector<std::string> words) {
         if (!suggested.empty()) std::cerr << "Did you mean " << suggested << "?\n";
         return exit_usage;
     } catch (const std::exception& error) {
-        return fail(error);
+        std::cerr << "faqem: " << message_of(error) << "\n";
+        return exit_code_of(error);
     }
-    return run(action);
 }
 
 }  // namespace
