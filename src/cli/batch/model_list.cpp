@@ -1,7 +1,6 @@
 #include "cli/batch/model_list.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -15,8 +14,6 @@ namespace faqem::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array<std::uint8_t, 1> line_end = {'\n'};
 
 /// The id of a line that begins with it, as list_line() writes it; nothing if it does not, or has an escape.
 std::optional<std::string> leading_id(std::string_view line) {
@@ -98,8 +95,8 @@ std::string read_list(const fs::path& list, const std::function<bool(const std::
     std::uint64_t number = 0;
     Sha256 hash;
     for (std::string line; std::getline(in, line);) {
-        hash.add({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
-        if (!in.eof()) hash.add(line_end);
+        hash.add(line);
+        if (!in.eof()) hash.add("\n");
         ++number;
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.empty()) continue;

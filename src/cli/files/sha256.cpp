@@ -15,15 +15,14 @@ void add_file(Sha256& hash, const std::filesystem::path& file) {
     if (!in) throw ReadError(file.string(), "", "cannot read");
     std::vector<char> piece(std::size_t{1} << 18);
     while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0)
-        hash.add(
-            {reinterpret_cast<const std::uint8_t*>(piece.data()), static_cast<std::size_t>(in.gcount())});
+        hash.add({piece.data(), static_cast<std::size_t>(in.gcount())});
     if (in.bad()) throw ReadError(file.string(), "", "cannot read");
 }
 
 }  // namespace
 
-void Sha256::add(std::span<const std::uint8_t> bytes) {
-    SHA256Update(&context_, bytes.data(), bytes.size());
+void Sha256::add(std::string_view bytes) {
+    SHA256Update(&context_, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
     size_ += bytes.size();
 }
 
@@ -34,7 +33,7 @@ std::string Sha256::finish() {
 
 std::string sha256(std::string_view text) {
     Sha256 hash;
-    hash.add({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    hash.add(text);
     return hash.finish();
 }
 

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,7 +15,7 @@ class Sha256 {
 public:
     Sha256() { SHA256Init(&context_); }
 
-    void add(std::span<const std::uint8_t> bytes);
+    void add(std::string_view bytes);
     /// Number of bytes that were added.
     std::uint64_t size() const { return size_; }
     /// Returns the digest of all bytes, as 64 hexadecimal digits. The object must not be used afterwards.
