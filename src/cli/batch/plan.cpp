@@ -74,12 +74,8 @@ std::string modification_stamp(const std::vector<fs::path>& files) {
     for (const fs::path& file : files) {
         struct stat status = {};
         if (::stat(file.c_str(), &status) != 0) continue;
-        for (const auto number :
-             {static_cast<std::int64_t>(status.st_size), static_cast<std::int64_t>(status.st_mtim.tv_sec),
-              static_cast<std::int64_t>(status.st_mtim.tv_nsec)}) {
-            if (!text.empty()) text += ' ';
-            text += std::to_string(number);
-        }
+        text += (text.empty() ? "" : " ") + std::to_string(status.st_size) + " " +
+                std::to_string(status.st_mtim.tv_sec) + " " + std::to_string(status.st_mtim.tv_nsec);
     }
     return text;
 }

@@ -33,9 +33,8 @@ struct BatchFile {
     std::uint64_t bytes = 0;    ///< size of the input file; 0 if it cannot be read
     std::string problem = {};   ///< why the input cannot be read; empty: it can, as far as is known
     std::string hash = {};      ///< model_hash() that the input must have; empty: any
-    std::uint32_t crashes =
-        0;                   ///< attempts that ended so: the next one begins when no other model uses memory
-    bool has_begun = false;  ///< in this run
+    std::uint32_t crashes = 0;  ///< attempts that ended so: the next one gets all memory
+    bool has_begun = false;     ///< in this run
     std::optional<Options> options = {};  ///< instead of those of the batch
     std::string options_id = {};          ///< of everything except the input files that the result depends on
     std::optional<EarlierResult> earlier = {};  ///< that may be skipped or replaced

@@ -53,12 +53,6 @@ inline double error_from_pixels(double pixels, double distance, const ViewSettin
     return pixels * view_height_at_unit_distance(view_settings) * distance / view_settings.screen_height;
 }
 
-/// Returns the share of the screen height that the length `diagonal` covers at the switch distance of
-/// `error`; infinity if that distance is 0.
-inline double screen_coverage(double diagonal, double error, const ViewSettings& view_settings) {
-    return diagonal / (view_height_at_unit_distance(view_settings) * switch_distance(error, view_settings));
-}
-
 /// Parses one level: `0.5` or `50%` (ratio of faces), `5000` (number of faces), `error:0.01` (distance in model units),
 /// `error:0.1%` (distance relative to the diagonal) or `pixels:2@50` (an error that covers at most 2 pixels at a distance
 /// of 50 model units from the camera).
@@ -104,9 +98,9 @@ inline Json lod_manifest(const std::string& source, double diagonal, const ViewS
         const double from = switch_distance(level.error, view_settings);
         Json one = {{"file", level.file},         {"faces", level.faces}, {"vertices", level.vertices},
                     {"distance", level.distance}, {"error", level.error}, {"switch_distance", from}};
-        // null for the original: it is shown at any screen coverage.
+        // The share of the screen height that the diagonal covers; null for the original, which is shown at any.
         one["screen_coverage"] =
-            from > 0 ? Json(screen_coverage(diagonal, level.error, view_settings)) : Json();
+            from > 0 ? Json(diagonal / (view_height_at_unit_distance(view_settings) * from)) : Json();
         if (level.bytes > 0) one["bytes"] = level.bytes;
         if (level.report) one["report"] = Json::parse(to_json(*level.report));
         json["levels"].push_back(std::move(one));

@@ -21,13 +21,10 @@ std::string shown_percent(double share) { return shown_number(100 * share, 3) + 
 
 std::string shown_bytes(std::uint64_t bytes) {
     if (bytes < 1000) return std::to_string(bytes) + " bytes";
+    const bool is_small = bytes < 999'950;
     std::ostringstream out;
-    out << std::fixed << std::setprecision(1);
-    if (bytes < 999'950)
-        out << static_cast<double>(bytes) / 1e3 << " kB";
-    else
-        out << static_cast<double>(bytes) / 1e6 << " MB";
-    return out.str();
+    out << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / (is_small ? 1e3 : 1e6);
+    return out.str() + (is_small ? " kB" : " MB");
 }
 
 std::string shown_in_pixels(double distance, double diagonal) {

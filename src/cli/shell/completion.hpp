@@ -15,17 +15,13 @@ inline std::string command_names(const CommandTree& tree, const char* between) {
         tree.commands, [](const CommandInfo& command) { return command.name; }, between);
 }
 
-/// Returns the possible values of a command's positional argument, separated by spaces; empty for files.
-inline std::string positional_words(const CommandInfo& command) {
-    return command.positionals.empty() ? "" : CLI::detail::join(choices_of(command.positionals.front()), " ");
-}
-
 inline std::string bash_case(const CommandInfo& command) {
     std::ostringstream text;
     text << "        " << command.name << ")\n            options='"
          << CLI::detail::join(names_of(command.options), " ") << "'\n";
-    if (const std::string words = positional_words(command); !words.empty())
-        text << "            words='" << words << "'\n";
+    for (const OptionInfo& positional : command.positionals)
+        if (const std::vector<std::string> choices = choices_of(positional); !choices.empty())
+            text << "            words='" << CLI::detail::join(choices, " ") << "'\n";
     text << "            case $previous in\n";
     for (const OptionInfo& option : command.options) {
         const std::vector<std::string> choices = choices_of(option);
