@@ -26,24 +26,17 @@ std::string breakable_html(std::string_view text) {
 
 std::string fill_template(std::string_view text,
                           const std::vector<std::pair<std::string_view, std::string>>& values) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
     std::string result;
     while (true) {
-        const std::size_t begin = text.find('@');
+        const std::size_t begin = text.find("@@");
         result += text.substr(0, begin);
         if (begin == std::string_view::npos) return result;
-        const std::size_t end = std::min(text.find_first_not_of(letters, begin + 1), text.size());
-        const std::string_view name = text.substr(begin + 1, end - begin - 1);
-        if (name.empty() || end == text.size() ||
-            text[end] != '@') {  // not a placeholder, for example @media
-            result += '@';
-            text.remove_prefix(begin + 1);
-            continue;
-        }
-        const auto value = std::ranges::find(values, name, [](const auto& pair) { return pair.first; });
+        const std::size_t end = text.find("@@", begin + 2);
+        const auto value = std::ranges::find(values, text.substr(begin + 2, end - begin - 2),
+                                             [](const auto& pair) { return pair.first; });
         assert(value != values.end());
         result += value->second;
-        text.remove_prefix(end + 1);
+        text.remove_prefix(end + 2);
     }
 }
 

@@ -17,8 +17,8 @@ std::string escape_html(std::string_view text);
 /// The same, with places after slashes where long names may be broken; not for attributes.
 std::string breakable_html(std::string_view text);
 
-/// Replaces each `@NAME@` in a text by its value. Names inside values are not replaced.
-/// \param values  pairs of name and value; names consist of capital letters, digits and underscores
+/// Replaces each `@@NAME@@` in a text by its value. Names inside values are not replaced.
+/// \param values  pairs of name and value
 /// \pre every name in the text has a value
 std::string fill_template(std::string_view text,
                           const std::vector<std::pair<std::string_view, std::string>>& values);

@@ -10,8 +10,8 @@ TEST_CASE("escape_html escapes the special characters of HTML") {
 }
 
 TEST_CASE("fill_template replaces placeholders, but not inside values") {
-    CHECK(fill_template("x @A@ y @B_2@", {{"A", "@B_2@"}, {"B_2", "2"}}) == "x @B_2@ y 2");
-    CHECK(fill_template("@media a@b @A@ @", {{"A", ""}}) == "@media a@b  @");
+    CHECK(fill_template("x @@A@@ y @@B_2@@", {{"A", "@@B_2@@"}, {"B_2", "2"}}) == "x @@B_2@@ y 2");
+    CHECK(fill_template("@media a@b @@A@@ @", {{"A", ""}}) == "@media a@b  @");
     CHECK(fill_template("", {}).empty());
 }
 
