@@ -12,7 +12,6 @@
 #include "asset/file_format.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/files/protected_files.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/process/exit_code.hpp"
@@ -43,10 +42,8 @@ int run(const BakeArguments& arguments) {
     options.format = format_of_output(arguments.out);
     const OntoOptions onto = onto_options(arguments.uvs, arguments.max_distance);
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write_textures));
-    protect_input(arguments.target);
-    protect_input(arguments.source);
-    const Overwrite overwrite = check_outputs({arguments.out, arguments.report}, arguments.force);
-    install_signal_handlers();
+    const Overwrite overwrite = prepare_files({arguments.target, arguments.source},
+                                              {arguments.out, arguments.report}, arguments.force);
     const detail::Stopwatch watch;
     SimplifiedAsset baked;
     {

@@ -92,12 +92,11 @@ struct NewFolders {
 Overwrite prepare_outputs(const LodArguments& a, const Outputs& outputs) {
     protect_input(a.in);
     check_models_unprotected(outputs.models);
-    for (const fs::path& file : {outputs.manifest, fs::path(a.history)}) check_unprotected(file);
     std::vector<fs::path> files = {outputs.manifest, a.history};
     files.insert(files.end(), outputs.models.begin(),
                  outputs.is_file ? outputs.models.begin() + 1 : outputs.models.end());
     if (!outputs.is_file) make_folder(a.out);
-    return check_outputs(std::move(files), a.force);
+    return prepare_files({}, std::move(files), a.force);
 }
 
 /// Writes the histories of all parts one after the other, each with all levels.
@@ -268,7 +267,6 @@ int run(LodArguments arguments) {
     options.format = format_of_output(outputs.models[0]);
     const NewFolders folders(outputs.is_file ? "" : arguments.out);
     arguments.overwrite = prepare_outputs(arguments, outputs);
-    install_signal_handlers();
     Asset source;
     LodWriter writer{arguments, outputs, source, levels, options};
     {

@@ -5,7 +5,6 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/files/protected_files.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/process/interrupt.hpp"
@@ -33,9 +32,7 @@ int run(const RenderArguments& arguments) {
     if (models.empty() || models.size() > 16)
         throw OptionError("render: 1 to 16 models and an image are required");
     check_extension(out, {".png"});
-    for (const std::string& model : models) protect_input(model);
-    const Overwrite overwrite = check_outputs({out}, arguments.force);
-    install_signal_handlers();
+    const Overwrite overwrite = prepare_files({models.begin(), models.end()}, {out}, arguments.force);
     const ExitOnInterrupt exit_on_interrupt;
 
     ProgressBar bar(Bar::shown);

@@ -5,7 +5,6 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/files/protected_files.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/process/exit_code.hpp"
 #include "cli/process/interrupt.hpp"
@@ -89,9 +88,7 @@ std::optional<ViewerData> make_viewer_data(const ReportArguments& arguments, con
 
 int run(const ReportArguments& arguments) {
     check_extension(arguments.out, {".html", ".htm"});
-    for (const std::string& model : {arguments.a, arguments.b}) protect_input(model);
-    const Overwrite overwrite = check_outputs({arguments.out}, arguments.force);
-    install_signal_handlers();
+    const Overwrite overwrite = prepare_files({arguments.a, arguments.b}, {arguments.out}, arguments.force);
     const ExitOnInterrupt exit_on_interrupt;
 
     ProgressBar bar(Bar::shown);

@@ -12,7 +12,6 @@
 #include "asset/io/encoded_model.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/files/protected_files.hpp"
 #include "cli/memory/memory_limit.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/profile.hpp"
@@ -41,7 +40,7 @@ struct SimplifyCommandArguments : SimplifyArguments {
     std::string in, out, report, history, correspondence;
     std::uint64_t max_memory = 0;  ///< bytes; 0: machine_memory()
     bool force = false, quiet = false;
-    Overwrite overwrite = Overwrite::no;  ///< after check_outputs()
+    Overwrite overwrite = Overwrite::no;  ///< after prepare_files()
 };
 
 /// Why few bytes are saved, in one line.
@@ -151,10 +150,9 @@ int run(SimplifyCommandArguments arguments) {
         options.bake.correspondence = Recording::on;
     }
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
-    protect_input(arguments.in);
-    arguments.overwrite = check_outputs(
-        {arguments.out, arguments.report, arguments.history, arguments.correspondence}, arguments.force);
-    install_signal_handlers();
+    arguments.overwrite = prepare_files(
+        {arguments.in}, {arguments.out, arguments.report, arguments.history, arguments.correspondence},
+        arguments.force);
     const detail::Stopwatch watch;
     SimplifiedAsset simplified;
     double diagonal = 0;

@@ -7,7 +7,6 @@
 #include "asset/io/set_folder.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/files/protected_files.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/simplify_options.hpp"
 #include "cli/process/exit_code.hpp"
@@ -75,10 +74,8 @@ int run(const TruncateArguments& arguments) {
     if (arguments.strict && arguments.source.empty()) throw OptionError("--strict: requires --source");
     if (options.max_bytes && arguments.source.empty()) throw OptionError("--max-bytes: requires --source");
     check_extension(arguments.out, detail::format_extensions(detail::FormatUse::write));
-    protect_input(arguments.history);
-    if (!arguments.source.empty()) protect_input(arguments.source);
-    const Overwrite overwrite = check_outputs({arguments.out}, arguments.force);
-    install_signal_handlers();
+    const Overwrite overwrite =
+        prepare_files({arguments.history, arguments.source}, {arguments.out}, arguments.force);
     const ExitOnInterrupt exit_on_interrupt;
     SimplifiedParts simplified_parts =
         detail::parts_from_histories(truncate_to_faces(read_histories(arguments.history), arguments.faces));

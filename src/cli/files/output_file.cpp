@@ -8,7 +8,6 @@
 #include <ctime>
 #include <iomanip>
 #include <iostream>
-#include <mutex>
 #include <set>
 #include <span>
 #include <sstream>
@@ -31,11 +30,9 @@ namespace {
 /// Removes what dead processes left in a folder, once in a run: listing a folder for each of many results
 /// would take quadratic time.
 void clean_folder_once(const fs::path& folder) {
-    static std::mutex mutex;
     static std::set<fs::path> cleaned;
     std::error_code error;
     const fs::path known = fs::canonical(folder, error);
-    const std::lock_guard guard(mutex);
     if (!error && cleaned.insert(known).second) detail::remove_leftovers(known);
 }
 
@@ -100,13 +97,16 @@ void check_output(const fs::path& file, Overwrite overwrite, const std::string& 
 #endif
 }
 
-Overwrite check_outputs(std::vector<fs::path> files, bool force) {
-    std::erase(files, fs::path());
-    const Overwrite overwrite = force || user_allows_overwriting(files) ? Overwrite::yes : Overwrite::no;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        check_output(files[i], overwrite);
-        for (std::size_t k = 0; k < i; ++k) check_different(files[i], files[k]);
+Overwrite prepare_files(const std::vector<fs::path>& inputs, std::vector<fs::path> outputs, bool force) {
+    for (const fs::path& input : inputs)
+        if (!input.empty()) protect_input(input);
+    std::erase(outputs, fs::path());
+    const Overwrite overwrite = force || user_allows_overwriting(outputs) ? Overwrite::yes : Overwrite::no;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        check_output(outputs[i], overwrite);
+        for (std::size_t k = 0; k < i; ++k) check_different(outputs[i], outputs[k]);
     }
+    install_signal_handlers();
     return overwrite;
 }
 

@@ -17,19 +17,21 @@ namespace faqem::cli {
 /// file, its directory exists and is writable, it is not a directory, device or pipe, and it exists only if
 /// it may be overwritten. Other files beside a model are checked when it is saved. Removes the temporary
 /// files that dead processes left in the directory, and completes or restores a set of files that one
-/// replaced only in part. Thread-safe.
+/// replaced only in part.
 /// \param advice  what the message says about a file that exists
 /// \throws OptionError  the file is an input
 /// \throws WriteError   any other condition is violated
 void check_output(const std::filesystem::path& file, Overwrite overwrite,
                   const std::string& advice = "use --force to overwrite it");
 
-/// Calls check_output() for the files of a command, before the work starts, which may take hours. At a terminal it asks
-/// once whether those that exist may be overwritten.
-/// \param files  must be different, whether or not they exist; empty names are left out
-/// \param force  the answer without a question
+/// Calls protect_input() and check_output() for the files of a command, before the work starts, which may take hours, and
+/// then install_signal_handlers(). At a terminal it asks once whether outputs that exist may be overwritten. Empty names are
+/// left out.
+/// \param outputs  must be different, whether or not they exist
+/// \param force    the answer without a question
 /// \throws OptionError, WriteError  as check_output()
-Overwrite check_outputs(std::vector<std::filesystem::path> files, bool force);
+Overwrite prepare_files(const std::vector<std::filesystem::path>& inputs,
+                        std::vector<std::filesystem::path> outputs, bool force);
 
 /// Checks that a file name has one of the extensions, ignoring case.
 /// \param extensions  in lower case, with the dot

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -22,7 +21,6 @@ namespace fs = std::filesystem;
 using detail::file_id, detail::FileId;
 
 struct ProtectedFiles {
-    std::mutex mutex;
     std::vector<fs::path> unread_inputs;
     std::map<FileId, fs::path> inputs;
     std::map<FileId, fs::path> users;  ///< by referenced file, the first input that refers to it
@@ -65,7 +63,6 @@ void check_owner(const fs::path& owner, std::span<const fs::path> files) {
 }  // namespace
 
 void protect_input(const fs::path& input) {
-    const std::lock_guard guard(protected_files.mutex);
     protected_files.unread_inputs.push_back(input);
     detail::set_write_check(check_written_files);
 }
@@ -73,9 +70,8 @@ void protect_input(const fs::path& input) {
 void check_unprotected(const fs::path& file) {
     const std::optional<FileId> id = file_id(file);
     if (!id) return;
-    const std::lock_guard guard(protected_files.mutex);
     read_inputs();
-    const auto& [mutex, unread, inputs, users] = protected_files;
+    const auto& [unread, inputs, users] = protected_files;
     if (const auto input = inputs.find(*id); input != inputs.end())
         throw OptionError(file.string() + ": is the same file as the input " + input->second.string() +
                           "; choose another output name");

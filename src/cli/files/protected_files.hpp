@@ -19,7 +19,7 @@ namespace faqem::cli {
 void protect_input(const std::filesystem::path& input);
 
 /// Checks that a file may be written. write_output() and save() check their files too; commands that write
-/// several files call this before they write the first one. Thread-safe.
+/// several files call this before they write the first one.
 /// \throws OptionError  the file is an input
 /// \throws WriteError   an input refers to the file; the message names both
 void check_unprotected(const std::filesystem::path& file);
