@@ -75,9 +75,13 @@ std::optional<ViewerData> make_viewer_data(const ReportArguments& arguments, con
     const double unit = page.comparison.distances.diagonal;
     ViewerFrame frame{{}, unit, max_distance > 0 ? max_distance : 1};
     for (std::size_t k = 0; k < 3; ++k) frame.centre[k] = 0.5 * info.box_min[k] + 0.5 * info.box_max[k];
-    ViewerData view{viewer_glb(a, error_a, frame), viewer_glb(b, error_b, frame), limit / unit,
-                    max_distance / unit, unit};
-    view.up = arguments.up;
+    ViewerData view{viewer_glb(a, error_a, frame),
+                    viewer_glb(b, error_b, frame),
+                    {{"limit", limit / unit},
+                     {"max_distance", max_distance / unit},
+                     {"unit", unit},
+                     {"up", arguments.up},
+                     {"ramp", heat_ramp}}};
     if (view.a.size() + view.b.size() > max_viewer_bytes) {
         page.notes.push_back("No 3D view: the models exceed the limit of " +
                              std::to_string(max_viewer_bytes / 1'000'000) + " MB.");

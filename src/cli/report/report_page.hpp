@@ -29,10 +29,9 @@ struct Picture {
 /// The models of the 3D view and the scale of its heat map.
 struct ViewerData {
     std::vector<std::uint8_t> a, b;  ///< GLB files from viewer_glb()
-    double limit = 0;                ///< distance at the end of the colour scale, units of the frame
-    double max_distance = 0;         ///< maximum distance, units of the frame
-    double unit = 1;                 ///< ViewerFrame::unit, model units
-    std::string up = "y";            ///< axis
+    /// `limit`, the distance at the end of the colour scale, and `max_distance`, both in units of the frame; `unit`, of the
+    /// frame in model units; `up`, an axis; `ramp`, heat_ramp.
+    Json scale;
 };
 
 struct ReportPage {
@@ -143,12 +142,7 @@ inline std::string scripts(const ReportPage& page) {
                "</script>\n";
     };
     const ViewerData& v = *page.view;
-    const Json data = {{"limit", v.limit},
-                       {"max_distance", v.max_distance},
-                       {"unit", v.unit},
-                       {"up", v.up},
-                       {"ramp", heat_ramp}};
-    return block("view-data", "application/json", data.dump()) +
+    return block("view-data", "application/json", v.scale.dump()) +
            block("model-a", "application/octet-stream", base64(v.a)) +
            block("model-b", "application/octet-stream", base64(v.b)) + "<script>" +
            std::string(viewer_script) + "</script>\n";
