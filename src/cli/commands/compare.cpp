@@ -61,24 +61,24 @@ int run(const CompareArguments& arguments) {
     }
     const Comparison& result = comparison.distances;
     const double d = result.diagonal;
-    print_json({{"a", arguments.a},
-                {"b", arguments.b},
-                {"diagonal", d},
-                {"hausdorff", result.hausdorff},
-                {"hausdorff_rel", result.hausdorff / d},
-                {"hausdorff_bound", result.hausdorff_bound},
-                {"hausdorff_bound_rel", result.hausdorff_bound / d},
-                {"chamfer", result.chamfer},
-                {"chamfer_rel", result.chamfer / (d * d)},
-                {"mean_normal_degrees", result.mean_normal_degrees},
-                {"a_to_b", one_sided_json(result.a_to_b)},
-                {"b_to_a", one_sided_json(result.b_to_a)},
-                {"colors", colors_json(comparison.colors)},
-                {"info_a", info_json(a.info)},
-                {"info_b", info_json(b.info)},
-                {"samples", arguments.options.samples},
-                {"seed", arguments.options.seed},
-                {"tolerance", arguments.options.tolerance}});
+    std::cout << json_text({{"a", arguments.a},
+                            {"b", arguments.b},
+                            {"diagonal", d},
+                            {"hausdorff", result.hausdorff},
+                            {"hausdorff_rel", result.hausdorff / d},
+                            {"hausdorff_bound", result.hausdorff_bound},
+                            {"hausdorff_bound_rel", result.hausdorff_bound / d},
+                            {"chamfer", result.chamfer},
+                            {"chamfer_rel", result.chamfer / (d * d)},
+                            {"mean_normal_degrees", result.mean_normal_degrees},
+                            {"a_to_b", one_sided_json(result.a_to_b)},
+                            {"b_to_a", one_sided_json(result.b_to_a)},
+                            {"colors", colors_json(comparison.colors)},
+                            {"info_a", info_json(a.info)},
+                            {"info_b", info_json(b.info)},
+                            {"samples", arguments.options.samples},
+                            {"seed", arguments.options.seed},
+                            {"tolerance", arguments.options.tolerance}});
     return exit_ok;
 }
 

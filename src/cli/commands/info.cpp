@@ -136,7 +136,7 @@ void print_mesh(std::ostream& out, const Json& mesh) {
 }
 
 /// \param asset  of examine()
-void print_text(const Json& asset) {
+std::string text_of(const Json& asset) {
     std::ostringstream out;
     out << asset["file"].get<std::string>() << " (positions: " << asset["precision"].get<std::string>()
         << ")\n";
@@ -162,7 +162,7 @@ void print_text(const Json& asset) {
     for (const auto& [key, prefix] :
          {std::pair("warnings", "warning: "), {"not_understood", "not understood: "}})
         for (const Json& text : asset[key]) out << prefix << text.get<std::string>() << "\n";
-    std::cout << out.str();
+    return out.str();
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ CommandInfo info_command() {
                 install_signal_handlers();
                 const ExitOnInterrupt exit_on_interrupt;
                 const Json asset = examine(arguments->file, load(arguments->file));
-                arguments->json ? print_json(asset) : print_text(asset);
+                std::cout << (arguments->json ? json_text(asset) : text_of(asset));
                 return exit_ok;
             }};
 }

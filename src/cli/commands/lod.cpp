@@ -168,9 +168,7 @@ struct LodWriter {
                        save_levels(std::move(one_file_levels), outputs.models[0], arguments.overwrite));
             Json manifest = lod_manifest(arguments.in, size.diagonal, arguments.view_settings, written);
             manifest["warnings"] = warnings;
-            write_output(outputs.manifest,
-                         manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
-                         arguments.overwrite);
+            write_output(outputs.manifest, json_text(manifest), arguments.overwrite);
         }
         commit_outputs(set);
     }

@@ -172,7 +172,7 @@ OptionInfo builtin_profile_option() {
 std::string profile_file(const std::string& name) {
     Json json = {{version_key, profile_version}};
     json.update(Json::parse(builtin_profile(name).options));
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 std::string profile_list() {

@@ -1,7 +1,5 @@
 #include "cli/process/json.hpp"
 
-#include <iostream>
-
 namespace faqem::cli {
 
 Json info_json(const MeshInfo& info) {
@@ -18,8 +16,8 @@ Json info_json(const MeshInfo& info) {
             {"area", info.area}};
 }
 
-void print_json(const Json& json) {
-    std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+std::string json_text(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string json_line(const Json& json) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// JSON as text and on stdout.
+/// JSON as text.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,10 +14,10 @@ using Json = nlohmann::ordered_json;
 /// Returns the members of a MeshInfo as a JSON object with the keys documented in docs/reference.md.
 Json info_json(const MeshInfo& info);
 
-/// Prints indented JSON. File and material names need not be UTF-8: invalid bytes are printed as U+FFFD.
-void print_json(const Json& json);
+/// Returns indented JSON, with a line end. File and material names need not be UTF-8: invalid bytes become U+FFFD.
+std::string json_text(const Json& json);
 
-/// Returns JSON on one line, with its end. Invalid UTF-8 is replaced as by print_json().
+/// Returns JSON on one line, with its end. Invalid UTF-8 is replaced as by json_text().
 std::string json_line(const Json& json);
 
 }  // namespace faqem::cli
