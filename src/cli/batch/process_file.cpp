@@ -86,15 +86,11 @@ Json simplify_and_save(const BatchFile& file, const BatchContext& work, const st
     return line;
 }
 
-Json failed_line(const std::exception& problem) {
-    return batch_line(exit_code_of(problem), "failed", message_of(problem));
-}
-
 /// \param overwrite  whether the result may exist; set to yes when it is about to be written
 /// \param watch      reset after waiting for memory, so that it measures the work alone
-/// \throws std::bad_alloc  the memory is exhausted, and another attempt could get more
+/// \throws whatever makes the model fail
 Json try_process(const BatchFile& file, const BatchContext& work, GrantedMemory& memory, Overwrite& overwrite,
-                 detail::Stopwatch& watch) try {
+                 detail::Stopwatch& watch) {
     if (!file.problem.empty()) throw ReadError(file.in.string(), "", file.problem);
     if (!file.hash.empty() && model_hash(file.in) != file.hash)
         throw InputError(file.in.string(), "", "is not the model of the list: its SHA-256 is another one");
@@ -120,11 +116,6 @@ Json try_process(const BatchFile& file, const BatchContext& work, GrantedMemory&
     if (is_interrupted()) return cancelled_line();
     watch = {};
     return simplify_and_save(file, work, stamp, overwrite);
-} catch (const std::bad_alloc& problem) {
-    if (memory.is_part()) throw;
-    return failed_line(problem);
-} catch (const std::exception& problem) {
-    return failed_line(problem);
 }
 
 }  // namespace
@@ -134,13 +125,16 @@ Json process_batch_file(const BatchFile& file, const BatchContext& work, const B
     reset_peak_memory();
     Overwrite overwrite = attempt.overwrite;
     detail::Stopwatch watch;
+    Json line;
     try {
-        Json line = try_process(file, work, memory, overwrite, watch);
-        line["seconds"] = watch.seconds();
-        return line;
-    } catch (const std::bad_alloc&) {
-        return {{"retry", true}, {"overwrite", overwrite == Overwrite::yes}};
+        line = try_process(file, work, memory, overwrite, watch);
+    } catch (const std::exception& problem) {
+        if (memory.is_part() && dynamic_cast<const std::bad_alloc*>(&problem))
+            return {{"retry", true}, {"overwrite", overwrite == Overwrite::yes}};
+        line = batch_line(exit_code_of(problem), "failed", message_of(problem));
     }
+    line["seconds"] = watch.seconds();
+    return line;
 }
 
 std::string printed_line(const BatchFile& file, const Json& members) {
