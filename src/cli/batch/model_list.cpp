@@ -122,12 +122,9 @@ std::string read_list(const fs::path& list, const std::function<bool(const std::
 }
 
 std::string list_line(const ListedModel& model, const fs::path& folder) {
-    const fs::path relative =
-        fs::absolute(model.input)
-            .lexically_normal()
-            .lexically_relative(fs::absolute(folder.empty() ? "." : folder).lexically_normal());
+    const fs::path from = fs::absolute(folder.empty() ? "." : folder).lexically_normal();
     Json json = {{"id", model.id},
-                 {"input", relative.empty() ? model.input.string() : relative.string()},
+                 {"input", fs::absolute(model.input).lexically_normal().lexically_relative(from).string()},
                  {"sha256", model.hash},
                  {"bytes", model.bytes}};
     if (!model.output.empty()) json["output"] = model.output;

@@ -43,9 +43,7 @@ struct LodArguments : SimplifyArguments {
     bool without_original = false, force = false, quiet = false;
     Overwrite overwrite = Overwrite::no;  ///< after prepare_outputs()
 
-    LevelTextures level_textures() const {
-        return textures == "shared" ? LevelTextures::shared : LevelTextures::each;
-    }
+    bool has_shared_textures() const { return textures == "shared"; }
 };
 
 /// Paths of the output files: a model for each level, the original first unless --without-original is given,
@@ -156,7 +154,7 @@ struct LodWriter {
         if (first && first->kind == Target::Kind::faces && first->value <= 100)
             warnings.push_back("the first level has " + arguments.levels.front() +
                                " faces; a share has a percent sign: " + arguments.levels.front() + "%");
-        if (arguments.level_textures() == LevelTextures::shared)
+        if (arguments.has_shared_textures())
             write_with_shared_texture();
         else
             write_with_separate_textures();
@@ -259,7 +257,7 @@ int run(LodArguments arguments) {
     const Outputs outputs(arguments);
     if (options.max_bytes && outputs.is_file)
         throw OptionError("--max-bytes: cannot be used with one file of all levels");
-    if (arguments.level_textures() == LevelTextures::shared && !arguments.history.empty())
+    if (arguments.has_shared_textures() && !arguments.history.empty())
         throw OptionError(
             "--history: cannot be used with --textures shared, whose levels are no run of one mesh");
     options.format = format_of_output(outputs.models[0]);

@@ -17,20 +17,18 @@ inline constexpr std::size_t line_width = 80, text_column = 22;
 inline void add_entry(std::string& help, std::string name, const std::string& text) {
     name.insert(0, "  ");
     name.resize(std::max(text_column, name.size() + 2), ' ');
-    std::size_t used = name.size();
+    std::size_t line = help.size();  // its begin
     help += name;
     std::istringstream words(text);
     for (std::string word; words >> word;) {
         const bool needs_space = help.back() != ' ';
-        if (used + needs_space + word.size() > line_width) {
+        if (help.size() - line + needs_space + word.size() > line_width) {
+            line = help.size() + 1;
             help.append("\n").append(text_column, ' ');
-            used = text_column;
         } else if (needs_space) {
             help += ' ';
-            ++used;
         }
         help += word;
-        used += word.size();
     }
     help += '\n';
 }
