@@ -17,15 +17,12 @@ Array = NDArray[Any]
 _no_index = 2**32 - 1
 
 
-def check_shape(array: Array, width: int, name: str) -> Array:
-    if array.ndim != 2 or array.shape[1] != width:
-        raise InputError(f"{name}: the shape must be (n, {width}), but is {array.shape}")
-    return array
-
-
 def check_rows(array: Array, width: int, name: str) -> Array:
-    """As check_shape(), but an empty array of any shape has no rows."""
-    return check_shape(array.reshape(0, width) if array.size == 0 else array, width, name)
+    """Returns an array of the shape (n, width); an empty one of any shape has no rows. Raises InputError for others."""
+    rows = array.reshape(0, width) if array.size == 0 else array
+    if rows.ndim != 2 or rows.shape[1] != width:
+        raise InputError(f"{name}: the shape must be (n, {width}), but is {rows.shape}")
+    return rows
 
 
 def triangle_rows(triangles: ArrayLike) -> Array:

@@ -109,12 +109,6 @@ def simplify_levels(points: Any, triangles: Any, levels: Any = None, /, **option
         return simplify_model_levels(points, triangles, **options)
     if levels is None:
         raise TypeError("levels: a list is expected after the triangles, or after a Model")
-    return _simplify_array_levels(points, triangles, levels, **options)
-
-
-def _simplify_array_levels(
-    points: ArrayLike, triangles: ArrayLike, levels: Sequence[Target], **options: Any
-) -> list[SimplifiedLevel]:
     arrays = mesh_arrays(points, triangles, options, "vertices")
     chosen = Options(array_keywords, **options)
     has_history = bool(options.get("history"))

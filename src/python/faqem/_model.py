@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
     from ._types import CommonModelOptions, ModelOptions
 
-_level_textures = ["each", "shared"]  # faqem_level_textures
-
 
 @dataclasses.dataclass(frozen=True)
 class Part:
@@ -224,7 +222,7 @@ def simplify_model_levels(
 ) -> list[ModelLevel]:
     """simplify_levels() of a model."""
     source, chosen = _source(model), Options(["textures"], **options)
-    shared = enum_value(_level_textures, textures, "textures")
+    shared = enum_value(["each", "shared"], textures, "textures")  # faqem_level_textures
     return made_levels(
         ModelLevel, chosen, library.faqem_asset_simplify_levels, source, level_array(levels), shared)
 
