@@ -7,8 +7,6 @@
 #include "capi/c_asset.hpp"
 #include "capi/c_history.hpp"
 #include "faqem/bake_levels.hpp"
-#include "faqem/save_levels.hpp"
-#include "scene/scene_size.hpp"
 #include "scene/parts_from_histories.hpp"
 
 namespace {
@@ -51,14 +49,13 @@ faqem_status faqem_asset_save_levels(faqem_asset* const* levels, size_t level_co
                                      const char* path, faqem_overwrite overwrite, faqem_error* error) {
     return capi::catch_exceptions(error, {{levels, "levels"}, {path, "path"}}, [&] {
         check_levels(levels, level_count);
-        std::vector<SavedLevel> saved;
-        std::vector<double> errors;
+        std::vector<SimplifiedAssetLevel> saved(level_count);
         for (std::size_t i = 0; i < level_count; ++i) {
-            saved.push_back({levels[i]->asset, {}});
-            errors.push_back(levels[i]->level_error);
+            saved[i].result.asset = levels[i]->asset;
+            saved[i].error = levels[i]->level_error;
         }
-        detail::set_coverage(saved, errors, screen_error);
-        levels[0]->save_warnings.add(save_levels(std::move(saved), path, capi::to_overwrite(overwrite)));
+        levels[0]->save_warnings.add(
+            save_levels(std::move(saved), path, capi::to_overwrite(overwrite), screen_error));
     });
 }
 
