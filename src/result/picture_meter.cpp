@@ -50,24 +50,17 @@ Texture decoded_texture(const Image& image, TexelEncoding encoding) {
     }
 }
 
-// Marks the images that materials have as base colours, or as normal maps.
-std::vector<std::uint8_t> images_in_role(const Asset& model, TextureRef Material::*role) {
-    std::vector<std::uint8_t> result(model.images.size(), 0);
-    for (const Material& material : model.materials) {
-        const TextureRef& texture = material.*role;
-        if (texture && texture.image < result.size()) result[texture.image] = 1;
-    }
-    return result;
-}
-
+// By image: its texture if materials have it in a role.
 std::vector<Texture> textures(const Asset& model, std::span<const PendingImage> pending,
                               TextureRef Material::*role, TexelEncoding encoding) {
-    const std::vector<std::uint8_t> is_used = images_in_role(model, role);
-    std::vector<Texture> result(is_used.size());
-    for (const PendingImage& image : pending)
-        if (is_used[image.image]) result[image.image] = make_texture(image.pixels, encoding);
-    for (std::size_t i = 0; i < result.size(); ++i)
-        if (is_used[i] && !result[i]) result[i] = decoded_texture(model.images[i], encoding);
+    std::vector<Texture> result(model.images.size());
+    for (const Material& material : model.materials) {
+        const TextureRef& texture = material.*role;
+        if (!texture || texture.image >= result.size() || result[texture.image]) continue;
+        const auto own = std::ranges::find(pending, texture.image, &PendingImage::image);
+        result[texture.image] = own != pending.end() ? make_texture(own->pixels, encoding)
+                                                     : decoded_texture(model.images[texture.image], encoding);
+    }
     return result;
 }
 
@@ -101,29 +94,21 @@ PictureDifference PictureMeter::operator()(Asset model) const {
     return compare(render::make_scene(std::move(model)));
 }
 
-template <class Use>
-auto PictureMeter::use_source_images(Asset model, const Use& use) {
+render::Scene PictureMeter::with_source_textures(Asset model) const {
     model.images.clear();
     render::Scene scene = render::make_scene(std::move(model));
-    const auto exchange_textures = [&] {
-        std::swap(scene.color_textures, source_.color_textures);
-        std::swap(scene.normal_maps, source_.normal_maps);
-    };
-    exchange_textures();
-    const auto result = use(scene);
-    exchange_textures();
-    return result;
+    scene.color_textures = source_.color_textures;
+    scene.normal_maps = source_.normal_maps;
+    return scene;
 }
 
-PictureDifference PictureMeter::with_source_images(Asset model) {
-    return use_source_images(std::move(model), [&](const render::Scene& scene) { return compare(scene); });
+PictureDifference PictureMeter::with_source_images(Asset model) const {
+    return compare(with_source_textures(std::move(model)));
 }
 
 double PictureMeter::lit_with_source_images(Asset model) {
     if (lit_.empty()) lit_ = pictures(source_, cameras_, render::Shading::lit, threads_);
-    return use_source_images(std::move(model), [&](const render::Scene& scene) {
-        return difference(scene, render::Shading::lit, lit_);
-    });
+    return difference(with_source_textures(std::move(model)), render::Shading::lit, lit_);
 }
 
 double PictureMeter::difference(const render::Scene& scene, render::Shading shading,

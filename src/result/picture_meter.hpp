@@ -40,15 +40,13 @@ public:
 
     /// Compares a model that has the images of the source, with the same indices. Does not decode them again; those
     /// that the model holds are ignored.
-    PictureDifference with_source_images(Asset model);
+    PictureDifference with_source_images(Asset model) const;
 
     /// Mean squared difference of lit pictures, also where the others are unlit. Otherwise as with_source_images().
     double lit_with_source_images(Asset model);
 
 private:
-    // Returns use(scene) for a scene of the model that has the textures of the source.
-    template <class Use>
-    auto use_source_images(Asset model, const Use& use);
+    render::Scene with_source_textures(Asset model) const;
     PictureDifference compare(const render::Scene& scene) const;
     double difference(const render::Scene& scene, render::Shading shading,
                       const std::vector<render::Frame>& of_source) const;
