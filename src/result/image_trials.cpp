@@ -71,8 +71,6 @@ ImageTrials::ImageTrials(UnencodedResult full, const BakeOptions& bake, const Ru
     make_sizes();
     trials_.resize(sizes_.size());
     tried_.resize(sizes_.size());
-    size_errors_.resize(sizes_.size());
-    for (std::size_t i = 0; i < sizes_.size(); ++i) size_errors_[i].resize(sizes_[i].size());
 }
 
 // The pending images, and each half of them.
@@ -88,7 +86,7 @@ void ImageTrials::make_sizes() {
             if (!is_new) continue;
             std::vector<ImageEncoding> encodings = image_encodings(pending, bake_);
             std::vector<std::uint8_t> is_tried(encodings.size(), 0);
-            sizes_[i].push_back({pending, std::move(encodings), std::move(is_tried), {}});
+            sizes_[i].push_back({pending, std::move(encodings), std::move(is_tried), {}, {}});
         }
         side /= 2;
         if (side < least_side) break;
@@ -150,7 +148,7 @@ std::vector<ImageTrials::Request> ImageTrials::next_requests(const ResultChoice&
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const Trial& trial = trials_[i][choice.images[i]];
         const Size& size = sizes_[i][trial.size];
-        const SizeError& error = *size_errors_[i][trial.size];
+        const SizeError& error = *size.error;
         if (trial.fineness == size.finest_tried && trial.fineness < size.encodings.back().fineness &&
             estimated_error(error, trial.difference).sum() - error.own.sum() > least_error)
             result.push_back({i, trial.size, 0, trial.fineness + fineness_step});
@@ -211,7 +209,7 @@ void ImageTrials::measure_sizes(std::span<const Request> requests) {
     std::vector<Pixels> resized(sizes_.size()), encoded(sizes_.size());
     std::vector<double> differences(sizes_.size(), 0);
     for (const auto& [i, s, first, last, step] : requests) {
-        if (size_errors_[i][s]) continue;
+        if (sizes_[i][s].error) continue;
         if (s + 1 < sizes_[i].size()) resized[i] = sizes_[i][s].pending.pixels;
         const Trial* measured = nullptr;
         for (const Trial& trial : trials_[i]) {
@@ -227,8 +225,8 @@ void ImageTrials::measure_sizes(std::span<const Request> requests) {
     const std::vector<std::optional<PictureDifference>> both = (*meter_)(std::move(encoded));
     // Seen images first: what errors of texels do in their pictures is assumed of the others.
     for (const auto& [i, s, first, last, step] : requests) {
-        if (size_errors_[i][s] || !both[i]) continue;
-        SizeError& error = size_errors_[i][s].emplace();
+        if (sizes_[i][s].error || !both[i]) continue;
+        SizeError& error = sizes_[i][s].error.emplace();
         error.own = own[i].value_or(PictureDifference{});
         add_sample(error, *both[i], differences[i]);
         const double share = std::max(meter_->shares()[i], least_seen);
@@ -237,12 +235,12 @@ void ImageTrials::measure_sizes(std::span<const Request> requests) {
     }
     const double gain = seen_sizes_ > 0 ? seen_gain_ / seen_sizes_ : 1;
     for (const auto& [i, s, first, last, step] : requests) {
-        if (size_errors_[i][s]) continue;
+        if (sizes_[i][s].error) continue;
         const PendingImage& largest = sizes_[i].back().pending;
         const double weight = data_weight * gain * std::max(meter_->shares()[i], least_seen);
         const double lost =
             mean_square_of(shown_quality(largest.pixels, sizes_[i][s].pending.pixels, *largest.known).whole);
-        size_errors_[i][s] = SizeError{unseen_error(weight * lost), {{1, unseen_error(weight)}}};
+        sizes_[i][s].error = SizeError{unseen_error(weight * lost), {{1, unseen_error(weight)}}};
     }
     update_errors();
 }
@@ -253,7 +251,7 @@ void ImageTrials::measure_choice(const ResultChoice& choice) {
     std::vector<Pixels> encoded(sizes_.size());
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const Trial& trial = trials_[i][choice.images[i]];
-        const std::vector<Sample>& samples = size_errors_[i][trial.size]->samples;
+        const std::vector<Sample>& samples = sizes_[i][trial.size].error->samples;
         const bool is_measured =
             !(trial.difference > 0) ||
             std::ranges::find(samples, trial.difference, &Sample::difference) != samples.end();
@@ -262,7 +260,7 @@ void ImageTrials::measure_choice(const ResultChoice& choice) {
     const std::vector<std::optional<PictureDifference>> both = (*meter_)(std::move(encoded));
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const Trial& trial = trials_[i][choice.images[i]];
-        if (both[i]) add_sample(*size_errors_[i][trial.size], *both[i], trial.difference);
+        if (both[i]) add_sample(*sizes_[i][trial.size].error, *both[i], trial.difference);
     }
     update_errors();
 }
@@ -299,7 +297,7 @@ void ImageTrials::update_errors() {
         tried_[i].clear();
         for (const Trial& trial : trials_[i])
             tried_[i].push_back({trial.image.encoded.size(),
-                                 estimated_error(*size_errors_[i][trial.size], trial.difference),
+                                 estimated_error(*sizes_[i][trial.size].error, trial.difference),
                                  longer_side(sizes_[i][trial.size].pending.pixels)});
     }
 }

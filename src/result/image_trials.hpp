@@ -49,12 +49,23 @@ public:
     std::vector<Image> chosen_images(const std::vector<std::size_t>& chosen) const;
 
 private:
+    /// What an encoding with a difference adds to the error of pictures.
+    struct Sample {
+        double difference = 0;
+        PictureDifference added;
+    };
+    /// Errors of pictures for the size alone, and for encodings: in ascending order of differences.
+    struct SizeError {
+        PictureDifference own;
+        std::vector<Sample> samples;
+    };
     /// An image in one size.
     struct Size {
         PendingImage pending;
         std::vector<ImageEncoding> encodings;       // by ascending fineness
         std::vector<std::uint8_t> is_tried;         // by encoding
         std::optional<std::uint32_t> finest_tried;  // fineness
+        std::optional<SizeError> error;             // if an encoding was tried
     };
     /// What an entry of tried_ is.
     struct Trial {
@@ -67,17 +78,6 @@ private:
     struct Request {
         std::size_t image = 0, size = 0;
         std::uint32_t first = 0, last = 0, step = fineness_step;
-    };
-
-    /// What an encoding with a difference adds to the error of pictures.
-    struct Sample {
-        double difference = 0;
-        PictureDifference added;
-    };
-    /// Errors of pictures for the size alone, and for encodings: in ascending order of differences.
-    struct SizeError {
-        PictureDifference own;
-        std::vector<Sample> samples;
     };
 
     void make_sizes();
@@ -100,7 +100,6 @@ private:
     std::vector<std::vector<Size>> sizes_;  // by pending image, from small to large
     std::vector<std::vector<Trial>> trials_;
     TriedImages tried_;
-    std::vector<std::vector<std::optional<SizeError>>> size_errors_;  // by pending image and size
     // Sum over the sizes of images that pictures show: their errors for those of texels, where they are shown.
     double seen_gain_ = 0;
     int seen_sizes_ = 0;
