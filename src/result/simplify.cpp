@@ -326,22 +326,20 @@ void share_equal_images(const Asset& source, SimplifiedAsset& result) {
     std::vector<Image>& images = result.asset.images;
     std::vector<ResultImage>& reported = result.report.images;
     if (reported.size() != images.size() || names_objects_by_number(source)) return;
-    std::vector<Index> number(images.size());
-    std::size_t count = 0;
+    std::vector<Index> number;
+    std::vector<Image> distinct;
+    std::vector<ResultImage> of_distinct;
     for (std::size_t i = 0; i < images.size(); ++i) {
-        std::size_t same = 0;
-        while (same < count && (reported[i].is_of_source || images[same].encoded != images[i].encoded))
-            ++same;
-        number[i] = static_cast<Index>(same);
-        if (same < count) continue;
-        if (count != i) {
-            images[count] = std::move(images[i]);
-            reported[count] = std::move(reported[i]);
-        }
-        ++count;
+        const auto same = reported[i].is_of_source
+                              ? distinct.end()
+                              : std::ranges::find(distinct, images[i].encoded, &Image::encoded);
+        number.push_back(static_cast<Index>(same - distinct.begin()));
+        if (same != distinct.end()) continue;
+        distinct.push_back(std::move(images[i]));
+        of_distinct.push_back(std::move(reported[i]));
     }
-    images.resize(count);
-    reported.resize(count);
+    images = std::move(distinct);
+    reported = std::move(of_distinct);
     for (Material& material : result.asset.materials)
         for_each_texture(material, [&](TextureRef& texture) {
             if (texture) texture.image = number[texture.image];
