@@ -34,9 +34,7 @@ std::vector<LevelResult> made_levels(const Asset& source, const std::vector<Leve
     for (LevelResult& level : made) welded.add_to(level.result.report);
     return made;
 } catch (const engine::Cancelled&) {
-    std::vector<LevelResult> none(1);
-    none.front().result.report.stop = StopReason::cancelled;
-    return none;
+    return detail::cancelled_levels<LevelResult>();
 }
 
 }  // namespace

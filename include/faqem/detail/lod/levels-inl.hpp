@@ -98,9 +98,7 @@ FAQEM_INLINE std::vector<SimplifiedLevel> simplify_levels(const MeshView& mesh,
     for (SimplifiedLevel& level : chain) detail::report_removed_components(mesh, level.result);
     return chain;
 } catch (const engine::Cancelled&) {
-    std::vector<SimplifiedLevel> none(1);
-    none.front().result.report.stop = StopReason::cancelled;
-    return none;
+    return detail::cancelled_levels<SimplifiedLevel>();
 }
 
 FAQEM_NAMESPACE_END

@@ -39,6 +39,15 @@ struct Attempt : Result {
     std::uint64_t target = 0;
 };
 
+/// What is left of the levels of a cancelled run: one of them, or an empty one.
+template <class Out>
+std::vector<Out> cancelled_levels(Out level = {}) {
+    level.result.report.stop = StopReason::cancelled;
+    std::vector<Out> only;
+    only.push_back(std::move(level));
+    return only;
+}
+
 /// The steps of run_lod_chain(), which documents the template parameters.
 template <class Out, class Run, class Measure>
 class LodChain {
@@ -61,10 +70,10 @@ public:
             if (level_targets_[i].faces)
                 targets_.push_back(std::min(*level_targets_[i].faces, most));
             else if (!search(i, most))
-                return cancelled(out_[i]);
+                return cancelled_levels(std::move(out_[i]));
         }
         // Levels before the one that was cancelled are complete, but not measured, which can take many seconds.
-        if (!simplify_to_face_counts()) return cancelled(out_.back());
+        if (!simplify_to_face_counts()) return cancelled_levels(std::move(out_.back()));
         measure_levels();
         return std::move(out_);
     }
@@ -73,13 +82,6 @@ private:
     using Result = decltype(Out::result);
 
     static bool is_distance(const LevelTarget& target) { return !target.faces; }
-
-    static std::vector<Out> cancelled(Out& level) {
-        std::vector<Out> only;
-        only.push_back(std::move(level));
-        only.back().result.report.stop = StopReason::cancelled;
-        return only;
-    }
 
     // Simplifies level i, whose target is a distance. Returns false if cancelled.
     bool search(std::size_t i, std::uint64_t most) {
