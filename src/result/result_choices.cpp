@@ -206,8 +206,7 @@ std::vector<ResultChoice> result_choices(std::span<const TriedFaces> faces, cons
         const auto rounded = [&](std::uint64_t first) {
             const double factor =
                 static_cast<double>(roundings[r].bytes) / static_cast<double>(roundings[0].bytes);
-            return r == 0 ? first
-                          : static_cast<std::uint64_t>(std::ceil(factor * static_cast<double>(first)));
+            return static_cast<std::uint64_t>(std::ceil(factor * static_cast<double>(first)));
         };
         if (allocator.least().bytes > bytes) break;
         const std::uint64_t most = rounded(faces.front().bytes), least = rounded(faces.back().bytes);
