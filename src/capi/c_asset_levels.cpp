@@ -28,15 +28,13 @@ faqem_status faqem_asset_simplify_levels(const faqem_asset* asset, const faqem_o
     return capi::catch_exceptions(error, {{asset, "asset"}, {levels, "levels"}, {results, "results"}}, [&] {
         if (textures != FAQEM_LEVEL_TEXTURES_EACH && textures != FAQEM_LEVEL_TEXTURES_SHARED)
             throw OptionError("textures: unknown enumerator");
-        std::vector<SimplifiedAssetLevel> simplified = simplify_levels(
-            asset->asset, capi::to_levels(levels, level_count), capi::options_or_defaults(options),
-            textures == FAQEM_LEVEL_TEXTURES_SHARED ? LevelTextures::shared : LevelTextures::each);
-        if (!simplified.empty())
-            capi::warn_of_idle_options(options, asset->asset, simplified.front().result.report);
         std::vector<std::unique_ptr<faqem_asset>> objects;
-        objects.reserve(simplified.size());
-        for (SimplifiedAssetLevel& level : simplified)
+        for (SimplifiedAssetLevel& level : simplify_levels(
+                 asset->asset, capi::to_levels(levels, level_count), capi::options_or_defaults(options),
+                 textures == FAQEM_LEVEL_TEXTURES_SHARED ? LevelTextures::shared : LevelTextures::each)) {
+            if (objects.empty()) capi::warn_of_idle_options(options, asset->asset, level.result.report);
             objects.push_back(std::make_unique<faqem_asset>(std::move(level.result), level.error));
+        }
         for (std::size_t i = 0; i < level_count; ++i) results[i] = objects.at(i).release();
     });
 }
