@@ -29,11 +29,6 @@ View view_of(const Number* one, const OtherNumber* other, std::size_t count, std
     return one ? view(one) : view(other);
 }
 
-template <class Value>
-std::span<const Value> optional_array(const Value* array, std::size_t count) {
-    return array ? std::span(array, count) : std::span<const Value>();
-}
-
 }  // namespace
 
 MeshArrays::MeshArrays(const faqem_mesh& mesh) {
@@ -43,9 +38,9 @@ MeshArrays::MeshArrays(const faqem_mesh& mesh) {
     view.triangles =
         view_of<TriangleView>(mesh.triangles, mesh.short_triangles, mesh.face_count, mesh.triangle_stride,
                               mesh.triangle_step, "triangles", "with 32 and with 16 bits");
-    view.face_groups = optional_array(mesh.face_groups, mesh.face_count);
-    view.vertex_locks = optional_array(mesh.vertex_locks, mesh.vertex_count);
-    view.vertex_weights = optional_array(mesh.vertex_weights, mesh.vertex_count);
+    view.face_groups = {mesh.face_groups, mesh.face_groups ? mesh.face_count : 0};
+    view.vertex_locks = {mesh.vertex_locks, mesh.vertex_locks ? mesh.vertex_count : 0};
+    view.vertex_weights = {mesh.vertex_weights, mesh.vertex_weights ? mesh.vertex_count : 0};
     if ((mesh.corner_values != nullptr) != (mesh.corner_width > 0))
         throw InputError("", "corner_values", "corner_values and corner_width must both be set, or neither");
     if (!mesh.corner_values) return;
