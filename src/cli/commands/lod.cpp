@@ -290,7 +290,7 @@ std::vector<OptionInfo> chain_options(LodArguments& a) {
             format_option(a.format),
             text_option("--history", "FILE", a.history,
                         "Write the history of all levels to this file; for faqem truncate"),
-            rare(number_option("--pixel-error", "N", a.view_settings.pixel_error, above_zero,
+            rare(number_option("--pixel-error", "N", a.view_settings.pixel_error, {.excludes_min = true},
                                "Allowed error in pixels, for switch distances (default 1)")),
             rare(number_option("--fov", "ANGLE", a.view_settings.fov, {.min = 1, .max = 179},
                                "Vertical field of view in degrees, for switch distances (default 60)")),

@@ -34,7 +34,7 @@ OptionInfo text_option(const std::string& names, const std::string& value_name, 
 OptionInfo numeric_option(const std::string& names, const std::string& value_name, OptionKind kind,
                           const detail::OptionRange& range, const std::string& description,
                           std::function<void(double)> set) {
-    OptionInfo info{CLI::detail::split(names, ','), value_name, description, kind, range};
+    OptionInfo info{CLI::detail::split(names, ','), value_name, description, kind};
     info.read = [set = std::move(set), name = info.names.back(), range, kind](
                     const std::vector<std::string>& values, bool) {
         const std::string unit = kind == OptionKind::size ? "bytes" : "";

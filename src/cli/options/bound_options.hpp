@@ -15,8 +15,6 @@
 
 namespace faqem::cli {
 
-/// A number above 0.
-inline constexpr detail::OptionRange above_zero = {.excludes_min = true};
 /// A number of pixels, faces or others that must not be 0. \param max  largest number
 constexpr detail::OptionRange from_one(double max = 0x1p53) { return {.min = 1, .max = max}; }
 

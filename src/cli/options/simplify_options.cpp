@@ -11,15 +11,13 @@ using detail::OptionRow;
 
 OptionInfo option_of(const OptionRow& row, GivenOptions& given) {
     const bool is_flag = !row.flag_value.empty() && row.value_name.empty();
-    OptionInfo info{
-        {command_spelling(row)}, std::string(row.value_name), help_text(row), row.kind, row.range};
+    OptionInfo info{{command_spelling(row)}, std::string(row.value_name), help_text(row), row.kind};
     if (is_flag)
         info.kind = OptionKind::flag;
     else if (row.value_name.empty())
         info.value_name = row.choices;
     if (!row.letter.empty()) info.names.insert(info.names.begin(), "-" + std::string(row.letter));
     info.group = row.group;
-    info.suffix_choice = row.suffix_choice;
     info.read = [&row, &given, is_flag](const std::vector<std::string>& values, bool is_typed) {
         given.push_back({&row, is_flag ? std::string(row.flag_value) : values.back(), is_typed});
     };

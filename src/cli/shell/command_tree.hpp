@@ -17,13 +17,11 @@ struct OptionInfo {
     std::string value_name = {};     ///< placeholder of the value; words with bars between: its choices
     std::string description = {};    ///< what precedes the first semicolon is the line in --help
     detail::OptionKind kind = detail::OptionKind::text;
-    detail::OptionRange range = {};
-    std::string group = "Options";   ///< heading in help; empty: only in --help-all
-    std::string suffix_choice = {};  ///< choice that a number may follow: `smooth:30`
-    std::string excludes = {};       ///< option that cannot be given together with this one
+    std::string group = "Options";  ///< heading in help; empty: only in --help-all
+    std::string excludes = {};      ///< option that cannot be given together with this one
     bool is_required = false;
-    bool is_positional = false;        ///< of an option: it may also be the last word
-    int min_words = 1, max_words = 1;  ///< number of values
+    bool is_positional = false;  ///< of an option: it may also be the last word
+    int max_words = 1;           ///< largest number of values
 
     /// Receives the values after parsing, and whether they were typed: those of a profile are not. Throws OptionError if
     /// they are invalid. Empty: the parser itself handles the option.

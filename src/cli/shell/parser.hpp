@@ -22,7 +22,7 @@ inline CLI::Option* add_to_command(CLI::App& command, const OptionInfo& info) {
     if (info.is_positional) names.append(",").append(info.value_name);
     if (info.kind == detail::OptionKind::flag) return command.add_flag(names);
     CLI::Option* option = command.add_option(names);
-    option->required(info.is_required && !info.is_positional)->expected(info.min_words, info.max_words);
+    option->required(info.is_required && !info.is_positional)->expected(1, info.max_words);
     option->allow_extra_args(info.max_words > 1);
     if (info.kind == detail::OptionKind::list) option->delimiter(',');
     return option;
