@@ -67,10 +67,6 @@ std::uint64_t min_limit_of_ancestors(const fs::path& mount, const fs::path& grou
     return min_limit;
 }
 
-bool has_memory_controller(const std::string& controllers) {
-    return ("," + controllers + ",").find(",memory,") != std::string::npos;
-}
-
 /// Returns a size from /proc/self/status, in bytes; 0 if it is missing.
 std::uint64_t status_bytes(std::string_view key) {
     std::ifstream status("/proc/self/status");
@@ -126,15 +122,11 @@ std::uint64_t cgroup_memory_limit(const fs::path& membership, const fs::path& mo
     std::uint64_t min_limit = unlimited;
     std::ifstream in(membership);
     // Each line is NUMBER:CONTROLLERS:PATH; CONTROLLERS is empty in version 2.
-    for (std::string line; std::getline(in, line);) {
-        const std::size_t first = line.find(':');
-        const std::size_t second = line.find(':', first + 1);
-        if (first == std::string::npos || second == std::string::npos) continue;
-        const std::string controllers = line.substr(first + 1, second - first - 1);
-        const fs::path group = line.substr(second + 1);
+    std::string number, controllers, group;
+    while (std::getline(in, number, ':') && std::getline(in, controllers, ':') && std::getline(in, group)) {
         if (controllers.empty())
             min_limit = std::min(min_limit, min_limit_of_ancestors(mounts, group, "memory.max"));
-        if (has_memory_controller(controllers))
+        if (("," + controllers + ",").find(",memory,") != std::string::npos)
             min_limit = std::min(min_limit,
                                  min_limit_of_ancestors(mounts / "memory", group, "memory.limit_in_bytes"));
     }
