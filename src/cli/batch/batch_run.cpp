@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 /// the fault of the model.
 constexpr std::uint32_t max_crashes = 2, max_unended = 5;
 
-/// Adds the options of a model, with the names of the command.
-void set_own_options(BatchFile& file, const ListedModel& model, GivenOptions given) {
-    for (const auto& [name, value] : model.options.items()) {
+/// Reads the options that a list has for a model.
+void set_own_options(BatchFile& file, GivenOptions given) {
+    for (const auto& [name, value] : file.listed_options.items()) {
         const detail::OptionRow& row = detail::named_option(name);
         if (!(row.entry_points & detail::in_batch)) throw OptionError(name + ": is no option of faqem batch");
         given.emplace_back(&row, value.is_string()    ? value.get<std::string>()
@@ -38,14 +38,10 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
     return !relative.empty() && *relative.begin() != "..";
 }
 
-BatchFile file_of(const ListedModel& model, const RunArguments& arguments, const GivenOptions& given) {
-    const auto fail = [&](const std::string& what) { throw InputError("", model.id, what); };
-    BatchFile file;
-    file.name = model.id;
-    file.in = model.input;
-    file.bytes = model.bytes;
-    file.hash = model.hash;
-    file.out_name = model.output.empty() ? default_output(model.id, arguments.extension) : model.output;
+/// Gives a model of a list its output and options.
+void complete_model(BatchFile& file, const RunArguments& arguments, const GivenOptions& given) {
+    const auto fail = [&](const std::string& what) { throw InputError("", file.name, what); };
+    if (file.out_name.empty()) file.out_name = default_output(file.name, arguments.extension);
     const fs::path out = fs::path(file.out_name).lexically_normal();
     if (out.is_absolute() || out.empty() || *out.begin() == ".." || *out.begin() == ".")
         fail("the output '" + file.out_name + "' is outside the output directory");
@@ -54,12 +50,11 @@ BatchFile file_of(const ListedModel& model, const RunArguments& arguments, const
     if (is_inside(file.in, arguments.out_folder))
         fail("the input " + file.in.string() + " is inside the output directory");
     try {
-        if (!model.options.is_null()) set_own_options(file, model, given);
+        if (!file.listed_options.is_null()) set_own_options(file, given);
         check_extension(file.out, {".glb", ".gltf", ".vrm", ".obj", ".ply", ".stl"});
     } catch (const OptionError& error) {
-        throw OptionError(arguments.list.string() + ": " + model.id + ": " + error.what());
+        throw OptionError(arguments.list.string() + ": " + file.name + ": " + error.what());
     }
-    return file;
 }
 
 /// Whether a code says that the model itself is the reason, so that another attempt would end in the same way.
@@ -192,13 +187,14 @@ std::vector<BatchFile> models_of_shard(RunArguments& arguments, const GivenOptio
     std::map<std::string, std::string> owners;  // by output
     arguments.list_hash = read_list(
         arguments.list, [&](const std::string& id) { return arguments.shard.contains(id); },
-        [&](ListedModel&& model) {
-            files.push_back(file_of(model, arguments, given));
-            if (!ids.insert(model.id).second) throw InputError("", model.id, "two models have this id");
-            const auto [owner, is_new] = owners.emplace(files.back().out_name, model.id);
+        [&](BatchFile&& file) {
+            complete_model(file, arguments, given);
+            if (!ids.insert(file.name).second) throw InputError("", file.name, "two models have this id");
+            const auto [owner, is_new] = owners.emplace(file.out_name, file.name);
             if (!is_new)
-                throw InputError("", model.id,
-                                 "has the same output as " + owner->second + ": " + files.back().out_name);
+                throw InputError("", file.name,
+                                 "has the same output as " + owner->second + ": " + file.out_name);
+            files.push_back(std::move(file));
         });
     std::sort(files.begin(), files.end(), [](const BatchFile& a, const BatchFile& b) {
         return a.bytes != b.bytes ? a.bytes > b.bytes : a.name < b.name;

@@ -25,18 +25,18 @@ std::optional<std::string> leading_id(std::string_view line) {
     return std::string(line.substr(0, end));
 }
 
-ListedModel parse_line(const std::string& line) {
+BatchFile parse_line(const std::string& line) {
     const Json json = Json::parse(line, nullptr, false);
     if (!json.is_object()) throw InputError("", "", "is no JSON object");
-    ListedModel model;
-    json.at("id").get_to(model.id);
-    model.input = json.at("input").get<std::string>();
+    BatchFile model;
+    json.at("id").get_to(model.name);
+    model.in = json.at("input").get<std::string>();
     model.hash = json.value("sha256", "");
     model.bytes = json.value("bytes", std::uint64_t{0});
-    model.output = json.value("output", "");
-    if (json.contains("options")) model.options = json["options"];
-    if (model.id.empty() || model.input.empty()) throw InputError("", "", "has an empty id or input");
-    if (!model.options.is_null() && !model.options.is_object())
+    model.out_name = json.value("output", "");
+    if (json.contains("options")) model.listed_options = json["options"];
+    if (model.name.empty() || model.in.empty()) throw InputError("", "", "has an empty id or input");
+    if (!model.listed_options.is_null() && !model.listed_options.is_object())
         throw InputError("", "", "options is no object");
     return model;
 }
@@ -72,12 +72,12 @@ public:
         input_ = column("local_path");
     }
 
-    ListedModel model(const std::string& line) const {
+    BatchFile model(const std::string& line) const {
         const std::vector<std::string> fields = fields_of(line);
         if (fields.size() <= std::max(id_, input_)) throw InputError("", "", "has too few columns");
         if (fields[id_].empty() || fields[input_].empty())
             throw InputError("", "", "has no sha256 or no local_path");
-        return {.id = fields[id_], .input = fields[input_]};
+        return {.in = fields[input_], .name = fields[id_]};
     }
 
 private:
@@ -87,7 +87,7 @@ private:
 }  // namespace
 
 std::string read_list(const fs::path& list, const std::function<bool(const std::string& id)>& wanted,
-                      const std::function<void(ListedModel&&)>& take) {
+                      const std::function<void(BatchFile&&)>& take) {
     std::ifstream in(list, std::ios::binary);
     if (!in || fs::is_directory(list)) throw ReadError(list.string(), "", "cannot read");
     std::optional<TableReader> table;
@@ -107,9 +107,9 @@ std::string read_list(const fs::path& list, const std::function<bool(const std::
             }
             if (const std::optional<std::string> id = leading_id(line); id && !table && !wanted(*id))
                 continue;
-            ListedModel model = table ? table->model(line) : parse_line(line);
-            if (!wanted(model.id)) continue;
-            model.input = list.parent_path() / model.input;
+            BatchFile model = table ? table->model(line) : parse_line(line);
+            if (!wanted(model.name)) continue;
+            model.in = list.parent_path() / model.in;
             take(std::move(model));
         } catch (const Json::exception& error) {
             throw InputError(list.string(), "line " + std::to_string(number), error.what());
@@ -121,14 +121,14 @@ std::string read_list(const fs::path& list, const std::function<bool(const std::
     return hash.finish();
 }
 
-std::string list_line(const ListedModel& model, const fs::path& folder) {
+std::string list_line(const BatchFile& model, const fs::path& folder) {
     const fs::path from = fs::absolute(folder.empty() ? "." : folder).lexically_normal();
-    Json json = {{"id", model.id},
-                 {"input", fs::absolute(model.input).lexically_normal().lexically_relative(from).string()},
+    Json json = {{"id", model.name},
+                 {"input", fs::absolute(model.in).lexically_normal().lexically_relative(from).string()},
                  {"sha256", model.hash},
                  {"bytes", model.bytes}};
-    if (!model.output.empty()) json["output"] = model.output;
-    if (!model.options.is_null()) json["options"] = model.options;
+    if (!model.out_name.empty()) json["output"] = model.out_name;
+    if (!model.listed_options.is_null()) json["options"] = model.listed_options;
     return json_line(json);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/process/json.hpp"
 #include "faqem/options.hpp"
 
 namespace faqem::cli {
@@ -33,6 +34,7 @@ struct BatchFile {
     std::uint64_t bytes = 0;    ///< size of the input file; 0 if it cannot be read
     std::string problem = {};   ///< why the input cannot be read; empty: it can, as far as is known
     std::string hash = {};      ///< model_hash() that the input must have; empty: any
+    Json listed_options = {};   ///< of this model in a list, with the names of the command; null: none
     std::uint32_t crashes = 0;  ///< attempts that ended so: the next one gets all memory
     bool has_begun = false;     ///< in this run
     std::optional<Options> options = {};  ///< instead of those of the batch

@@ -29,47 +29,44 @@ struct ListArguments {
 bool is_list(const fs::path& file) { return file.extension() == ".jsonl" || file.extension() == ".csv"; }
 
 /// Appends the models of a folder, of another list, or a model.
-void add_models(const fs::path& source, std::vector<ListedModel>& models) {
-    const auto add_file = [&](const fs::path& file, const std::string& id) {
-        models.push_back({.id = id, .input = file});
-    };
+void add_models(const fs::path& source, std::vector<BatchFile>& models) {
     if (fs::is_directory(source)) {
         std::size_t others = 0;
-        for (const BatchFile& file : find_models(source, others)) add_file(file.in, file.name);
+        append(models, find_models(source, others));
     } else if (is_list(source)) {
         read_list(
             source, [](const std::string&) { return true; },
-            [&](ListedModel&& model) { models.push_back(std::move(model)); });
+            [&](BatchFile&& model) { models.push_back(std::move(model)); });
     } else {
-        add_file(source, source.filename().string());
+        models.push_back({.in = source, .name = source.filename().string()});
     }
 }
 
 /// \throws InputError  two models have the same id or output
-void check_unique(const std::vector<ListedModel>& models) {
-    std::map<std::string, const ListedModel*> ids, outputs;
-    const auto check = [](auto& owners, const std::string& key, const ListedModel& model, const char* what) {
+void check_unique(const std::vector<BatchFile>& models) {
+    std::map<std::string, const BatchFile*> ids, outputs;
+    const auto check = [](auto& owners, const std::string& key, const BatchFile& model, const char* what) {
         const auto [owner, is_new] = owners.emplace(key, &model);
         if (!is_new)
             throw InputError(
-                model.input.string(), "",
-                "has the same " + std::string(what) + " as " + owner->second->input.string() + ": " + key);
+                model.in.string(), "",
+                "has the same " + std::string(what) + " as " + owner->second->in.string() + ": " + key);
     };
-    for (const ListedModel& model : models) {
-        check(ids, model.id, model, "id");
-        if (!model.output.empty())
-            check(outputs, fs::path(model.output).lexically_normal().string(), model, "output");
+    for (const BatchFile& model : models) {
+        check(ids, model.name, model, "id");
+        if (!model.out_name.empty())
+            check(outputs, fs::path(model.out_name).lexically_normal().string(), model, "output");
     }
 }
 
 int run(const ListArguments& arguments) {
-    std::vector<ListedModel> models;
+    std::vector<BatchFile> models;
     for (const std::string& source : arguments.sources) add_models(source, models);
     check_unique(models);
     std::string lines;
     const fs::path folder = fs::path(arguments.out).parent_path();
-    for (ListedModel& model : models) {
-        model.hash = model_hash(model.input, &model.bytes);
+    for (BatchFile& model : models) {
+        model.hash = model_hash(model.in, &model.bytes);
         lines += list_line(model, folder);
     }
     if (arguments.out.empty())
