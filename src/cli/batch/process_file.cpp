@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 /// Limits the memory of the process to what is granted.
 class GrantedMemory {
 public:
-    GrantedMemory(const BatchContext& work, const BatchAttempt& attempt)
-        : ask_(attempt.ask_memory),
+    GrantedMemory(const BatchContext& work, const AskMemory& ask)
+        : ask_(ask),
           all_(std::max(work.max_memory, min_process_memory)),
           // Image libraries start a thread per hardware thread, besides those of the model.
           threads_(1 + work.options.threads + detail::thread_count(0)) {
@@ -49,7 +49,7 @@ private:
         limit_process_memory(granted_, threads_);
     }
 
-    const std::function<std::uint64_t(std::uint64_t)>& ask_;
+    const AskMemory& ask_;
     std::uint64_t all_, threads_, granted_ = 0;
 };
 
@@ -120,10 +120,10 @@ Json try_process(const BatchFile& file, const BatchContext& work, GrantedMemory&
 
 }  // namespace
 
-Json process_batch_file(const BatchFile& file, const BatchContext& work, const BatchAttempt& attempt) {
-    GrantedMemory memory(work, attempt);
+Json process_batch_file(const BatchFile& file, const BatchContext& work, Overwrite overwrite,
+                        const AskMemory& ask_memory) {
+    GrantedMemory memory(work, ask_memory);
     reset_peak_memory();
-    Overwrite overwrite = attempt.overwrite;
     detail::Stopwatch watch;
     Json line;
     try {

@@ -27,20 +27,17 @@ struct BatchContext {
     bool until_eof = false;  ///< the end of standard input counts as SIGTERM
 };
 
-/// How one model is to be simplified.
-struct BatchAttempt {
-    Overwrite overwrite = Overwrite::no;
-    /// Asks for memory, which replaces that of earlier calls, and waits for it. Takes and returns bytes; less is returned
-    /// only if no other model uses memory. Empty: all memory is granted.
-    std::function<std::uint64_t(std::uint64_t)> ask_memory;
-};
+/// Asks for memory, which replaces that of earlier calls, and waits for it. Takes and returns bytes; less is returned only
+/// if no other model uses memory. Empty: all memory is granted.
+using AskMemory = std::function<std::uint64_t(std::uint64_t)>;
 
 /// Simplifies one model as `faqem simplify` does. A result with BatchFile::earlier is skipped if it is up to date, and may
 /// be overwritten if nobody else has changed it. Limits the memory of the process to what is granted.
 /// \return the members of the line that is printed for the model, without its names (see docs/reference.md), and
 /// `record`: what a Ledger has besides. If the memory that was granted is exhausted, and there is more, the member
 /// `retry`, and `overwrite` for the next attempt
-Json process_batch_file(const BatchFile& file, const BatchContext& work, const BatchAttempt& attempt);
+Json process_batch_file(const BatchFile& file, const BatchContext& work, Overwrite overwrite,
+                        const AskMemory& ask_memory);
 
 /// Returns the line that is printed for a model. \param members  of process_batch_file()
 std::string printed_line(const BatchFile& file, const Json& members);

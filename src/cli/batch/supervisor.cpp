@@ -34,15 +34,15 @@ constexpr std::uint64_t all_memory = std::numeric_limits<std::uint64_t>::max();
 void work_on_models(Channel& channel, const std::vector<BatchFile>& files, const BatchContext& work) {
     return_freed_memory();
     while (const std::optional<Json> request = channel.receive()) {
-        BatchAttempt attempt;
-        if (request->at("overwrite")) attempt.overwrite = Overwrite::yes;
+        const Overwrite overwrite = request->at("overwrite") ? Overwrite::yes : Overwrite::no;
+        AskMemory ask_memory;
         if (!request->at("alone"))
-            attempt.ask_memory = [&](std::uint64_t bytes) {
+            ask_memory = [&](std::uint64_t bytes) {
                 channel.send({{"memory", bytes}});
                 const std::optional<Json> answer = channel.receive();
                 return answer ? answer->at("memory").get<std::uint64_t>() : 0;
             };
-        channel.send(process_batch_file(files[request->at("model")], work, attempt));
+        channel.send(process_batch_file(files[request->at("model")], work, overwrite, ask_memory));
     }
 }
 
