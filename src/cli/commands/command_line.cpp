@@ -1,7 +1,5 @@
 #include "cli/commands/command_line.hpp"
 
-#include <string>
-
 #include "cli/commands/commands.hpp"
 #include "cli/options/bound_options.hpp"
 #include "cli/options/profile.hpp"

@@ -47,12 +47,6 @@ inline double switch_distance(double error, const ViewSettings& view_settings) {
            (view_height_at_unit_distance(view_settings) * view_settings.pixel_error);
 }
 
-/// Returns the error that covers `pixels` pixels if the camera has the given distance from the nearest point
-/// of the model, model units.
-inline double error_from_pixels(double pixels, double distance, const ViewSettings& view_settings) {
-    return pixels * view_height_at_unit_distance(view_settings) * distance / view_settings.screen_height;
-}
-
 /// Parses one level: `0.5` or `50%` (ratio of faces), `5000` (number of faces), `error:0.01` (distance in model units),
 /// `error:0.1%` (distance relative to the diagonal) or `pixels:2@50` (an error that covers at most 2 pixels at a distance
 /// of 50 model units from the camera).
@@ -72,9 +66,10 @@ inline Level parse_level(const std::string& text, const ViewSettings& view_setti
         const std::size_t at = rest.find('@');
         if (at == std::string::npos)
             throw OptionError("--levels: '" + text + "' is not pixels:N@DISTANCE with two numbers");
-        return model_units(error_from_pixels(*parse(rest.substr(0, at), OptionKind::number).number,
-                                             *parse(rest.substr(at + 1), OptionKind::number).number,
-                                             view_settings));
+        const double size = *parse(rest.substr(0, at), OptionKind::number).number,
+                     from = *parse(rest.substr(at + 1), OptionKind::number).number;
+        return model_units(size * view_height_at_unit_distance(view_settings) * from /
+                           view_settings.screen_height);
     }
     const double value = *parse(text, OptionKind::share).number;
     if (value <= 1) return ratio(value);

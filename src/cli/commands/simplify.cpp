@@ -174,21 +174,6 @@ int run(SimplifyCommandArguments arguments) {
     return exit_ok;
 }
 
-std::vector<OptionInfo> run_options(SimplifyCommandArguments& a) {
-    return {
-        rare(size_option("--max-memory", a.max_memory,
-                         "Use at most this memory, as 8GB or 500MB; or end with code 11 (default: the "
-                         "machine's memory)")),
-        report_option(a.report),
-        rare(text_option("--history", "FILE", a.history, "Write the collapse history to this file")),
-        rare(text_option("--correspondence", "FILE", a.correspondence,
-                         "Write the position of each texel of the new atlas on the original to this file")),
-        profile_option(),
-        builtin_profile_option(),
-        force_option(a.force),
-        quiet_option(a.quiet)};
-}
-
 }  // namespace
 
 CommandInfo simplify_command() {
@@ -204,7 +189,18 @@ CommandInfo simplify_command() {
     add_output(command, "OUT", arguments->out, detail::listed_extensions(detail::FormatUse::write));
     append(command.options, table_options(detail::in_simplify, arguments->options));
     append(command.options, strict_options(arguments->strict, arguments->strict_target));
-    append(command.options, run_options(*arguments));
+    append(
+        command.options,
+        {rare(size_option("--max-memory", arguments->max_memory,
+                          "Use at most this memory, as 8GB or 500MB; or end with code 11 (default: the "
+                          "machine's memory)")),
+         report_option(arguments->report),
+         rare(
+             text_option("--history", "FILE", arguments->history, "Write the collapse history to this file")),
+         rare(text_option("--correspondence", "FILE", arguments->correspondence,
+                          "Write the position of each texel of the new atlas on the original to this file")),
+         profile_option(), builtin_profile_option(), force_option(arguments->force),
+         quiet_option(arguments->quiet)});
     command.run = [arguments] { return run(*arguments); };
     return command;
 }

@@ -41,21 +41,16 @@ void check_written_files(std::span<const fs::path> files) {
     check_side_files_unshared(files);
 }
 
-/// Returns the first of the files that is the same as `file`, or null. Files that do not exist are never the
-/// same.
-const fs::path* find_same(std::span<const fs::path> files, const fs::path& file) {
-    for (const fs::path& one : files) {
-        std::error_code error;
-        if (fs::equivalent(one, file, error)) return &one;
-    }
-    return nullptr;
-}
-
 void check_owner(const fs::path& owner, std::span<const fs::path> files) {
     std::error_code error;
-    if (!fs::is_regular_file(owner, error) || find_same(files, owner)) return;
+    // Files that do not exist are never the same.
+    const auto same_as = [&](const fs::path& other) {
+        return std::ranges::find_if(files,
+                                    [&](const fs::path& one) { return fs::equivalent(one, other, error); });
+    };
+    if (!fs::is_regular_file(owner, error) || same_as(owner) != files.end()) return;
     for (const fs::path& needed : detail::referenced_files(owner, detail::References::all))
-        if (const fs::path* file = find_same(files, needed))
+        if (const auto file = same_as(needed); file != files.end())
             throw WriteError(file->string() + ": is needed by " + owner.string() +
                              "; choose another output name");
 }
