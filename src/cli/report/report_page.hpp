@@ -47,26 +47,23 @@ inline std::string name_of(const FlattenedModel& model) {
 }
 
 inline std::string counts_table(const FlattenedModel& a, const FlattenedModel& b) {
-    const auto row = [](const char* what, std::uint64_t of_a, std::uint64_t of_b) {
-        const bool has_share = of_a > 0;
+    const auto row = [](const char* what, std::uint64_t of_a, std::uint64_t of_b,
+                        std::string (*shown)(std::uint64_t) = render::with_commas) {
         return std::vector<std::string>{
-            what, render::with_commas(of_a), render::with_commas(of_b),
-            has_share ? shown_percent(static_cast<double>(of_b) / static_cast<double>(of_a)) : "–"};
+            what, shown(of_a), shown(of_b),
+            of_a > 0 ? shown_percent(static_cast<double>(of_b) / static_cast<double>(of_a)) : "–"};
     };
-    std::vector<std::vector<std::string>> rows = {
-        row("Faces", a.info.faces, b.info.faces),
-        row("Vertices", a.info.vertices, b.info.vertices),
-        row("Components (connected pieces)", a.info.components, b.info.components),
-        row("Boundary edges (of one face)", a.info.boundary_edges, b.info.boundary_edges),
-        row("Non-manifold edges (of three or more faces)", a.info.nonmanifold_edges,
-            b.info.nonmanifold_edges),
-        row("Materials", a.asset.materials.size(), b.asset.materials.size()),
-        row("Images", a.asset.images.size(), b.asset.images.size()),
-        row("Bytes", a.asset.file_bytes, b.asset.file_bytes)};
-    rows.back()[1] = shown_bytes(a.asset.file_bytes);
-    rows.back()[2] = shown_bytes(b.asset.file_bytes);
-    return html_table("Counts, after welding positions that are equal or differ by rounding",
-                      {"", name_of(a), name_of(b), "ratio"}, rows);
+    return html_table(
+        "Counts, after welding positions that are equal or differ by rounding",
+        {"", name_of(a), name_of(b), "ratio"},
+        {row("Faces", a.info.faces, b.info.faces), row("Vertices", a.info.vertices, b.info.vertices),
+         row("Components (connected pieces)", a.info.components, b.info.components),
+         row("Boundary edges (of one face)", a.info.boundary_edges, b.info.boundary_edges),
+         row("Non-manifold edges (of three or more faces)", a.info.nonmanifold_edges,
+             b.info.nonmanifold_edges),
+         row("Materials", a.asset.materials.size(), b.asset.materials.size()),
+         row("Images", a.asset.images.size(), b.asset.images.size()),
+         row("Bytes", a.asset.file_bytes, b.asset.file_bytes, shown_bytes)});
 }
 
 /// A row of a table of both directions.
