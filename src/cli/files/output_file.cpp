@@ -10,7 +10,6 @@
 #include <iostream>
 #include <set>
 #include <span>
-#include <sstream>
 
 #include "asset/file_format.hpp"
 #include "asset/io/file.hpp"
@@ -40,24 +39,20 @@ void clean_folder_once(const fs::path& folder) {
 /// asked about.
 bool user_allows_overwriting(const std::vector<fs::path>& files) {
     if (isatty(STDIN_FILENO) == 0 || isatty(STDERR_FILENO) == 0) return false;
-    const std::set<fs::path> different(files.begin(), files.end());
-    std::vector<std::string> existing;
-    for (const fs::path& file : different) {
+    std::vector<fs::path> existing;
+    for (const fs::path& file : std::set<fs::path>(files.begin(), files.end())) {
         std::error_code error;
         if (!fs::is_regular_file(file, error)) continue;
         check_unprotected(file);
-        const auto changed = std::chrono::file_clock::to_sys(fs::last_write_time(file));
-        const auto time =
-            std::chrono::system_clock::to_time_t(std::chrono::floor<std::chrono::seconds>(changed));
-        std::ostringstream text;
-        text << file.string() << " exists (" << shown_bytes(fs::file_size(file)) << ", "
-             << std::put_time(std::localtime(&time), "%Y-%m-%d %H:%M") << ")";
-        existing.push_back(text.str());
+        existing.push_back(file);
     }
     if (existing.empty()) return false;
+    const auto changed = std::chrono::file_clock::to_sys(fs::last_write_time(existing[0]));
+    const auto time = std::chrono::system_clock::to_time_t(std::chrono::floor<std::chrono::seconds>(changed));
     install_signal_handlers();
     const ExitOnInterrupt exit_on_interrupt;
-    std::cerr << "faqem: " << existing[0];
+    std::cerr << "faqem: " << existing[0].string() << " exists (" << shown_bytes(fs::file_size(existing[0]))
+              << ", " << std::put_time(std::localtime(&time), "%Y-%m-%d %H:%M") << ")";
     if (existing.size() > 1) std::cerr << " and " << existing.size() - 1 << " more";
     std::cerr << "; overwrite? [y/N] " << std::flush;
     std::string answer;
