@@ -72,7 +72,7 @@ public:
           work_(work),
           print_(print),
           ledger_(arguments.out_folder, has_list_ ? arguments.shard.name() : "directory",
-                  has_list_ ? !arguments.redoes : arguments.resumes) {
+                  arguments.reads_records) {
         if (has_list_) {
             run_ = {{"shards", arguments.shard.count},
                     {"options", work.options_key},
@@ -90,7 +90,10 @@ public:
 
     ExitCode run() {
         process_batch(todo_, work_,
-                      {[this](std::size_t i) { begin(i); },
+                      {[this](std::size_t i) {
+                           todo_[i].has_begun = true;
+                           ledger_.begin(todo_[i]);
+                       },
                        [this](std::size_t i, const Json& line) { return end(i, line); }});
         if (!has_list_) return code_;
         if (done_ + refused_ + poisoned_ < models_) return exit_try_again;
@@ -123,11 +126,6 @@ private:
         ++poisoned_;
         ledger_.add(file, "poisoned", {{"message", reason}});
         print_(printed_line(file, {{"status", "poisoned"}, {"code", exit_internal}, {"message", reason}}));
-    }
-
-    void begin(std::size_t i) {
-        todo_[i].has_begun = true;
-        ledger_.begin(todo_[i]);
     }
 
     NextStep end(std::size_t i, const Json& line) {

@@ -20,10 +20,8 @@ struct RunArguments {
     std::string extension;  ///< of outputs that the list does not name, with the dot
     Shard shard = {};
     std::string list_hash = {};  ///< SHA-256 of the list, which models_of_shard() sets
-    /// Without a list: results that are up to date are skipped; with one they are always.
-    bool resumes = false;
-    bool redoes = false;        ///< with a list: also models that are done
-    bool replaces_run = false;  ///< with a list: the directory may have the results of another run
+    bool reads_records = false;  ///< what earlier attempts have done is not done again
+    bool replaces_run = false;   ///< with a list: the directory may have the results of another run
 };
 
 /// The models of a shard, by decreasing size of the input, then by id. Reads the list once.

@@ -114,8 +114,7 @@ private:
 int run_models(const BatchArguments& arguments, const std::string& out) {
     RunArguments run{arguments.list, out, "." + arguments.format};
     run.shard = parse_shard(arguments.shard);
-    run.resumes = arguments.resume;
-    run.redoes = arguments.force;
+    run.reads_records = arguments.list.empty() ? arguments.resume : !arguments.force;
     run.replaces_run = arguments.new_run;
     std::size_t others = 0;
     const std::vector<BatchFile> files = arguments.list.empty()
