@@ -58,7 +58,7 @@ private:
 
     std::filesystem::path file_;
     detail::Descriptor out_;
-    std::map<std::string, ModelHistory> histories_;  // by key_text()
+    std::map<std::string, ModelHistory> histories_;  // by id, hash and options
     std::map<std::string, EarlierResult> results_;   // by BatchFile::out_name
 };
 

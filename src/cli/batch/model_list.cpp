@@ -58,31 +58,24 @@ std::vector<std::string> fields_of(const std::string& line) {
     return fields;
 }
 
-/// Reads the lines of a table as those of a list.
-class TableReader {
-public:
-    explicit TableReader(const std::string& header) {
-        const std::vector<std::string> names = fields_of(header);
-        const auto column = [&](const char* name) {
-            const auto found = std::find(names.begin(), names.end(), name);
-            if (found == names.end()) throw InputError("", "", std::string("there is no column ") + name);
-            return static_cast<std::size_t>(found - names.begin());
-        };
-        id_ = column("sha256");
-        input_ = column("local_path");
-    }
+using LineReader = std::function<BatchFile(const std::string& line)>;
 
-    BatchFile model(const std::string& line) const {
+/// Reads the lines of a table with this header as those of a list.
+LineReader table_reader(const std::string& header) {
+    const std::vector<std::string> names = fields_of(header);
+    const auto column = [&](const char* name) {
+        const auto found = std::ranges::find(names, name);
+        if (found == names.end()) throw InputError("", "", std::string("there is no column ") + name);
+        return static_cast<std::size_t>(found - names.begin());
+    };
+    return [id = column("sha256"), input = column("local_path")](const std::string& line) -> BatchFile {
         const std::vector<std::string> fields = fields_of(line);
-        if (fields.size() <= std::max(id_, input_)) throw InputError("", "", "has too few columns");
-        if (fields[id_].empty() || fields[input_].empty())
+        if (fields.size() <= std::max(id, input)) throw InputError("", "", "has too few columns");
+        if (fields[id].empty() || fields[input].empty())
             throw InputError("", "", "has no sha256 or no local_path");
-        return {.in = fields[input_], .name = fields[id_]};
-    }
-
-private:
-    std::size_t id_ = 0, input_ = 0;
-};
+        return {.in = fields[input], .name = fields[id]};
+    };
+}
 
 }  // namespace
 
@@ -90,8 +83,8 @@ std::string read_list(const fs::path& list, const std::function<bool(const std::
                       const std::function<void(BatchFile&&)>& take) {
     std::ifstream in(list, std::ios::binary);
     if (!in || fs::is_directory(list)) throw ReadError(list.string(), "", "cannot read");
-    std::optional<TableReader> table;
     const bool is_table = list.extension() == ".csv";
+    LineReader read = is_table ? LineReader() : parse_line;
     std::uint64_t number = 0;
     Sha256 hash;
     for (std::string line; std::getline(in, line);) {
@@ -101,13 +94,13 @@ std::string read_list(const fs::path& list, const std::function<bool(const std::
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.empty()) continue;
         try {
-            if (is_table && !table) {
-                table.emplace(line);
+            if (!read) {
+                read = table_reader(line);
                 continue;
             }
-            if (const std::optional<std::string> id = leading_id(line); id && !table && !wanted(*id))
+            if (const std::optional<std::string> id = leading_id(line); id && !is_table && !wanted(*id))
                 continue;
-            BatchFile model = table ? table->model(line) : parse_line(line);
+            BatchFile model = read(line);
             if (!wanted(model.name)) continue;
             model.in = list.parent_path() / model.in;
             take(std::move(model));

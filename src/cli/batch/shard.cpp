@@ -30,14 +30,14 @@ Shard checked_shard(std::uint64_t index, std::uint64_t count) {
     return {index, count};
 }
 
-/// A variable with the index of a task, and the one with the number of tasks.
+/// A variable with the index of a task, and the one with the number of tasks; empty: there is none.
 struct TaskVariables {
     const char *index, *count;
 };
-constexpr TaskVariables task_variables[] = {{"FAQEM_SHARD_INDEX", nullptr},
+constexpr TaskVariables task_variables[] = {{"FAQEM_SHARD_INDEX", ""},
                                             {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT"},
                                             {"AWS_BATCH_JOB_ARRAY_INDEX", "AWS_BATCH_JOB_ARRAY_SIZE"},
-                                            {"JOB_COMPLETION_INDEX", nullptr},
+                                            {"JOB_COMPLETION_INDEX", ""},
                                             {"RANK", "WORLD_SIZE"}};
 
 Shard automatic_shard(const Environment& environment) {
@@ -52,8 +52,7 @@ Shard automatic_shard(const Environment& environment) {
         if (!index) continue;
         *index += number("FAQEM_SHARD_OFFSET").value_or(0);
         if (const auto count = number("FAQEM_SHARD_COUNT")) return checked_shard(*index, *count);
-        const std::optional<std::uint64_t> count =
-            task.count ? number(task.count) : std::optional<std::uint64_t>();
+        const std::optional<std::uint64_t> count = number(task.count);
         if (!count)
             throw OptionError(std::string("--shard auto: ") + task.index +
                               " is set, but not the number of shards; set FAQEM_SHARD_COUNT");
