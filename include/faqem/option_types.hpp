@@ -111,6 +111,7 @@ enum class Budget {
 
 /// Whether errors on hidden surface count less; assets only. See docs/method.md.
 enum class Visibility {
+    automatic,  ///< in textured scenes surface deep inside counts a tenth, see docs/method.md
     ignored,
     weighted,  ///< costs are weighted by the visibility of the surface from outside the scene, at least 1/50
 };

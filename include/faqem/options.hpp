@@ -74,7 +74,7 @@ struct QuantizeOptions {
 struct Options {
     Target target = {};
     Budget budget = Budget::scene;
-    Visibility visibility = Visibility::ignored;
+    Visibility visibility = Visibility::automatic;
     /// Without a target, the result is the smallest mesh found within this distance of the original. With a
     /// target, one run is made and measured. In both cases the upper bound of the distance decides, see
     /// Report::max_error.

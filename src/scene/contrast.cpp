@@ -13,6 +13,7 @@
 #include "faqem/error.hpp"
 #include "render/texture_sampling.hpp"
 #include "render/visible_points.hpp"
+#include "scene/layers.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/part_components.hpp"
 #include "scene/placed_parts.hpp"
@@ -25,6 +26,7 @@ using render::VisiblePoint;
 
 constexpr std::size_t view_count = 12;
 constexpr std::uint32_t picture_size = 256;
+constexpr double most_faces = 1e6;
 constexpr double least_factor = 2, largest_factor = 10;
 
 // Of the pixels of a component: the sum of squared differences, and their number.
@@ -128,6 +130,11 @@ private:
 };
 
 }  // namespace
+
+bool is_weighted_by_pictures(const Asset& scene, const Options& options) {
+    return separates_layers(scene, options) && options.visibility != Visibility::weighted &&
+           shown_faces(scene, instances(scene)) <= most_faces;
+}
 
 std::vector<std::vector<float>> contrast_weights(const Asset& scene, const RunContext& context) {
     std::vector<std::vector<float>> result(scene.parts.size());

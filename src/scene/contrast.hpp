@@ -6,8 +6,13 @@
 
 #include "faqem/asset.hpp"
 #include "faqem/engine/util/run_context.hpp"
+#include "faqem/options.hpp"
 
 namespace faqem::detail {
+
+/// Whether pictures of the scene decide about factors on costs: where layers are separated, unless visibility does, and in
+/// scenes that show at most a million faces.
+bool is_weighted_by_pictures(const Asset& scene, const Options& options);
 
 /// Computes factors on the costs at vertices. Components of the scene whose colour differs much from what is behind them,
 /// such as eyes, buckles and letters, have larger factors: people look at them, but errors in them are small distances.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "asset/scene/messages.hpp"
@@ -121,7 +122,7 @@ public:
     const VertexWeights& weights() const { return *weights_; }
 
     std::vector<SimplifiedParts> operator()(std::span<const std::uint64_t> targets) {
-        begin(targets.size());
+        begin(targets.size(), targets.back());
         std::vector<SimplifiedParts> results = run(budgets(targets));
         for (std::size_t i = 0; i < shares_.size(); ++i)
             warn_of_small_shares(source_, shares_[i], results[i]);
@@ -130,7 +131,7 @@ public:
 
     /// Simplifies all parts to given face counts, by part.
     SimplifiedParts to_face_counts(std::span<const std::uint64_t> counts) {
-        begin(1);
+        begin(1, std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
         std::vector<std::vector<std::uint64_t>> share;
         for (const std::uint64_t count : counts) share.push_back({count});
         return std::move(run(share).front());
@@ -138,7 +139,7 @@ public:
 
     /// Simplifies each part with a function. \return nothing if it returned nothing for a part
     std::optional<SimplifiedParts> with(const SimplifyPart& simplify) {
-        begin(1);
+        begin(1, 0);
         bool is_complete = true;
         std::vector<SimplifiedParts> results = run_parts(
             [&](std::size_t p, const MeshView& view, const Options& own, const RunContext& of_part) {
@@ -153,13 +154,14 @@ public:
     }
 
 private:
-    void begin(std::size_t levels) {
+    // \param fewest_faces  of a level, if it is known
+    void begin(std::size_t levels, std::uint64_t fewest_faces) {
         results_.resize(levels);
         for (SimplifiedParts& level : results_) {
             level.parts.resize(source_.parts.size());
             level.report.preset = options_.preset;
         }
-        if (!weights_) compute_weights();
+        if (!weights_) compute_weights(static_cast<double>(fewest_faces) / faces_);
     }
 
     std::vector<SimplifiedParts> run(const std::vector<std::vector<std::uint64_t>>& share) {
@@ -229,15 +231,18 @@ private:
         return run_to_targets(view, targets, own, context);
     }
 
-    void compute_weights() {
+    void compute_weights(double share) {
         const Stopwatch watch;
         context_.show(Phase::simplify, 0);
         weights_.emplace();
         context_.in_time([&] {
             if (options_.visibility == Visibility::weighted)
-                use_visibility(vertex_visibility(source_, context_));
-            else if (separates_layers(source_, options_))
-                weights_ = contrast_weights(source_, context_);
+                return use_visibility(vertex_visibility(source_, context_));
+            if (!is_weighted_by_pictures(source_, options_)) return;
+            weights_ = contrast_weights(source_, context_);
+            // What has no textures is measured rather than looked at.
+            if (options_.visibility == Visibility::automatic && !source_.images.empty())
+                report_hidden(lower_hidden_weights(source_, share, *weights_, context_));
         });
         results_.front().report.seconds.simplify += watch.seconds();
     }
@@ -245,10 +250,13 @@ private:
     void use_visibility(VertexVisibility seen) {
         weights_ = std::move(seen.weights);
         const std::string warning = visibility_warning(source_);
-        for (SimplifiedParts& level : results_) {
-            level.report.vertices_hidden = seen.hidden_vertices;
-            if (!warning.empty()) level.report.warnings.push_back(warning);
-        }
+        if (!warning.empty())
+            for (SimplifiedParts& level : results_) level.report.warnings.push_back(warning);
+        report_hidden(seen.hidden_vertices);
+    }
+
+    void report_hidden(std::uint64_t vertices) {
+        for (SimplifiedParts& level : results_) level.report.vertices_hidden = vertices;
     }
 
     // Face counts by part and target; in descending order for every part.

@@ -68,7 +68,7 @@ TEST_CASE("weighted visibility with max_error needs a target") {
         o.visibility = Visibility::weighted;
     };
     CHECK(option_complaint(both) ==
-          "visibility must be ignored if max_error is given without target ratio or target face count: "
+          "visibility must not be weighted if max_error is given without target ratio or target face count: "
           "distances are not weighted");
     CHECK(option_complaint([&](Options& o) { both(o), o.target = faces(10); }) == "accepted");
     CHECK(option_complaint([&](Options& o) { both(o), o.visibility = Visibility::ignored; }) == "accepted");

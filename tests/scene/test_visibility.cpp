@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "asset/gltf/source_document.hpp"
 #include "faqem/bake.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
 using namespace faqem;
+using detail::Json;
 using detail::min_visibility;
 using detail::vertex_visibility;
 using detail::VertexVisibility;
@@ -133,7 +135,7 @@ TEST_CASE("visibility does not depend on the number of threads") {
 
 TEST_CASE("weighted visibility moves faces from hidden to visible surface") {
     const Asset asset = shell_around(test::shaken(icosphere(4), 0.02, 3), 4);
-    Options options{.target = ratio(0.1)};
+    Options options{.target = ratio(0.1), .visibility = Visibility::ignored};
     const SimplifiedParts all = simplify_parts(asset, options);
     CHECK(all.report.vertices_hidden == 0);
     options.visibility = Visibility::weighted;
@@ -147,6 +149,44 @@ TEST_CASE("weighted visibility moves faces from hidden to visible surface") {
     CHECK(2 * faces(seen, 0) < faces(all, 0));
     CHECK(faces(seen, 1) > faces(all, 1));
     CHECK(seen.report.warnings.empty());
+}
+
+TEST_CASE("surface deep inside what hides it counts a tenth") {
+    Asset asset = shell_around(test::shaken(scaled(icosphere(4), GENERATE(1.2, 1.9)), 0.02, 3), 4);
+    std::vector<std::vector<float>> weights = {{}, std::vector<float>(asset.parts[1].positions.size(), 2)};
+    const std::uint64_t inner = asset.parts[0].positions.size();
+    CHECK(detail::lower_hidden_weights(asset, 0.2, weights, {}) == inner);
+    CHECK(weights[0] == std::vector<float>(inner, 0.1f));
+    CHECK(least(weights[1]) == 2);
+    CHECK(simplify_parts(asset, {.target = ratio(0.2)}).report.vertices_hidden == 0);  // has no texture
+    test::add_texture(asset, test::ramp(4));
+    const SimplifiedParts by_default = simplify_parts(asset, {.target = ratio(0.2)});
+    const SimplifiedParts ignored =
+        simplify_parts(asset, {.target = ratio(0.2), .visibility = Visibility::ignored});
+    CHECK(by_default.report.vertices_hidden == inner);
+    CHECK(by_default.report.faces_out <= by_default.report.target_faces);
+    CHECK(by_default.parts[1].mesh.triangles.size() > ignored.parts[1].mesh.triangles.size());
+}
+
+TEST_CASE("surface that may be seen keeps its weight") {
+    Asset asset = shell_around(scaled(icosphere(3), 1.9), 3);
+    double share = 0.5;
+    SECTION("close behind what is seen") { asset = shell_around(scaled(icosphere(3), 1.98), 3); }
+    SECTION("behind transparent surface") { asset.materials[0].alpha_mode = AlphaMode::blend; }
+    SECTION("behind the backs of faces") { asset.parts[1] = part_of(scaled(inside_out(icosphere(2)), 2), 0); }
+    SECTION("in a scene that moves") { asset.parts[1].morph_targets.resize(1); }
+    SECTION("in another instance") {
+        asset = from_glb(to_glb(asset));
+        SourceDocument source = *asset.source;
+        Json& nodes = source.document["nodes"];
+        source.document["scenes"][0]["nodes"].push_back(nodes.size());
+        nodes.push_back({{"mesh", 0}, {"translation", {9, 0, 0}}});
+        asset.source = std::make_shared<SourceDocument>(source);
+    }
+    SECTION("so close that the faces of the result are as far from the source") { share = 0.001; }
+    std::vector<std::vector<float>> weights(2);
+    CHECK(detail::lower_hidden_weights(asset, share, weights, {}) == 0);
+    CHECK(weights == std::vector<std::vector<float>>(2));
 }
 
 TEST_CASE("visibility of a dynamic scene causes a warning") {

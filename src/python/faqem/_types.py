@@ -42,7 +42,7 @@ class CommonModelOptions(CommonOptions, total=False):
     """Options of all calls that make models."""
 
     budget: Literal["scene", "mesh"] | None
-    visibility: Literal["ignored", "weighted"] | None
+    visibility: Literal["auto", "ignored", "weighted"] | None
     format: Literal["auto", "glb", "gltf", "obj", "ply", "stl"] | None
     allow_larger: bool | None
     max_bytes: int | str | None

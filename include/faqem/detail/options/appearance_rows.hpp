@@ -31,9 +31,10 @@ inline constexpr OptionRow appearance_rows[] = {
                                           "(by error), mesh (in proportion to their face counts)",
                                   .entry_points = in_all_but_truncate}),
     option_row<&Options::visibility>({.name = "visibility",
-                                      .choices = "ignored|weighted",
-                                      .help = "Errors on hidden surface; ignored (visibility has no effect), "
-                                              "weighted (they count less)",
+                                      .choices = "auto|ignored|weighted",
+                                      .help = "Errors on hidden surface; auto (deep inside they count less), "
+                                              "ignored (visibility has no effect), weighted (they count as "
+                                              "much as the surface is seen)",
                                       .entry_points = in_all_but_truncate}),
     option_row<&Options::format>({.name = "format",
                                   .choices = "auto|glb|gltf|obj|ply|stl",

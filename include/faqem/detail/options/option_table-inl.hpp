@@ -25,9 +25,10 @@ struct OptionRule {
 
 inline constexpr OptionRule option_rules[] = {
     {[](const Options& o) {
-         return o.visibility == Visibility::ignored || !o.max_error || o.target.kind != Target::Kind::unset;
+         return o.visibility != Visibility::weighted || !o.max_error || o.target.kind != Target::Kind::unset;
      },
-     "{visibility} must be ignored if {max-error} is given without {ratio} or {faces}: distances are not "
+     "{visibility} must not be weighted if {max-error} is given without {ratio} or {faces}: distances are "
+     "not "
      "weighted"},
     {[](const Options& o) { return !o.max_bytes || !o.max_error; },
      "{max-bytes} cannot be given with {max-error}"},
