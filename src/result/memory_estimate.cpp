@@ -30,6 +30,7 @@ double simplify_bytes_per_face(Preset preset) {
 constexpr double history_bytes_per_face = 300;  // collapse history and the data structures of the baking map
 constexpr double layer_bytes_per_face = 250;    // see separate_layers()
 constexpr double visibility_bytes_per_face = 400;  // per face of all instances, if what is seen affects costs
+constexpr double view_bytes = 24e6;                // of pictures, see lower_hidden_weights()
 constexpr double bytes_per_corner_value = 12;
 constexpr double image_library_bytes = 30e6;  // libraries of PNG, JPEG and WebP, and their buffers
 constexpr double bake_bytes_per_texel = 36, page_bytes_per_texel = 8, correspondence_bytes_per_texel = 24;
@@ -134,7 +135,7 @@ std::uint64_t estimated_simplify_memory(const Asset& asset, const Options& reque
         work = std::max(work, (history_bytes_per_face + layer_bytes_per_face) * all);
     if (options.bake.kind == Bake::keep) work += search_factor(options) * bytes_per_corner_value * values;
     if (options.visibility == Visibility::weighted || is_weighted_by_pictures(asset, options))
-        work = std::max(work, visibility_bytes_per_face * instanced_face_count(asset));
+        work = std::max(work, view_bytes + visibility_bytes_per_face * instanced_face_count(asset));
     const bool searches = searches_best_picture(options);
     double baking = 0;
     if (options.bake.kind != Bake::keep && options.bake.kind != Bake::none)

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "asset/scene/affine.hpp"
 #include "asset/scene/flatten.hpp"
@@ -218,16 +217,17 @@ std::vector<std::vector<std::uint8_t>> faces_in_pictures(const Asset& scene, con
                    [&](std::size_t f) { return face_material(part, face[i][f]); });
     }
     const std::vector<render::Camera> cameras = render::cameras_around(placed.meshes, view_count);
-    std::vector<std::vector<std::pair<Index, Index>>> seen(view_count);  // mesh and face
+    using Seen = std::vector<std::vector<bool>>;  // by mesh and face
+    std::vector<Seen> views(view_count);
     parallel_each(view_count, 1, context, [&](std::size_t v) {
-        for (const render::VisiblePoint& at :
-             render::visible_points(placed.meshes, cameras[v], picture_size)) {
-            const std::pair<Index, Index> here(at.mesh, at.face);
-            if (at.mesh != no_index && (seen[v].empty() || seen[v].back() != here)) seen[v].push_back(here);
-        }
+        for (const std::vector<Triangle>& of_mesh : opaque) views[v].emplace_back(of_mesh.size());
+        for (const render::VisiblePoint& at : render::visible_points(placed.meshes, cameras[v], picture_size))
+            if (at.mesh != no_index) views[v][at.mesh][at.face] = true;
     });
-    for (const auto& of_view : seen)
-        for (const auto& [mesh, f] : of_view) result[all[mesh].part][face[mesh][f]] = 1;
+    for (const Seen& seen : views)
+        for (std::size_t i = 0; i < all.size(); ++i)
+            for (std::size_t f = 0; f < face[i].size(); ++f)
+                if (seen[i][f]) result[all[i].part][face[i][f]] = 1;
     return result;
 }
 

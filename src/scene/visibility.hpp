@@ -46,8 +46,8 @@ VertexVisibility vertex_visibility(const Asset& scene, const RunContext& context
 /// \return the number of vertices deep inside
 /// \throws whatever `context` throws
 /// Complexity: O(n log n + pixels) for n faces of all instances together.
-std::uint64_t lower_hidden_weights(const Asset& scene, double share,
-                                   std::vector<std::vector<float>>& weights, const RunContext& context);
+std::uint64_t lower_hidden_weights(const Asset& scene, double share, std::vector<std::vector<float>>& weights,
+                                   const RunContext& context);
 
 /// Warning that the visibility was computed in the default pose; empty if the scene is static.
 std::string visibility_warning(const Asset& scene);

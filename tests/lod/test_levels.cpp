@@ -13,10 +13,7 @@ using namespace faqem;
 namespace {
 
 Options with(Preset preset, Recording history = Recording::off) {
-    Options options;
-    options.preset = preset;
-    options.history = history;
-    return options;
+    return {.preset = preset, .history = history};
 }
 
 void check_same_level(const SimplifyResult& a, const SimplifyResult& b) {

@@ -122,10 +122,7 @@ TEST_CASE("removed components: a visible component that is collapsed is named in
     const TriangleMesh triangle = test::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
     TriangleMesh mesh = triangle;
     for (int i = 1; i < 5; ++i) mesh = test::both(mesh, test::moved(triangle, {1.5 * i, 0, 0}));
-    Options options;
-    options.preset = Preset::fast;
-    options.target = faces(4);
-    const SimplifyResult result = simplify(mesh.view(), options);
+    const SimplifyResult result = simplify(mesh.view(), {.target = faces(4), .preset = Preset::fast});
     REQUIRE(result.mesh.triangles.size() == 4);
     CHECK(result.report.components_collapsed + result.report.components_deleted == 1);
     REQUIRE(result.report.removed_components.size() == 1);

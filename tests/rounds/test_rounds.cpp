@@ -55,12 +55,7 @@ struct Rounds {
     std::optional<CompactedMesh> left;
 };
 
-Options fast(double share) {
-    Options options;
-    options.preset = Preset::fast;
-    options.target = ratio(share);
-    return options;
-}
+Options fast(double share) { return {.target = ratio(share), .preset = Preset::fast}; }
 
 }  // namespace
 

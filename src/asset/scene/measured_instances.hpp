@@ -12,7 +12,7 @@
 namespace faqem::detail {
 
 /// Number of faces that all instances show, which may be beyond the range of integers.
-double shown_faces(const Asset& asset, const std::vector<Instance>& all);
+FAQEM_EXPORT double shown_faces(const Asset& asset, const std::vector<Instance>& all);
 
 /// Whether a scene shows more than 2^24 faces, and more than four times those that its parts have.
 FAQEM_EXPORT bool has_excessive_instances(const Asset& asset, const std::vector<Instance>& all);

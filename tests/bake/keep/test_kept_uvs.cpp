@@ -110,11 +110,7 @@ std::vector<detail::PartSet> possible_sets(const Asset& asset, SimplifiedParts s
     return detail::sets_with_uvs(asset, parts, simplified);
 }
 
-Options tenth() {
-    Options options{.target = ratio(0.1)};
-    options.bake.texture_size = 256;
-    return options;
-}
+Options tenth() { return {.target = ratio(0.1), .bake = {.texture_size = 256}}; }
 
 }  // namespace
 

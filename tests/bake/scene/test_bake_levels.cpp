@@ -99,10 +99,8 @@ TEST_CASE("a level of an asset can be a distance in scene units") {
 }
 
 TEST_CASE("every level of a textured asset has its own texture by default") {
-    Asset asset = textured_square(ramp(64));
-    asset.parts = {uv_mapped(rolling_sheet(12, 0.1, 0))};
-    Options options;
-    options.bake.texture_size = 64;
+    const Asset asset = textured(ramp(64), uv_mapped(rolling_sheet(12, 0.1, 0)));
+    const Options options{.bake = {.texture_size = 64}};
     const auto levels = simplify_levels(asset, {ratio(0.5), ratio(0.1)}, options);
     REQUIRE(levels.size() == 2);
     for (const SimplifiedAssetLevel& level : levels) {
@@ -114,8 +112,7 @@ TEST_CASE("every level of a textured asset has its own texture by default") {
 
 TEST_CASE("levels with a shared texture use one image and have the colours of the source") {
     const Asset ball = ball_painted_along_z();
-    Options options;
-    options.bake.texture_size = 128;
+    const Options options{.bake = {.texture_size = 128}};
     const std::vector<Level> goals = {ratio(0.5), ratio(0.25), of_diagonal(0.02), faces(80)};
     const auto levels = simplify_levels(ball, goals, options, LevelTextures::shared);
     REQUIRE(levels.size() == 4);
@@ -238,8 +235,7 @@ TEST_CASE("a scene with coarser levels gives what its finest level alone gives, 
     REQUIRE(parts.parts.size() == 6);
     check_equal(bake(chain, parts, options), bake(one, simplify_parts(one, options), options));
     for (const LevelTextures textures : {LevelTextures::each, LevelTextures::shared}) {
-        Options of_levels;
-        of_levels.bake.texture_size = 64;
+        const Options of_levels{.bake = {.texture_size = 64}};
         const auto levels = simplify_levels(chain, wanted_levels, of_levels, textures);
         const auto expected = simplify_levels(one, wanted_levels, of_levels, textures);
         REQUIRE(levels.size() == 3);
