@@ -154,7 +154,7 @@ public:
     }
 
 private:
-    // \param fewest_faces  of a level, if it is known
+    // \param fewest_faces  of a level; 0: unknown
     void begin(std::size_t levels, std::uint64_t fewest_faces) {
         results_.resize(levels);
         for (SimplifiedParts& level : results_) {
@@ -240,8 +240,9 @@ private:
                 return use_visibility(vertex_visibility(source_, context_));
             if (!is_weighted_by_pictures(source_, options_)) return;
             weights_ = contrast_weights(source_, context_);
-            // What has no textures is measured rather than looked at.
-            if (options_.visibility == Visibility::automatic && !source_.images.empty())
+            // What has no textures is measured rather than looked at. The target tells how large errors will be.
+            if (options_.visibility == Visibility::automatic && !source_.images.empty() && share > 0 &&
+                share < 1)
                 report_hidden(lower_hidden_weights(source_, share, *weights_, context_));
         });
         results_.front().report.seconds.simplify += watch.seconds();

@@ -27,9 +27,8 @@ inline constexpr OptionRule option_rules[] = {
     {[](const Options& o) {
          return o.visibility != Visibility::weighted || !o.max_error || o.target.kind != Target::Kind::unset;
      },
-     "{visibility} must not be weighted if {max-error} is given without {ratio} or {faces}: distances are "
-     "not "
-     "weighted"},
+     "{visibility} must not be weighted if {max-error} is given without {ratio} or {faces}: "
+     "distances are not weighted"},
     {[](const Options& o) { return !o.max_bytes || !o.max_error; },
      "{max-bytes} cannot be given with {max-error}"},
     {[](const Options& o) {
