@@ -170,10 +170,10 @@ struct Report {
     std::uint64_t components_deleted = 0;    ///< connected components deleted by the ladder
     std::uint64_t components_pruned = 0;     ///< connected components deleted by Topology::prune
     std::uint64_t faces_pruned = 0;          ///< faces of the pruned components
-    std::uint64_t vertices_hidden = 0;  ///< input vertices whose costs are lower because they are hidden
-    std::uint64_t vertices_fitted = 0;  ///< vertices moved by the final fitting, or to separate layers
-    std::uint64_t edges_flipped = 0;    ///< edges flipped by the final fitting of Preset::best
-    std::uint64_t virtual_edges = 0;    ///< virtual edges added
+    std::uint64_t vertices_hidden = 0;       ///< input vertices whose costs are lower because they are hidden
+    std::uint64_t vertices_fitted = 0;       ///< vertices moved by the final fitting, or to separate layers
+    std::uint64_t edges_flipped = 0;         ///< edges flipped by the final fitting of Preset::best
+    std::uint64_t virtual_edges = 0;         ///< virtual edges added
     std::vector<RemovedComponent> removed_components;  ///< visible ones, the largest first
     /// Visible ones that became shorter by more than a fifth of their longest side, the largest first.
     std::vector<RemovedComponent> shrunk_components;

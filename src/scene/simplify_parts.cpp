@@ -240,9 +240,8 @@ private:
                 return use_visibility(vertex_visibility(source_, context_));
             if (!is_weighted_by_pictures(source_, options_)) return;
             weights_ = contrast_weights(source_, context_);
-            // What has no textures is measured rather than looked at. The target tells how large errors will be.
-            if (options_.visibility == Visibility::automatic && !source_.images.empty() && share > 0 &&
-                share < 1)
+            // What has no textures is measured rather than looked at.
+            if (options_.visibility == Visibility::automatic && !source_.images.empty())
                 report_hidden(lower_hidden_weights(source_, share, *weights_, context_));
         });
         results_.front().report.seconds.simplify += watch.seconds();

@@ -265,7 +265,7 @@ VertexVisibility vertex_visibility(const Asset& scene, const RunContext& context
 
 std::uint64_t lower_hidden_weights(const Asset& scene, double share, std::vector<std::vector<float>>& weights,
                                    const RunContext& context) {
-    if (is_dynamic(scene)) return 0;
+    if (is_dynamic(scene) || !(share > 0 && share < 1)) return 0;
     const std::vector<Instance> all = instances(scene);
     const std::vector<std::vector<std::uint8_t>> is_seen = faces_in_pictures(scene, all, context);
     std::vector<Vec3> positions;

@@ -41,7 +41,7 @@ VertexVisibility vertex_visibility(const Asset& scene, const RunContext& context
 /// hide others as for vertex_visibility(). Surface close behind a visible one keeps its factors: where it is simplified
 /// with larger errors, it shows or leaves gaps. Scenes that move stay as they are.
 /// \param scene    must have passed check_asset()
-/// \param share    of the faces of the scene that the result has, in (0, 1]
+/// \param share    of the faces of the scene that the result has; 0: unknown. With 0 and 1 nothing changes
 /// \param weights  by part and vertex; empty for parts of which all vertices have the factor 1
 /// \return the number of vertices deep inside
 /// \throws whatever `context` throws
