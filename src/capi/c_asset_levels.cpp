@@ -7,7 +7,7 @@
 #include "capi/c_asset.hpp"
 #include "capi/c_history.hpp"
 #include "faqem/bake_levels.hpp"
-#include "scene/parts_from_histories.hpp"
+#include "scene/parts/parts_from_histories.hpp"
 
 namespace {
 

@@ -15,9 +15,9 @@
 #include "faqem/detail/simplify/run.hpp"
 #include "result/image_trials.hpp"
 #include "result/result_choices.hpp"
+#include "scene/parts/simplify_parts.hpp"
 #include "scene/position_grids.hpp"
 #include "scene/resolved_options.hpp"
-#include "scene/simplify_parts.hpp"
 
 namespace faqem::detail {
 

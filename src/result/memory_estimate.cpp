@@ -11,10 +11,10 @@
 #include "bake/source/page_groups.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "result/best_picture.hpp"
-#include "scene/contrast.hpp"
 #include "scene/layers.hpp"
+#include "scene/parts/simplify_parts.hpp"
 #include "scene/resolved_options.hpp"
-#include "scene/simplify_parts.hpp"
+#include "scene/weights/contrast.hpp"
 
 namespace faqem::detail {
 

@@ -17,9 +17,9 @@
 #include "result/best_picture.hpp"
 #include "result/image_trials.hpp"
 #include "result/picture_meter.hpp"
-#include "scene/part_reports.hpp"
+#include "scene/parts/part_reports.hpp"
+#include "scene/parts/simplify_parts.hpp"
 #include "scene/resolved_options.hpp"
-#include "scene/simplify_parts.hpp"
 #include "scene/touching_parts.hpp"
 
 namespace faqem {

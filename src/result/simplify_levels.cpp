@@ -4,9 +4,9 @@
 #include "faqem/detail/lod/lod_chain.hpp"
 #include "result/simplify.hpp"
 #include "scene/check_asset.hpp"
-#include "scene/parts_error_bound_search.hpp"
+#include "scene/parts/parts_error_bound_search.hpp"
+#include "scene/parts/simplify_parts.hpp"
 #include "scene/resolved_options.hpp"
-#include "scene/simplify_parts.hpp"
 #include "scene/touching_parts.hpp"
 #include "scene/welded_source.hpp"
 

@@ -43,6 +43,8 @@ ORDER = [
     ["src/image_plugin", "src/ktx2_plugin"],
     ["src/render"],
     ["src/scene"],
+    ["src/scene/weights"],
+    ["src/scene/parts"],
     ["src/bake/atlas", "src/bake/source"],
     ["src/bake/parts"],
     ["src/bake/page"],

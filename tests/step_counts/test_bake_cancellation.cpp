@@ -6,7 +6,7 @@
 #include "bake/atlas/per_triangle.hpp"
 #include "bake/atlas/segmentation.hpp"
 #include "render/texture_sampling.hpp"
-#include "scene/visibility.hpp"
+#include "scene/weights/visibility.hpp"
 #include "step_counts/silence.hpp"
 #include "support/catch.hpp"
 #include "support/chart_meshes.hpp"

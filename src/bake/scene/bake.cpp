@@ -22,7 +22,7 @@
 #include "faqem/detail/base/stopwatch.hpp"
 #include "faqem/error.hpp"
 #include "scene/check_asset.hpp"
-#include "scene/part_reports.hpp"
+#include "scene/parts/part_reports.hpp"
 #include "scene/position_grids.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/touching_parts.hpp"

@@ -5,8 +5,8 @@
 
 #include "bake/scene/unencoded_result.hpp"
 #include "faqem/error.hpp"
-#include "scene/part_reports.hpp"
-#include "scene/simplify_parts.hpp"
+#include "scene/parts/part_reports.hpp"
+#include "scene/parts/simplify_parts.hpp"
 
 namespace faqem::detail {
 

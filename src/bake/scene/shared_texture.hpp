@@ -7,7 +7,7 @@
 
 #include "faqem/bake_levels.hpp"
 #include "faqem/detail/lod/lod_chain.hpp"
-#include "scene/parts_error_bound_search.hpp"
+#include "scene/parts/parts_error_bound_search.hpp"
 
 namespace faqem::detail {
 

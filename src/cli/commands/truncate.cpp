@@ -16,7 +16,7 @@
 #include "faqem/error.hpp"
 #include "faqem/truncate.hpp"
 #include "result/simplify_file.hpp"
-#include "scene/parts_from_histories.hpp"
+#include "scene/parts/parts_from_histories.hpp"
 
 namespace faqem::cli {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "asset/gltf/source_document.hpp"
-#include "scene/simplify_parts.hpp"
+#include "scene/parts/simplify_parts.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 

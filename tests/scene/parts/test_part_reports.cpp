@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/part_reports.hpp"
+#include "scene/parts/part_reports.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "scene/contrast.hpp"
+#include "scene/weights/contrast.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -24,8 +24,8 @@ namespace {
 using engine::RunContext;
 using render::VisiblePoint;
 
-constexpr std::size_t view_count = 12;
-constexpr std::uint32_t picture_size = 256;
+constexpr std::size_t contrast_view_count = 12;
+constexpr std::uint32_t contrast_picture_size = 256;
 constexpr double most_faces = 1e6;
 constexpr double least_factor = 2, largest_factor = 10;
 
@@ -70,9 +70,11 @@ public:
 
     // The sums of all views, by component.
     std::vector<Sum> sums(const RunContext& context) const {
-        const std::vector<render::Camera> cameras = render::cameras_around(placed_.meshes, view_count);
-        std::vector<std::vector<Sum>> views(view_count);
-        parallel_each(view_count, 1, context, [&](std::size_t v) { views[v] = sums_of_view(cameras[v]); });
+        const std::vector<render::Camera> cameras =
+            render::cameras_around(placed_.meshes, contrast_view_count);
+        std::vector<std::vector<Sum>> views(contrast_view_count);
+        parallel_each(contrast_view_count, 1, context,
+                      [&](std::size_t v) { views[v] = sums_of_view(cameras[v]); });
         std::vector<Sum> result(components_.count, Sum::Zero());
         for (const std::vector<Sum>& view : views)
             for (std::size_t c = 0; c < view.size(); ++c) result[c] += view[c];
@@ -86,7 +88,7 @@ private:
         };
         std::vector<VisiblePoint> behind;
         const std::vector<VisiblePoint> front =
-            render::visible_points(placed_.meshes, camera, picture_size, &behind, component);
+            render::visible_points(placed_.meshes, camera, contrast_picture_size, &behind, component);
         std::vector<Sum> result(components_.count, Sum::Zero());
         for (std::size_t i = 0; i < front.size(); ++i) {
             if (front[i].mesh == no_index) continue;

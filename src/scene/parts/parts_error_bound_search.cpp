@@ -1,12 +1,12 @@
-#include "scene/parts_error_bound_search.hpp"
+#include "scene/parts/parts_error_bound_search.hpp"
 
 #include <algorithm>
 
 #include "faqem/detail/simplify/run.hpp"
 #include "faqem/error.hpp"
 #include "scene/motion.hpp"
+#include "scene/parts/simplify_parts.hpp"
 #include "scene/position_grids.hpp"
-#include "scene/simplify_parts.hpp"
 
 namespace faqem::detail {
 

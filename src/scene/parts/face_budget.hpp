@@ -15,7 +15,7 @@
 #include "faqem/bake.hpp"
 #include "faqem/detail/measure/removed_components.hpp"
 #include "faqem/detail/simplify/run.hpp"
-#include "scene/visibility.hpp"
+#include "scene/weights/visibility.hpp"
 
 namespace faqem::detail {
 

@@ -1,9 +1,10 @@
-#include "scene/visibility.hpp"
+#include "scene/weights/visibility.hpp"
 
 #include <algorithm>
 
 #include "asset/gltf/source_document.hpp"
 #include "faqem/bake.hpp"
+#include "scene/weights/hidden_surface.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 

@@ -1,8 +1,8 @@
-#include "scene/face_budget.hpp"
+#include "scene/parts/face_budget.hpp"
 
 #include <cmath>
 
-#include "scene/visibility.hpp"
+#include "scene/weights/visibility.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "scene/part_reports.hpp"
+#include "scene/parts/part_reports.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "scene/parts_from_histories.hpp"
+#include "scene/parts/parts_from_histories.hpp"
 
 #include <cmath>
 #include <optional>
@@ -9,7 +9,7 @@
 #include "asset/scene/affine.hpp"
 #include "faqem/error.hpp"
 #include "faqem/truncate.hpp"
-#include "scene/part_reports.hpp"
+#include "scene/parts/part_reports.hpp"
 
 namespace faqem::detail {
 

@@ -1,10 +1,10 @@
 // Factors by how much the components of a scene stand out.
 
-#include "scene/contrast.hpp"
+#include "scene/weights/contrast.hpp"
 
 #include <algorithm>
 
-#include "scene/simplify_parts.hpp"
+#include "scene/parts/simplify_parts.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 

@@ -13,17 +13,18 @@
 #include "faqem/detail/simplify/presets.hpp"
 #include "faqem/detail/simplify/run.hpp"
 #include "scene/check_asset.hpp"
-#include "scene/contrast.hpp"
-#include "scene/face_budget.hpp"
 #include "scene/layers.hpp"
 #include "scene/material_groups.hpp"
 #include "scene/motion.hpp"
-#include "scene/part_reports.hpp"
-#include "scene/parts_error_bound_search.hpp"
+#include "scene/parts/face_budget.hpp"
+#include "scene/parts/part_reports.hpp"
+#include "scene/parts/parts_error_bound_search.hpp"
+#include "scene/parts/simplify_parts.hpp"
 #include "scene/resolved_options.hpp"
 #include "scene/scene_size.hpp"
-#include "scene/simplify_parts.hpp"
-#include "scene/visibility.hpp"
+#include "scene/weights/contrast.hpp"
+#include "scene/weights/hidden_surface.hpp"
+#include "scene/weights/visibility.hpp"
 #include "scene/welded_source.hpp"
 
 namespace faqem {
@@ -249,8 +250,7 @@ private:
 
     void use_visibility(VertexVisibility seen) {
         weights_ = std::move(seen.weights);
-        const std::string warning = visibility_warning(source_);
-        if (!warning.empty())
+        if (const std::string warning = visibility_warning(source_); !warning.empty())
             for (SimplifiedParts& level : results_) level.report.warnings.push_back(warning);
         report_hidden(seen.hidden_vertices);
     }
