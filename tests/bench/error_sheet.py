@@ -3,16 +3,17 @@
 
     error_sheet.py OUT.png VIEW FOLDER[:VIEW]...
 
-Each FOLDER contains renderings of one model with the same cameras: ref/, p.1/ and p.01/ with lit_00.png, lit_01.png ...
-A row of the image shows one model: all faces, 10%, 1%, and the difference of each of the two from the first, multiplied
-by four.
+Each FOLDER contains renderings of one model with the same cameras, as lit_00.png, lit_01.png ...: ref/; p.1/ and p.01/,
+results of this version with 10% and 1% of the faces; before.1/ and before.01/, those of an earlier one. A row of the
+image shows one model: all faces, then for 10% and 1% the earlier result, the present one, and the difference of the
+latter from the original, multiplied by four.
 """
 import sys
 from pathlib import Path
 
 from PIL import Image, ImageChops
 
-SIDE, GAP, GAIN = 240, 6, 4
+SIDE, GAP, GAIN = 160, 4, 4
 
 
 def cropped(pictures):
@@ -26,10 +27,10 @@ def cropped(pictures):
 
 
 def row(folder, view):
-    pictures = [Image.open(Path(folder) / name / f"lit_{view:02d}.png").convert("RGB") for name in ("ref", "p.1", "p.01")]
-    original, *simplified = cropped(pictures)
-    errors = [ImageChops.difference(original, p).point(lambda v: min(255, GAIN * v)) for p in simplified]
-    return [original, *simplified, *errors]
+    names = ("ref", "before.1", "p.1", "before.01", "p.01")
+    original, *simplified = cropped([Image.open(Path(folder, n, f"lit_{view:02d}.png")).convert("RGB") for n in names])
+    errors = [ImageChops.difference(original, p).point(lambda v: min(255, GAIN * v)) for p in simplified[1::2]]
+    return [original, *simplified[:2], errors[0], *simplified[2:], errors[1]]
 
 
 def main():
@@ -41,7 +42,7 @@ def main():
         name, _, view = folder.partition(":")
         rows.append(row(name, int(view or default)))
     step = SIDE + GAP
-    sheet = Image.new("RGB", (5 * step - GAP, len(rows) * step - GAP), "white")
+    sheet = Image.new("RGB", (len(rows[0]) * step - GAP, len(rows) * step - GAP), "white")
     for j, pictures in enumerate(rows):
         for i, picture in enumerate(pictures):
             sheet.paste(picture, (i * step, j * step))
