@@ -39,9 +39,10 @@ inline Buckets<Index> faces_around(const CollapseHistory& history, std::size_t v
     });
 }
 
-class Search {
+/// The closest points of visit_corner_points(), among the faces around each vertex.
+class CornerPointSearch {
 public:
-    explicit Search(const BakePart& part)
+    explicit CornerPointSearch(const BakePart& part)
         : mesh_(part.simplified->mesh),
           history_(part.simplified->history),
           corners_(vertex_corners(mesh_)),
@@ -49,7 +50,7 @@ public:
 
     // Calls visit(corner, near, inner) for the corners of a vertex.
     template <class Visit>
-    void search_vertex(Index v, const RunContext& context, const Visit& visit) const {
+    void visit_vertex(Index v, const RunContext& context, const Visit& visit) const {
         const std::span<const Index> candidates = faces_[v];
         const std::span<const std::uint64_t> corners = corners_[v];
         const Vector3 centre = to_eigen(mesh_.positions[v]);
@@ -133,14 +134,14 @@ inline void visit_corner_points(
         });
     };
     if (part.map) return visit_mapped(*part.map);
-    const Search search(part);
+    const CornerPointSearch search(part);
     if (search.is_slow())
         return visit_mapped(
             HistoryMap(make_surface_map(part.simplified->history, part.source->triangles, context)));
     parallel_blocks(part.simplified->mesh.positions.size(), 64, context,
                     [&](std::size_t begin, std::size_t end, const RunContext& block_context) {
                         for (std::size_t v = begin; v < end; ++v)
-                            search.search_vertex(static_cast<Index>(v), block_context, visit);
+                            search.visit_vertex(static_cast<Index>(v), block_context, visit);
                     });
 }
 
