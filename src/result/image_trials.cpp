@@ -238,8 +238,9 @@ void ImageTrials::measure_sizes(std::span<const Request> requests) {
         if (sizes_[i][s].error) continue;
         const PendingImage& largest = sizes_[i].back().pending;
         const double weight = data_weight * gain * std::max(meter_->shares()[i], least_seen);
-        const double lost =
-            mean_square_of(shown_quality(largest.pixels, sizes_[i][s].pending.pixels, *largest.known).whole);
+        const double lost = mean_square_of(
+            shown_quality(largest.pixels, sizes_[i][s].pending.pixels, *largest.known, largest.repeats)
+                .whole);
         sizes_[i][s].error = SizeError{unseen_error(weight * lost), {{1, unseen_error(weight)}}};
     }
     update_errors();

@@ -48,12 +48,13 @@ void put_channel(const ScalarImage& image, std::size_t channel, Pixels& pixels) 
 
 }  // namespace
 
-std::vector<Tap> taps_of(std::uint32_t from, std::uint32_t to) {
+std::vector<Tap> taps_of(std::uint32_t from, std::uint32_t to, bool repeats) {
     std::vector<Tap> taps(to);
     for (std::uint32_t i = 0; i < to; ++i) {
-        const double at = std::clamp((i + 0.5) * from / to - 0.5, 0.0, from - 1.0);
-        const auto first = static_cast<std::uint32_t>(at);
-        taps[i] = {first, std::min(first + 1, from - 1), at - first};
+        const double at = (i + 0.5) * from / to - 0.5;
+        const double inside = repeats ? (at < 0 ? at + from : at) : std::clamp(at, 0.0, from - 1.0);
+        const auto first = static_cast<std::uint32_t>(inside);
+        taps[i] = {first, first + 1 < from ? first + 1 : (repeats ? 0 : first), inside - first};
     }
     return taps;
 }

@@ -27,7 +27,8 @@ struct Tap {
 };
 
 /// Bilinear interpolation along one axis: what to take for each of `to` texels from `from` texels. O(to)
-FAQEM_EXPORT std::vector<Tap> taps_of(std::uint32_t from, std::uint32_t to);
+/// \param repeats  whether the last texel is followed by the first
+FAQEM_EXPORT std::vector<Tap> taps_of(std::uint32_t from, std::uint32_t to, bool repeats = false);
 
 /// A scalar image with values from 0 to 255, top row first.
 struct ScalarImage {

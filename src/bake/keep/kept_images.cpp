@@ -27,6 +27,7 @@ struct ImageUse {
     bool is_normal = false;  // holds normals
     bool needs_alpha = false;
     bool is_pixel_art = false;  // shown without filter
+    std::array<bool, 2> repeats = {};
 };
 
 // Calls visit(texture, content); content is null for a texture of an unknown extension.
@@ -47,6 +48,8 @@ void for_each_content(const Material& m, const Visit& visit) {
 void add_use(ImageUse& use, const TextureRef& texture, const TextureContent* content) {
     use.is_used = true;
     use.is_pixel_art = use.is_pixel_art || texture.filter == Filter::nearest;
+    use.repeats[0] = use.repeats[0] || texture.wrap_u == Wrap::repeat;
+    use.repeats[1] = use.repeats[1] || texture.wrap_v == Wrap::repeat;
     if (!content) {
         use.is_fixed = true;
         return;
@@ -166,6 +169,7 @@ PendingImage kept_image(const Asset& source, const Asset& result, std::span<cons
     PendingImage pending{index,         used_pixels(image, use), {}, image.name, content_of(use),
                          use.roughness, !use.is_pixel_art};
     pending.tries_webp = tries_webp(source);
+    pending.repeats = use.repeats;
     if (!exceeds(pending.pixels, use, texture_size)) pending.original = image;
     while (exceeds(pending.pixels, use, texture_size)) pending.pixels = halved(pending.pixels);
     pending.known = std::make_shared<const std::vector<std::uint8_t>>(

@@ -70,14 +70,15 @@ constexpr double data_allowance = 4;
 // Least PSNR of such an image unless colours may be worse too: 3% of the range.
 constexpr double least_data_psnr = 30;
 
-// Rows of an image with fewer texels, interpolated to the width of another one. The last two are kept.
+// Rows of an image with fewer texels, interpolated to the width of another one. The last two are kept, and the first one,
+// which may follow the last.
 class StretchedRows {
 public:
-    StretchedRows(const Pixels& pixels, std::uint32_t width)
-        : pixels_(pixels), columns_(taps_of(pixels.width, width)) {}
+    StretchedRows(const Pixels& pixels, std::uint32_t width, bool repeats)
+        : pixels_(pixels), columns_(taps_of(pixels.width, width, repeats)) {}
 
     const std::vector<RgbaLanes>& at(std::uint32_t y) {
-        Row& row = rows_[y % 2];
+        Row& row = rows_[y == 0 ? 2 : y % 2];
         if (row.y == y) return row.texels;
         row = {y, std::move(row.texels)};
         row.texels.clear();
@@ -97,7 +98,7 @@ private:
     };
     const Pixels& pixels_;
     std::vector<Tap> columns_;
-    std::array<Row, 2> rows_;
+    std::array<Row, 3> rows_;
 };
 
 // An image that is being encoded with a loss.
@@ -106,10 +107,11 @@ struct LossyEncoding {
     const Pixels& pixels;  // may have fewer texels
     std::span<const std::uint8_t> known;
     ImageQuality quality;
+    std::array<bool, 2> repeats;
     const RunContext& context;
 
     ImageQuality quality_of(const Image& image) const {
-        return shown_quality(original, decode(image), known);
+        return shown_quality(original, decode(image), known, repeats);
     }
     bool allows(const Image& image) const { return is_within(quality_of(image), quality); }
 
@@ -289,9 +291,10 @@ double quality_change(const std::optional<PictureDifference>& pictures, TextureC
     return std::clamp(shown + quality_above_pictures - usual_quality, -most_worse, most_better);
 }
 
-ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known) {
-    StretchedRows stretched(shown, original.width);
-    const std::vector<Tap> rows = taps_of(shown.height, original.height);
+ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known,
+                           std::array<bool, 2> repeats) {
+    StretchedRows stretched(shown, original.width, repeats[0]);
+    const std::vector<Tap> rows = taps_of(shown.height, original.height, repeats[1]);
     const std::size_t channels = original.has_alpha ? 4 : 3;
     std::vector<double> blocks((original.width + block_side - 1) / block_side);  // of a row of blocks
     double sum = 0, worst = 0;
@@ -364,12 +367,12 @@ Image encode_smallest(const Pixels& pixels, std::span<const std::uint8_t> known,
         if (!can_be_halved(last) || std::min(last.width, last.height) / 2 < min_side) break;
         context.check_now();
         Pixels next = halved(last);
-        if (!is_within(shown_quality(pixels, next, known), limits.quality)) break;
+        if (!is_within(shown_quality(pixels, next, known, limits.repeats), limits.quality)) break;
         smaller.push_back(std::move(next));
     }
     const auto encoded = [&](const Pixels& at, bool tries_lossless) {
-        return smallest_at({pixels, at, known, limits.quality, context}, name, content, limits,
-                           tries_lossless);
+        return smallest_at({pixels, at, known, limits.quality, limits.repeats, context}, name, content,
+                           limits, tries_lossless);
     };
     auto [best, is_easy] = encoded(smaller.empty() ? pixels : smaller.back(), true);
     if (smaller.empty() || is_easy) return std::move(best);

@@ -2,6 +2,7 @@
 /// \file
 /// Encoding and resolution of baked images, chosen by the measured loss.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -28,6 +29,7 @@ struct ImageLimits {
     bool may_shrink = true;  ///< whether the result may have fewer texels
     bool tries_core = true;  ///< whether PNG and JPEG are tried, which glTF has without extensions
     bool tries_webp = false;
+    std::array<bool, 2> repeats = {};  ///< see shown_quality()
 };
 
 /// Least PSNR of an image of ImageFormat::automatic: BakeOptions::image_quality, and 4 dB less for roughness and other
@@ -48,8 +50,10 @@ double quality_change(const std::optional<PictureDifference>& pictures, TextureC
 /// \param original  at least one texel
 /// \param shown     its sides are those of `original`, divided by the same power of two
 /// \param known     by texel of `original`: nonzero for those that count
+/// \param repeats   whether textures repeat the image, in x and y: texels at opposite borders are interpolated then
 /// Complexity: O(texels of `original`).
-ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known);
+ImageQuality shown_quality(const Pixels& original, const Pixels& shown, std::span<const std::uint8_t> known,
+                           std::array<bool, 2> repeats = {});
 
 /// Whether an image is at least as good as a limit. NaN is not.
 bool is_within(const ImageQuality& shown, const ImageQuality& least);

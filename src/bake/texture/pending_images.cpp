@@ -33,7 +33,7 @@ Image encoded_image(const PendingImage& pending, const BakeOptions& bake, const 
         const ImageLimits limits{
             least_quality(bake, pending.content, pending.roughness, pending.quality_change),
             pending.may_shrink, !is_webp,
-            bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp)};
+            bake.image_format == ImageFormat::webp || (may_be_webp && pending.tries_webp), pending.repeats};
         Image smallest = encode_smallest(pixels, *pending.known, pending.name, content, limits, context);
         const bool was_webp = pending.original && pending.original->mime_type == "image/webp";
         const bool keeps_original = pending.original && (was_webp ? may_be_webp : !is_webp) &&
@@ -176,7 +176,8 @@ Image encode_as(const PendingImage& pending, const BakeOptions& bake, const Imag
 }
 
 double mean_square_error(const PendingImage& pending, const Image& encoded) {
-    return mean_square_of(shown_quality(pending.pixels, decode(encoded), *pending.known).whole);
+    return mean_square_of(
+        shown_quality(pending.pixels, decode(encoded), *pending.known, pending.repeats).whole);
 }
 
 }  // namespace faqem::detail

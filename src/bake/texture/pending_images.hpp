@@ -3,6 +3,7 @@
 /// Images of a result before they are encoded, and ways to encode them, among which a byte limit chooses. They can be
 /// encoded several times, with different limits.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -27,11 +28,12 @@ struct PendingImage {
     std::shared_ptr<const std::vector<std::uint8_t>> known;
     std::string name;  ///< Image::name
     TextureContent content = TextureContent::color;
-    double roughness = 1;     ///< mean of the surface, in [0, 1]; for normals
-    bool may_shrink = true;   ///< whether ImageFormat::automatic may choose a lower resolution
-    bool was_jpeg = false;    ///< whether ImageFormat::source means JPEG
-    bool is_new_map = false;  ///< a normal map of a material without one in the source
-    bool tries_webp = false;  ///< whether ImageFormat::automatic tries WebP
+    double roughness = 1;              ///< mean of the surface, in [0, 1]; for normals
+    bool may_shrink = true;            ///< whether ImageFormat::automatic may choose a lower resolution
+    bool was_jpeg = false;             ///< whether ImageFormat::source means JPEG
+    bool is_new_map = false;           ///< a normal map of a material without one in the source
+    bool tries_webp = false;           ///< whether ImageFormat::automatic tries WebP
+    std::array<bool, 2> repeats = {};  ///< see shown_quality()
     /// The image of the source, if the pixels are its own: ImageFormat::automatic takes it if it is not larger,
     /// ImageFormat::source in any case.
     std::optional<Image> original = {};

@@ -113,6 +113,11 @@ TEST_CASE("an image with fewer texels is interpolated bilinearly") {
     std::vector<std::uint8_t> inner = all_known(ramp_x);
     for (std::size_t y = 0; y < 64; ++y) inner[64 * y] = inner[64 * y + 63] = 0;
     CHECK(std::isinf(shown_quality(ramp_x, half, inner).whole));
+    // At the left border of a repeated image, the right one adds a quarter: 0.75 * 2 + 0.25 * 250.
+    std::vector<std::uint8_t> left(64 * 64, 0);
+    left[64] = 1;
+    CHECK(shown_quality(ramp_x, half, left).whole > 40);
+    CHECK(shown_quality(ramp_x, half, left, {true, false}).whole == Approx(20 * std::log10(255.0 / 64)));
 }
 
 TEST_CASE("colours of transparent texels do not count") {
