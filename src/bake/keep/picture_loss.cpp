@@ -114,6 +114,11 @@ public:
             const Part &part = scenes.source.parts[p], &kept = scenes.kept.parts[p];
             const TriangleMesh& baked = scenes.parts[p].simplified->mesh;
             const std::vector<Index>& origin = scenes.parts[p].simplified->history.remaining_faces;
+            const std::vector<Index> materials = materials_of(part);
+            is_sharp_.push_back(materials.size() > 1 || std::ranges::any_of(materials, [&](Index m) {
+                                    const TextureRef& texture = scenes.source.materials[m].base_color_texture;
+                                    return texture && texture.filter == Filter::nearest;
+                                }));
             source_.add(part.positions, part.triangles, at.matrix, scenes.source,
                         [&](std::size_t f) { return face_material(part, f); });
             kept_.add(kept.positions, kept.triangles, at.matrix, scenes.kept,
@@ -202,14 +207,43 @@ private:
             const Vector3 normal = scenes_.gets_normal_map[p]
                                        ? scenes_.source_sampler.normal(p, point, spacing, winding)
                                        : own_normal;
-            result[s] = shade(scenes_.source_sampler.sample(p, point, spacing).base, normal, at);
+            result[s] = shade(baked_base(p, seen, point, spacing), normal, at);
         }
         return result;
+    }
+
+    // The base colour of a new page. It blurs what the source shows sharply: borders of materials and single texels.
+    LinearColor baked_base(Index p, const VisiblePoint& seen, const SurfacePoint& point,
+                           double spacing) const {
+        if (!is_sharp_[seen.mesh]) return scenes_.source_sampler.sample(p, point, spacing).base;
+        const TriangleMesh& mesh = scenes_.parts[p].simplified->mesh;
+        const auto [a, b, c] = corners_of(mesh.positions, mesh.triangles[seen.face]);
+        const Vector3 u = b - a, v = c - a;
+        const double area = u.cross(v).norm();
+        // Steps along u and across it, of the deviation of a filter that falls to 0 within a texel.
+        const double step = scenes_.page_texels[p] / std::sqrt(6.0);
+        const double along = step / u.norm(), across = step * u.norm() / area;
+        const double skew = across * u.dot(v) / u.squaredNorm();
+        LinearColor sum{};
+        for (const auto& [x, y] : {std::pair(-1, -1), std::pair(-1, 1), std::pair(1, -1), std::pair(1, 1)}) {
+            const double second = x * along - y * skew, third = y * across;
+            Vec3 moved = {seen.barycentric[0] - second - third, seen.barycentric[1] + second,
+                          seen.barycentric[2] + third};
+            double total = 0;
+            for (double& w : moved) total += w = w > 0 ? w : 0;
+            if (!(total > 0 && std::isfinite(total))) moved = seen.barycentric, total = 1;
+            for (double& w : moved) w /= total;
+            const LinearColor one =
+                scenes_.source_sampler.sample(p, scenes_.parts[p].map->map(seen.face, moved), spacing).base;
+            for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += one[k] / 4;
+        }
+        return sum;
     }
 
     const ComparedScenes& scenes_;
     std::span<const Index> parts_;       // by mesh of the pictures
     std::vector<Placement> placements_;  // by mesh of the pictures
+    std::vector<bool> is_sharp_;         // likewise
     PlacedParts source_, kept_, baked_;
 };
 
