@@ -26,8 +26,8 @@ struct ImageUse {
     double roughness = 1;    // least of the materials
     bool is_normal = false;  // holds normals
     bool needs_alpha = false;
-    bool is_pixel_art = false;  // shown without filter
-    std::array<bool, 2> repeats = {};
+    bool is_pixel_art = false;         // shown without filter
+    std::array<bool, 2> repeats = {};  // by a texture, in x and y
 };
 
 // Calls visit(texture, content); content is null for a texture of an unknown extension.

@@ -155,17 +155,6 @@ void limit_faces(const SimplifiedParts& simplified, std::vector<PartSet>& sets) 
     });
 }
 
-// Whether a part of a set shows single texels, without filter: a new page would blur them.
-bool shows_single_texels(const Asset& asset, const PartSet& set) {
-    return std::any_of(set.begin(), set.end(), [&](Index p) {
-        const std::vector<Index> materials = materials_of(asset.parts[p]);
-        return std::any_of(materials.begin(), materials.end(), [&](Index m) {
-            const TextureRef& texture = asset.materials[m].base_color_texture;
-            return texture && texture.filter == Filter::nearest;
-        });
-    });
-}
-
 }  // namespace
 
 std::vector<PartSet> sets_with_uvs(const Asset& source, std::span<const BakePart> parts,
@@ -209,9 +198,9 @@ ComparedUvs compare_uvs(const Asset& source, const BakeOptions& bake, std::span<
             const Part& part = source.parts[p];
             return needs_uvs[p] != 0 || (has_spare_uvs_only(source, part) && materials_of(part).size() <= 1);
         });
-        const bool is_coarse =
-            shows_single_texels(source, set) ||
-            std::any_of(set.begin(), set.end(), [&](Index p) { return pages.share[p] < coarse_share; });
+        const bool is_coarse = std::ranges::any_of(set, [&](Index p) {
+            return shows_single_texels(source, source.parts[p]) || pages.share[p] < coarse_share;
+        });
         const ComparedPictures pictures = compare_pictures(scenes, set, size, context);
         const bool is_good = must_be_kept || is_as_good(pictures.differences, is_coarse);
         if (is_good) good.insert(good.end(), set.begin(), set.end());

@@ -114,11 +114,7 @@ public:
             const Part &part = scenes.source.parts[p], &kept = scenes.kept.parts[p];
             const TriangleMesh& baked = scenes.parts[p].simplified->mesh;
             const std::vector<Index>& origin = scenes.parts[p].simplified->history.remaining_faces;
-            const std::vector<Index> materials = materials_of(part);
-            is_sharp_.push_back(materials.size() > 1 || std::ranges::any_of(materials, [&](Index m) {
-                                    const TextureRef& texture = scenes.source.materials[m].base_color_texture;
-                                    return texture && texture.filter == Filter::nearest;
-                                }));
+            is_sharp_.push_back(materials_of(part).size() > 1 || shows_single_texels(scenes.source, part));
             source_.add(part.positions, part.triangles, at.matrix, scenes.source,
                         [&](std::size_t f) { return face_material(part, f); });
             kept_.add(kept.positions, kept.triangles, at.matrix, scenes.kept,
@@ -220,7 +216,8 @@ private:
         const auto [a, b, c] = corners_of(mesh.positions, mesh.triangles[seen.face]);
         const Vector3 u = b - a, v = c - a;
         const double area = u.cross(v).norm();
-        // Steps along u and across it, of the deviation of a filter that falls to 0 within a texel.
+        // The mean of four points, a step to both sides along u and across it. The step is the standard deviation of a
+        // linear filter between texels.
         const double step = scenes_.page_texels[p] / std::sqrt(6.0);
         const double along = step / u.norm(), across = step * u.norm() / area;
         const double skew = across * u.dot(v) / u.squaredNorm();
@@ -229,10 +226,11 @@ private:
             const double second = x * along - y * skew, third = y * across;
             Vec3 moved = {seen.barycentric[0] - second - third, seen.barycentric[1] + second,
                           seen.barycentric[2] + third};
-            double total = 0;
-            for (double& w : moved) total += w = w > 0 ? w : 0;
-            if (!(total > 0 && std::isfinite(total))) moved = seen.barycentric, total = 1;
+            // Points outside the face are moved to it.
+            for (double& w : moved) w = std::max(w, 0.0);
+            const double total = moved[0] + moved[1] + moved[2];
             for (double& w : moved) w /= total;
+            if (!(total > 0 && std::isfinite(total))) moved = seen.barycentric;
             const LinearColor one =
                 scenes_.source_sampler.sample(p, scenes_.parts[p].map->map(seen.face, moved), spacing).base;
             for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += one[k] / 4;
@@ -248,6 +246,13 @@ private:
 };
 
 }  // namespace
+
+bool shows_single_texels(const Asset& asset, const Part& part) {
+    return std::ranges::any_of(materials_of(part), [&](Index m) {
+        const TextureRef& texture = asset.materials[m].base_color_texture;
+        return texture && texture.filter == Filter::nearest;
+    });
+}
 
 ComparedPictures compare_pictures(const ComparedScenes& scenes, std::span<const Index> parts,
                                   std::uint32_t size, const RunContext& context) {

@@ -40,9 +40,13 @@ struct ComparedPictures {
     std::uint64_t points = 0;                 ///< pixels that show something
 };
 
+/// Whether a part shows single texels of base colours, without filter. A new page would blur them.
+/// Complexity: O(faces log faces).
+bool shows_single_texels(const Asset& asset, const Part& part);
+
 /// Compares some parts in 6 pictures that show all of them, from directions all around, each at its first instance. New
 /// images are taken to be perfect: the colours are those of the source, at the points that the map gives, and blurred
-/// by a texel of the page.
+/// by a texel of the page, also at borders of materials and of single texels.
 /// \param parts  indices of parts that have faces in the source and in both versions
 /// \param size   number of rows and columns of points that are compared in each picture
 /// \throws engine::Cancelled
